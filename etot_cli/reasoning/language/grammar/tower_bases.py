@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, LIST_COMMA, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     either,
+    one_of,
     optional,
     quiet,
     sequence,
@@ -23,17 +23,40 @@ from etot_cli.reasoning.language.grammar.syntax import (
     TowerClause,
 )
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
 
+_Based = tuple[NounPhrase, tuple[int, tuple[str, ...]]]
+_OF_SO_MANY = optional(
+    sequence(
+        "(of|out of|from) [all] [the]",
+        one_of({count: said for said, count in NUMBERS.items()}),
+        WORDS,
+    ),
+    (0, ()),
+)
+"""Of how many things a tower is to be (0: not said), and how these are called."""
+_OF_A_TOWER = optional(
+    sequence(f"(of|for) ({verbs.A_TOWER}|the (tower|stack|pile))", _OF_SO_MANY), (0, ())
+)
 _BASE = either(
     sequence(
         "us(e|ing), tak(e|ing), mak(e|ing), have, let, choose, keep",
         noun_phrase,
         manner.AS_BASE,
-        optional(f"(of|for) ({verbs.A_TOWER}|the (tower|stack|pile))"),
+        _OF_A_TOWER,
     ),
-    sequence(f"(start|begin) ({verbs.A_TOWER}|the (tower|stack|pile)) (with|on|from)", noun_phrase),
-    sequence("(start|begin) with", noun_phrase, manner.AS_BASE),
+    sequence(
+        noun_phrase,
+        "should, must, shall, will, can",
+        manner.AS_BASE,
+        _OF_A_TOWER,
+    ),
+    sequence(
+        f"(start|begin) ({verbs.A_TOWER}|the (tower|stack|pile)) (with|on|from)",
+        noun_phrase,
+        build=lambda np: (np, (0, ())),
+    ),
+    sequence("(start|begin) with", noun_phrase, manner.AS_BASE, build=lambda np: (np, (0, ()))),
 )
 
 
@@ -53,13 +76,21 @@ _UPON = some(
 _ON_IT = f"[right|directly] (on|onto|upon|on top of|over|above) it, on top, {manner.UPON_THAT}"
 
 
-def _layered(first: NounPhrase, second: NounPhrase, more: Any) -> TowerClause | None:
+def _layered(based: _Based, second: NounPhrase, more: tuple[NounPhrase, ...]) -> TowerClause | None:
+    """What is named one upon the other, as many of that name as were announced."""
+    first, (count, words) = based
     nps = (first, second, *more)
     one_each = all(singular(np.head) == np.head for np in nps)
-    return TowerClause(Things(nps), upward=True) if one_each else None
+    nouns = {*map(singular, words[-1:]), "one"}
+    announced = not count or (count == len(nps) and all(np.head in nouns for np in nps))
+    return TowerClause(Things(nps), upward=True) if one_each and announced else None
 
 
-def _founded(base: NounPhrase, things: Things) -> TowerClause | None:
+def _founded(based: _Based, things: Things) -> TowerClause | None:
+    """Several things upon a base, in whatever order."""
+    base, (count, _) = based
+    if count:
+        return None
     several = len(things.phrases) > 1 or singular(things.phrases[0].head) != things.phrases[0].head
     where = Destination(Toward.ON, (base,))
     return TowerClause(things, base=(where,)) if several and not things.either else None
@@ -78,6 +109,25 @@ ON_A_BASE = quiet(
             build=_layered,
         ),
         sequence(_BASE, either(_NEXT, COMMA), verbs.STACK, THINGS, _ON_IT, build=_founded),
+        sequence(
+            _BASE,
+            OPTIONAL_COMMA,
+            "with",
+            noun_phrase,
+            manner.AT_TOP,
+            build=lambda based, top: _layered(based, top, ()),
+        ),
+        sequence(
+            _BASE,
+            OPTIONAL_COMMA,
+            "with",
+            noun_phrase,
+            manner.AT_MIDDLE,
+            LIST,
+            noun_phrase,
+            manner.AT_TOP,
+            build=lambda based, middle, top: _layered(based, middle, (top,)),
+        ),
     )
 )
 """Something is the base of a tower, and what goes on it is told from there up."""
