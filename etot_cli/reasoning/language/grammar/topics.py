@@ -151,9 +151,30 @@ FREEING = spanned(
 
 
 def _holding(vessel: NounPhrase, content: NounPhrase) -> Things | None:
-    """A vessel by what is in it."""
-    named = vessel.words and not (vessel.modifiers or content.modifiers)
-    return Things((vessel.told_by(Modifier(Prep.CONTAINING, (content,))),)) if named else None
+    """A vessel by what is in it; before it that, of which others may be spoken of next."""
+    if not vessel.words or vessel.modifiers or content.modifiers:
+        return None
+    known = content.determiner not in _INDEFINITE or content.words == ("object",)
+    if vessel.determiner in _INDEFINITE:
+        vessel = replace(vessel, determiner="the")  # the one that this is true of
+    holding = vessel.told_by(Modifier(Prep.CONTAINING, (content,)))
+    return Things((holding,) if known else (_within(content, holding), holding))
+
+
+def _held(content: NounPhrase, vessel: NounPhrase) -> Things | None:
+    """What is in a vessel, which it alone tells where it is but "one holder"."""
+    if not content.words or content.modifiers or vessel.modifiers:
+        return None
+    if vessel.determiner.split()[:1] in (["one"], ["a"], ["an"]):
+        return _holding(vessel, content)
+    return Things((_within(content, vessel),))
+
+
+def _within(content: NounPhrase, vessel: NounPhrase) -> NounPhrase:
+    return content.told_by(Modifier(Prep.IN, (vessel,)))
+
+
+_INDEFINITE = ("a", "an", "one", "some")
 
 
 def _stands_there(np: NounPhrase, said: Modifier) -> ReorientClause | None:
@@ -183,7 +204,7 @@ _ALREADY = either(
         noun_phrase,
         "in, inside",
         noun_phrase,
-        build=lambda content, vessel: _holding(vessel, content),
+        build=_held,
     ),
 )
 AS_IT_IS = plain(sequence(_ALREADY, build=partial(ReorientClause, only_named=True)))
