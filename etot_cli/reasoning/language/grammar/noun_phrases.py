@@ -66,7 +66,11 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
 def _parts(
     whole: str, words: tuple[str, ...], parts: tuple[tuple[str, ...], ...]
 ) -> tuple[NounPhrase, ...] | None:
-    """Each of several things that the words behind them tell apart ("both cups, red and blue")."""
+    """Each of several things that the words behind them tell apart ("both cups, red and blue");
+    "large first, small last" rather tells an order.
+    """
+    if any(part[1:] and part[-1] in ("first", "last") for part in parts):
+        return None
     if len(parts) < 2 or NUMBERS.get(whole.split()[-1], len(parts)) != len(parts):
         return None
     each = ((*words[:-1], *part, singular(words[-1])) for part in parts)

@@ -122,6 +122,8 @@ def _rising(lowest: Any, more: Any) -> tuple[NounPhrase, ...] | None:
     then blue, then green").
     """
     begun = lowest[1]
+    if ({"all", "both", *NUMBERS} - {"one"}) & {*lowest[0].determiner.split()}:
+        return None  # "all blocks, smallest on top"
     *inner, (then, _, last) = [(then, np, end) for then, (np, end) in more]
     end = "bottom" if begun == "top" else "top"
     if begun == "top":
