@@ -49,8 +49,12 @@ def begins_like_a_verb(np: NounPhrase) -> bool:
 
 
 def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] | None:
-    """Several phrases; in "the cup, the left one" no "and" says that there are two."""
+    """Several phrases; in "the cup, the left one" no "and" says that there are two, and the "and"
+    in "the red, green and large blue blocks" is that of the list.
+    """
     if any(begins_like_a_verb(np) for _, np in more):
+        return None
+    if any(np.joined and not (said or np.determiner) for said, np in more):
         return None
     joined = any(said for said, _ in more)
     apposed = any(np.head == "one" for _, np in more)
