@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select
-from etot_cli.reasoning.language.reference.space import carries
+from etot_cli.reasoning.language.reference.space import below, carries
 from etot_cli.reasoning.language.reference.vessels import lies_on
 from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color, head_of
 
@@ -31,6 +31,9 @@ median (docs/results.md), so two equal things of 50 mm differ by 0.6 mm in the m
 
 def tower(context: Context, clause: TowerClause) -> None:
     """Everything upon each other, from the bottom up; the bottom one stays where it is."""
+    if clause.reverses:
+        _reverse(context, clause)
+        return
     context.tell_others(clause.things, clause.base)
     text = clause.things.text
     # "Stack them: the red one, …": nothing was spoken of before
@@ -50,15 +53,46 @@ def tower(context: Context, clause: TowerClause) -> None:
     if len(things) < 2 and not clause.base:
         raise ReferenceProblem(text, "a stack needs at least two things", 2)
     bottom = indices[0]
+    if clause.stays:
+        _stays(context, things, text)
     if places:
         context.steps.append(Put((indices[0],), places))
-        under = places[0].where
-        if len(things) == 1 and len(places) == 1 and under is not None:
-            bottom = under
-    for (below, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
-        place = _upon(context, lower, upper, below, inside=clause.nested)
+        foot = places[0].where
+        if len(things) == 1 and len(places) == 1 and foot is not None:
+            bottom = foot
+    for (under, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
+        place = _upon(context, lower, upper, under, inside=clause.nested)
         context.steps.append(Put((above,), (place,)))
     context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
+
+
+def _reverse(context: Context, clause: TowerClause) -> None:
+    """A stack the other way round, where it is."""
+    (said,) = clause.things.phrases
+    options = context.phrases.meaning(said, Role.ANY).options
+    if len(options) != 1 or len(options[0]) < 2:
+        raise ReferenceProblem(said.text, "say which stack", 2)
+    stack = options[0]
+    things = stack[::-1]
+    nouns = {head_of(context.scene.infos[t.name].label.replace(" ", "_")) for t in things}
+    for end, thing in ((clause.bottom, things[0]), (clause.top, things[-1])):
+        named = end.called(*nouns) if end and end.is_elliptic and len(nouns) == 1 else end
+        if end and named and _end(context, named, things) != thing:
+            raise ReferenceProblem(end.text, f"it is {thing.name} that is there then", 3)
+    indices = [context.single(thing, thing.name) for thing in things]
+    context.steps.append(Put((indices[0],), (context.home(stack[0]),)))
+    for (under, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
+        place = _upon(context, lower, upper, under, inside=False)
+        context.steps.append(Put((above,), (place,)))
+    context.discourse.stacks[context.discourse.clause] = indices[0], indices[-1]
+
+
+def _stays(context: Context, things: Sequence[Thing], text: str) -> None:
+    """The lowest of some things must not be moved."""
+    lowest, *others = things
+    if {thing.name for thing in others} & below(lowest, context.scene):
+        raise ReferenceProblem(text, f"{lowest.name} lies on another one, and can not stay", 3)
+    context.constraints.append(Constraint(Keep.UNMOVED, (lowest.name,)))
 
 
 def _parts(
@@ -190,7 +224,9 @@ def _upward(
 
 
 def _end(context: Context, phrase: NounPhrase, things: Sequence[Thing]) -> Thing:
+    alone = not (phrase.determiner or phrase.is_elliptic or phrase.modifiers)
     told = phrase.words[:-1] if phrase.is_elliptic and not phrase.modifiers else ()
+    told = phrase.words if alone else told
     if told and all(word in SIZES for word in told):
         found = select(told, (), list(things), 1, context.scene, phrase.text)
     else:

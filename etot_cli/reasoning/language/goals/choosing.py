@@ -307,27 +307,32 @@ def is_off_desk(context: Context, things: Things) -> bool:
     return False
 
 
-def choose_from_somewhere(context: Context, theme: int, *, stacked: bool = False) -> None:
+def choose_stacked(context: Context, theme: int) -> list[int]:
+    """Of what may be meant that which stands upon what can be moved; all of it stays spoken of."""
+    discourse, scene = context.discourse, context.scene
+    referent = discourse.referents[theme]
+    above = [tuple(t for t in o if carriers(scene, t.name)) for o in referent.options]
+    # "The blocks" are upon each other; one that lies on a tray is in no stack.
+    names = [{thing.name for thing in option} for option in referent.options]
+    upon = [
+        tuple(t for t in option if carriers(scene, t.name) & own)
+        for option, own in zip(above, names, strict=True)
+    ]
+    options = tuple(one or other for one, other in zip(upon, above, strict=True) if one or other)
+    if not options:
+        raise ReferenceProblem(referent.text, "it stands on nothing that can be moved", 3)
+    if len(options) == 1 and len(referent.options[0]) > 1:
+        return [context.single(thing, thing.name) for thing in options[0]]
+    discourse.referents[theme] = replace(referent, options=options)
+    return [theme]
+
+
+def choose_from_somewhere(context: Context, theme: int) -> None:
     """Of several things that may be meant those are taken out or off that are in or on something,
-    rather in or on what was spoken of; or (``stacked``) that stand upon what can be moved.
+    rather in or on what was spoken of.
     """
     discourse, scene = context.discourse, context.scene
     referent = discourse.referents[theme]
-    if stacked:
-        above = [tuple(t for t in o if carriers(scene, t.name)) for o in referent.options]
-        # "The blocks" are upon each other; one that lies on a tray is in no stack.
-        names = [{thing.name for thing in option} for option in referent.options]
-        upon = [
-            tuple(t for t in option if carriers(scene, t.name) & own)
-            for option, own in zip(above, names, strict=True)
-        ]
-        options = tuple(
-            one or other for one, other in zip(upon, above, strict=True) if one or other
-        )
-        if not options:
-            raise ReferenceProblem(referent.text, "it stands on nothing that can be moved", 3)
-        discourse.referents[theme] = replace(referent, options=options)
-        return
     if theme in discourse.put or len(referent.options) < 2:
         return
     spoken = {

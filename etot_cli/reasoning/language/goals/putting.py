@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_taken,
     choose_by_place,
     choose_from_somewhere,
+    choose_stacked,
     is_off_desk,
     leave_there,
     note_described,
@@ -296,8 +297,11 @@ def remove(context: Context, clause: RemoveClause) -> None:
         # Of two that are to be taken apart the lower one stays.
         upon = [i for i in themes if _stands_upon(context, i, themes)]
         themes = upon or themes
-    for index in themes if clause.source is None else ():
-        choose_from_somewhere(context, index, stacked=clause.stacked)
+    if clause.source is None and clause.stacked:
+        themes = [one for index in themes for one in choose_stacked(context, index)]
+    elif clause.source is None:
+        for index in themes:
+            choose_from_somewhere(context, index)
     discourse.last_places = context.source(themes)
     for place in discourse.last_places:
         context.mention_part(place)

@@ -38,7 +38,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     TowerClause,
     Turns,
 )
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -83,6 +83,7 @@ _FIXED = """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
+    f", {manner.NOT_STACKED}"
 )
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 

@@ -45,15 +45,19 @@ from etot_cli.reasoning.language.grammar.states import (
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
+    Clause,
     Destination,
     EnsureClause,
     NounPhrase,
     PickClause,
     PutClause,
+    RemoveClause,
     Things,
+    TowerClause,
 )
 from etot_cli.reasoning.language.grammar.taking import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.topics import sources
+from etot_cli.reasoning.language.grammar.trees import nodes
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.places import Prep
@@ -132,7 +136,9 @@ JOINED = either(
             build=lambda order, placed: (replace(placed[0], order=order, far_fetched=1),),
         ),
     ),
-    joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))),
+    joint(
+        "so that", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))
+    ),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(IS_EMPTY)),
     joint("and", COMMA, timed(_SO)),
     joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
@@ -198,6 +204,18 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
     return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
 
 
+def _is_told_of(before: Clause, joint: str, after: Clause) -> bool:
+    """Whether a clause says of a stack, which one before it takes apart or turns over, what its own
+    rules have to understand.
+    """
+    match before:
+        case TowerClause(reverses=True):
+            return joint == "so that"
+        case RemoveClause(stacked=True):
+            return any(np.determiner == "its" for np in nodes(after) if isinstance(np, NounPhrase))
+    return False
+
+
 def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
@@ -214,6 +232,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             return None  # "I want the box to have the cup in it" does not ask for the box
         if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
             return None  # "keep it open while you …"; else the hand would do two things
+        if _is_told_of(done[-1].clause, said, clause[0].clause):
+            return None
         if said == "mere and":
             further = clause[0].clause
             if isinstance(further, EnsureClause) and further.far_fetched == OF_SEVERAL:

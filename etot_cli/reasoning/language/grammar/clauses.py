@@ -7,13 +7,14 @@ from dataclasses import replace
 from itertools import takewhile
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP, TOWER
+from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP
 from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doubles import (
     BOTH_WAYS,
     NEITHER,
     ONLY_THESE,
+    SIDE_BY_SIDE,
     bared,
     with_others,
 )
@@ -71,6 +72,8 @@ from etot_cli.reasoning.language.grammar.taking import (
     PICK,
     REMOVE,
 )
+from etot_cli.reasoning.language.grammar.towers import TOWER
+from etot_cli.reasoning.language.grammar.unstacking import REVERSED, SPREAD
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART, WANTED, WISHED
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.categories import is_category
@@ -209,6 +212,7 @@ _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
         *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, TOLD_APART, BOTH_SO),
+        *(SPREAD, REVERSED),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)
@@ -227,6 +231,7 @@ CLAUSE = located(
             sequence(
                 PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=_but_some
             ),
+            SIDE_BY_SIDE,
         ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),

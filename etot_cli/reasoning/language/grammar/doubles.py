@@ -17,19 +17,26 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
 )
+from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.states import ENSURE
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Clause,
+    EnsureClause,
     MoveClause,
     NounPhrase,
     PutClause,
+    PutGroup,
     RemoveClause,
+    State,
     Things,
+    Toward,
     put_to,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
 
 
 def bared(
@@ -90,3 +97,26 @@ BOTH_WAYS = located(
     ),
     lambda at, ways: (Spoken(ways[0], at), Spoken(ways[1], at, Order.THEN)),
 )
+
+
+def _side_by_side(clause: Clause) -> Clause | None:
+    """What lies on one place anyway is on nothing else."""
+    match clause:
+        case PutClause(groups=(PutGroup(things=Things(phrases=nps), destinations=(where,)),)):
+            pass
+        case EnsureClause(states=(State(subjects=nps, destinations=(where,)),)):
+            pass
+        case _:
+            return None
+    several = nps[1:] or nps[0].determiner.split()[:1] in (["every"], ["each"], ["all"], ["both"])
+    several = several or singular(nps[0].head) != nps[0].head
+    below = {singular(np.head) for np in where.targets}
+    upon = where.toward is Toward.ON and len(where.targets) == 1 and not where.denied
+    upon = upon and not below & {singular(np.head) for np in nps}
+    return clause if several and upon else None
+
+
+SIDE_BY_SIDE = sequence(
+    either(PUT, ENSURE), OPTIONAL_COMMA, manner.NOT_STACKED, build=_side_by_side
+)
+"""Several things on one place, none of them on another one."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.arrangements import STACKED
 from etot_cli.reasoning.language.grammar.clauses import (
     INSTEAD,
     LEFT_OUT,
@@ -42,6 +41,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.taking import emptied
 from etot_cli.reasoning.language.grammar.topics import sources
+from etot_cli.reasoning.language.grammar.towers import STACKED
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.nouns import THE_WORDS

@@ -212,10 +212,13 @@ noun_phrase.define(
             ),
             sequence(
                 phrase("the, that, this"),
+                some(phrase("little, small"), most=1),
                 phrase(nouns.STACK),
                 optional(sequence("of", noun_phrase), None),
-                build=lambda det, noun, of: NounPhrase(
-                    det, (noun,), () if of is None else (Modifier(Prep.OF, (of,)),)
+                build=lambda det, size, noun, of: NounPhrase(
+                    det,
+                    (*filter(None, (size,)), noun),
+                    () if of is None else (Modifier(Prep.OF, (of,)),),
                 ),
             ),
             quiet(sequence("[the] same", WORDS, "as", noun_phrase, build=_where_it_is)),

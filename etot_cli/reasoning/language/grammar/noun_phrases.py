@@ -49,8 +49,12 @@ def begins_like_a_verb(np: NounPhrase) -> bool:
 
 
 def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] | None:
-    """Several phrases; in "the cup, the left one" no "and" says that there are two."""
+    """Several phrases; in "the cup, the left one" no "and" says that there are two, and the "and"
+    in "the red, green and large blue blocks" is that of the list.
+    """
     if any(begins_like_a_verb(np) for _, np in more):
+        return None
+    if any(np.joined and not (said or np.determiner) for said, np in more):
         return None
     joined = any(said for said, _ in more)
     apposed = any(np.head == "one" for _, np in more)
@@ -66,7 +70,11 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
 def _parts(
     whole: str, words: tuple[str, ...], parts: tuple[tuple[str, ...], ...]
 ) -> tuple[NounPhrase, ...] | None:
-    """Each of several things that the words behind them tell apart ("both cups, red and blue")."""
+    """Each of several things that the words behind them tell apart ("both cups, red and blue");
+    "large first, small last" rather tells an order.
+    """
+    if any(part[1:] and part[-1] in ("first", "last") for part in parts):
+        return None
     if len(parts) < 2 or NUMBERS.get(whole.split()[-1], len(parts)) != len(parts):
         return None
     each = ((*words[:-1], *part, singular(words[-1])) for part in parts)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
@@ -48,6 +49,7 @@ _DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
+_NO_MORE_SAID = r"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b|$)"
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 
 _SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
@@ -122,6 +124,7 @@ def _in_turn(said: re.Match[str]) -> str:
 
 _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     *_CLITICS,
+    *OBSTACLES,
     (_WISHED, _as_asked),
     (
         r",? (?:ok|okay|alright|all right|yeah|deal|understood|(?:would|will|could|can) you"
@@ -272,6 +275,18 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     ),
     (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
     (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
+    (
+        r"(^|[.;] )(?:since|because|as) ((?:the|my|one) (?:\w+ ){1,3}?(?:is|are) (?:already )?"
+        r"(?:taken|occupied|in use|used)(?: by (?:the|a|my) [^.,;]*)?), ",
+        r"\1\2, so ",
+    ),
+    (r"(?<!that )(?<!which )\b(?=(?:nobody|no one) (?:uses|is using)\b)", "that "),
+    (
+        r"\b(that|which) (?:is (?:not (?:currently |yet |already )?(?:being )?"
+        r"(?:used|in use|taken|occupied)|unused|free|vacant|unoccupied|still free)"
+        rf"|(?:nobody|no one) (?:uses|is using)){_NO_MORE_SAID}",
+        r"\1 is empty",
+    ),
     (r"\bup (?=with\b)", ""),
     (r"(^|[.;,] )only then (?=\w)", r"\1then "),
     (

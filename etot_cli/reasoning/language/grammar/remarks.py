@@ -128,8 +128,8 @@ _NO_PLACE = re.compile(
     r"(?:warm|cold|cool|dry|fresh|clean|safe)$"
 )
 _TELLING = (
-    word_set("full free clear ready") | set(STATES) | set(LEVELS) | set(SIDES) | set(NUMBERS)
-    | set(THING_NOUNS) | _REFERRING
+    word_set("full free clear ready taken occupied") | set(STATES) | set(LEVELS) | set(SIDES)
+    | set(NUMBERS) | set(THING_NOUNS) | _REFERRING
 )  # fmt: skip
 """They tell one thing from another, or say how one is to be."""
 _GONE_WRONG = re.compile(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")

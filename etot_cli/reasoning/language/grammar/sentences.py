@@ -75,6 +75,8 @@ from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
+    AS_IT_STANDS,
+    FREEING,
     MAKING_ROOM,
     NAMED,
     SAID,
@@ -87,6 +89,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     one_of_them,
     shared_out,
 )
+from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
 from etot_cli.reasoning.language.words import small_words, verbs
 
@@ -174,7 +177,7 @@ _WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
-    sequence(plain(EMPTY), COLON, BARE_CHAIN, build=add),
+    sequence(plain(either(EMPTY, UNSTACK)), COLON, BARE_CHAIN, build=add),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
     sequence(
         noun_phrase,
@@ -183,7 +186,8 @@ _WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=any_of_them,
     ),
-    sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma and", CHAIN, build=add),
+    sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma [and]", CHAIN, build=add),
+    sequence(AS_IT_STANDS, "[~comma] [and] so", CHAIN, build=add),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
     plain(
         sequence(
@@ -207,7 +211,7 @@ _WITH_MORE_BEFORE_IT = either(
         sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
         lambda found: told_behind(found[0], found[1].split()[0], found[2]),
     ),
-    sequence(plain(MAKING_ROOM), "by", CHAIN, build=add),
+    sequence(plain(either(MAKING_ROOM, FREEING)), "by", CHAIN, build=add),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),

@@ -283,6 +283,10 @@ class TowerClause:
     top: NounPhrase | None = None
     base: tuple[Destination, ...] = ()
     """What the bottom one goes on, where it is not to stay."""
+    stays: bool = False
+    """The bottom one was said to stay where it is."""
+    reverses: bool = False
+    """They are a stack by now, whose order is to be the other way round."""
     nested: bool = False
     """They are to be inside each other."""
     whole: Things | None = None

@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
@@ -103,7 +104,7 @@ def _taken(things: Things, source: NounPhrase) -> RemoveClause | None:
 _AWAY = "out, off, away, down"
 REMOVE = either(
     sequence(verbs.REMOVE, THINGS, optional(SOURCE, None), build=RemoveClause),
-    sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
+    UNSTACK,
     sequence(verbs.UNSTACK, THINGS, SOURCE, build=RemoveClause),
     # Without a source "unload" and "clear" are rather said of what holds them.
     sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
+    quiet,
     sequence,
     silent,
     spanned,
@@ -73,9 +74,15 @@ def _all_of_any(np: NounPhrase) -> Things | None:
 
 
 def _remark(said: str, things: Things) -> ReorientClause | None:
-    """What is said of things and asked of none; "any cup is fine" leaves a choice open."""
+    """What is said of things and asked of none; "any cup is fine" leaves a choice open, and what is
+    "already used" is a vessel that something is in.
+    """
     open_choice = any(np.determiner in ("any", "either") for np in things.phrases)
-    return None if open_choice else ReorientClause(things, only_named=True, remark=said)
+    return (
+        None
+        if open_choice or said.endswith(" already used")
+        else ReorientClause(things, only_named=True, remark=said)
+    )
 
 
 _STATED = either(
@@ -129,14 +136,90 @@ MAKING_ROOM = spanned(
     lambda said, things: ReorientClause(things, only_named=True, remark=said),
 )
 """What something else is done for."""
-_ALREADY = sequence(
-    noun_phrase,
-    "is already, are already, 's already",
-    DESCRIBED,
-    build=lambda np, said: Things((np.told_by(said),)),
+
+
+def _freed(said: str, things: Things) -> ReorientClause | None:
+    """A drawer or door that is freed by what is done next; a tray is rather cleared."""
+    joints = sum(JOINT_NOUNS.values(), ())
+    moving = all(np.words and matches_any(np.head, joints) for np in things.phrases)
+    return ReorientClause(things, only_named=True, remark=said) if moving else None
+
+
+FREEING = spanned(
+    sequence("free[ing] [up], unblock[ing], clear[ing] the way to", ALL_THINGS), _freed
+)
+
+
+def _holding(vessel: NounPhrase, content: NounPhrase) -> Things | None:
+    """A vessel by what is in it; before it that, of which others may be spoken of next."""
+    if not vessel.words or vessel.modifiers or content.modifiers:
+        return None
+    known = content.determiner not in _INDEFINITE or content.words == ("object",)
+    if vessel.determiner in _INDEFINITE:
+        vessel = replace(vessel, determiner="the")  # the one that this is true of
+    holding = vessel.told_by(Modifier(Prep.CONTAINING, (content,)))
+    return Things((holding,) if known else (_within(content, holding), holding))
+
+
+def _held(content: NounPhrase, vessel: NounPhrase) -> Things | None:
+    """What is in a vessel, which it alone tells where it is but "one holder"."""
+    if not content.words or content.modifiers or vessel.modifiers:
+        return None
+    if vessel.determiner.split()[:1] in (["one"], ["a"], ["an"]):
+        return _holding(vessel, content)
+    return Things((_within(content, vessel),))
+
+
+def _within(content: NounPhrase, vessel: NounPhrase) -> NounPhrase:
+    return content.told_by(Modifier(Prep.IN, (vessel,)))
+
+
+_INDEFINITE = ("a", "an", "one", "some")
+
+
+def _stands_there(np: NounPhrase, said: Modifier) -> ReorientClause | None:
+    """What is in or on something; "the vase is off limits" is no such thing."""
+    there = said.prep in (Prep.IN, Prep.ON) and not said.denied
+    return ReorientClause(Things((np.told_by(said),)), only_named=True) if there else None
+
+
+_ALREADY = either(
+    sequence(
+        noun_phrase,
+        "is already, are already, 's already",
+        DESCRIBED,
+        build=lambda np, said: Things((np.told_by(said),)),
+    ),
+    sequence(noun_phrase, f"{verbs.TAKEN_BY}, {verbs.HOLDS}", noun_phrase, build=_holding),
+    sequence(
+        noun_phrase, "[already] (has|holds) [already]", noun_phrase, "in it, inside", build=_holding
+    ),
+    sequence(
+        noun_phrase,
+        verbs.TAKEN_ALREADY,
+        build=lambda vessel: _holding(vessel, NounPhrase("an", ("object",), text="anything")),
+    ),
+    sequence(
+        "there (is|are) already, (i|we|you) already have",
+        noun_phrase,
+        "in, inside",
+        noun_phrase,
+        build=_held,
+    ),
 )
 AS_IT_IS = plain(sequence(_ALREADY, build=partial(ReorientClause, only_named=True)))
 """How things are by now, before what is asked for in that case."""
+AS_IT_STANDS = plain(
+    quiet(
+        sequence(
+            noun_phrase,
+            verbs.BE,
+            DESCRIBED,
+            build=_stands_there,
+        )
+    )
+)
+"""The same without a word for it, before "so"."""
 SAID = either(
     sequence(either(_STATED, _ALREADY), build=partial(ReorientClause, only_named=True)),
     spanned(_REMARK, _remark),

@@ -15,6 +15,7 @@ import numpy as np
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, parts_of, radius
+from etot_cli.reasoning.language.reference.blocking import blocks
 from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds, outline_of
@@ -222,6 +223,10 @@ def holds_at(
             aside, askew = (left, back) if prep in (Prep.LEFT, Prep.RIGHT) else (back, left)
             aside = aside if prep in (Prep.LEFT, Prep.BEHIND) else -aside
             return aside > OFFSET and abs(askew) <= ASKEW * aside
+        case Prep.BLOCKING:
+            along = to_the_back(thing, scene), to_the_back(first, scene)
+            across = abs(to_the_left(thing, scene) - to_the_left(first, scene))
+            return blocks(thing, first, along, across, scene)
         case Prep.NEXT_TO:
             return first == ROBOT or is_plainly(Prep.NEAR, thing, landmarks, scene)
         case Prep.NEAR:

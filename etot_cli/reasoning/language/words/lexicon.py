@@ -224,7 +224,7 @@ SIZES = {
 """Comparisons: the quantity, and whether more (1) or less (-1) of it is meant."""
 STATES = {
     "open": "open", "opened": "open", "ajar": "ajar", "closed": "closed", "shut": "closed",
-    **dict.fromkeys(("empty", "free", "vacant", "unoccupied"), "empty"),
+    **dict.fromkeys(("empty", "free", "vacant", "unoccupied", "unused"), "empty"),
     "full": "full", "filled": "full", "toppled": "toppled", "fallen": "toppled",
     "stacked": "stacked", "loose": "loose", "outside": "loose",
 }  # fmt: skip

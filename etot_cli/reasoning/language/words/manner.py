@@ -18,15 +18,24 @@ UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 EMPTIED = "empty, emptied [out], cleared [out], clear, free [again]"
 STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
-    loose, outside
+    loose, outside, unused
 """
 UPRIGHT = "upright, up, on end, vertical, vertically"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
-    (in|into) a [vertical|single] (tower|stack|pile), onto each other
+    (in|into) (a|one) [vertical|single] (tower|stack|pile), onto each other
 """
 UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that|it)"
 """Behind what comes next in a tower."""
+ATOP = "on top [of (it|that|everything)], on (that|this) [one], upon (that|this) [one]"
+"""Behind what comes on what was put on the base."""
+AS_BASE = "[as|be|being|is|to be] (the|its|your|my|a) (base|bottom|foundation) [block|piece|layer]"
+NOT_STACKED = """
+    [with] none [of them] [stacked|lying|standing] on [top of] (another [one]|each other|
+    one another|the other[s]|any other [one]),
+    [but|and] not on [top of] (each other|one another)
+"""
+"""Behind where all of some things lie side by side."""
 INSIDE_EACH_OTHER = """
     (in|inside|into|within) (each other|one another), one (in|inside|into) (the other|another)
 """
@@ -41,12 +50,13 @@ TOP_DOWN = """
 """
 WIDEST_BELOW = """
     by size, [the] (biggest|largest|widest) (first|at the bottom),
+    [the] (biggest|largest|widest) first [~comma] [and] [the] (smallest|narrowest) last,
     [in order] from [the] (biggest|largest|widest) to [the] (smallest|narrowest)
 """
 """As a stack is built anyway."""
-AT_BOTTOM = "[at|on] [the] bottom, lowest, at the base, as (its|the|a) (base|bottom)"
+AT_BOTTOM = "[at|on] [the [very]] bottom, lowest, at the base, as (its|the|a) (base|bottom)"
 AT_MIDDLE = "[in [the]] (middle|centre|center), in between"
-AT_TOP = "[at|on] [the] top, uppermost, up top, highest, as (its|the) top"
+AT_TOP = "[at|on] [the [very]] top, uppermost, up top, highest, as (its|the) top"
 LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|release it|drop it)"
 """Behind where something is brought."""
 KEPT_HELD = """

@@ -27,6 +27,7 @@ class Prep(StrEnum):
     NEAREST = "nearest"
     FARTHEST = "farthest"
     CONTAINING = "containing"
+    BLOCKING = "blocking"
     WITH = "with"
     """It is in or on what is meant."""
     BEARING = "bearing"
@@ -113,6 +114,7 @@ STANDS_AT: dict[Prep, str] = {
 }
 """Behind "the tray that the cup is": where what is meant is to the cup."""
 PREPOSITIONS: dict[Prep, str] = {
+    Prep.BLOCKING: "blocking, obstructing",
     Prep.ON: "on, upon, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",
     Prep.FROM: "from, off of, off, out of",

@@ -61,7 +61,7 @@ GET_OUT = f"""
     {TAKE}, get[ting], fetch[ing], dig[ging], fish[ing], pluck[ing], withdraw[ing]
 """
 """Said of what is taken out of something; who grabs a thing there holds it."""
-BRING = f"{GET_OUT}, grab[bing]"
+BRING = f"{GET_OUT}, grab[bing], lift[ing]"
 REMOVE = """
     remov(e|ing), withdraw[ing], clear[ing] away, bring[ing] down, extract[ing],
     tak(e|ing) (out|off|away|down),
@@ -69,6 +69,8 @@ REMOVE = """
     lift[ing] (out|off)
 """
 UNSTACK = "unstack[ing]"
+DISMANTLE = "dismantl(e|ing), disassembl(e|ing), break[ing] up"
+REVERSE = "revers(e|ing), invert[ing]"
 TIDY_AWAY = "tidy[ing] [up|away], clear[ing] (away|up), clean[ing] up, sort[ing]"
 TIDY = f"{TIDY_AWAY}, clear[ing]"
 FILL = "fill[ing] [up], pack[ing], stuff[ing]"
@@ -94,7 +96,7 @@ ENSURE = """
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
-    (arrange|rearrange|reverse|reorder|change|organize|organise|tidy|tidy up|clean up|set|set up|
+    (arrange|rearrange|reorder|change|organize|organise|tidy|tidy up|clean up|set|set up|
     lay|prepare|sort)
 """
 NOTHING_IS = """
@@ -185,6 +187,12 @@ NOT_BE = """
     [left|kept|put|lying|standing|sitting|placed],
     (does|do) not (belong|go)
 """
+TAKEN_BY = "(is|are) [already|currently|now] (taken|occupied|used|filled|in use) by"
+TAKEN_ALREADY = """
+    (is|are) [already|currently|now] (taken|occupied|in use|being used), (is|are) already used
+"""
+HOLDS = "already (holds|contains|has), (holds|contains|has) already"
+"""Between a vessel and what is in it by now."""
 CONTAIN = f"({_MUST}) (contain|hold|have|end up (containing|holding)), keep[s]"
 END_WITH = f"({_MUST}) end [up] with"
 CONTAINED = """
@@ -228,7 +236,13 @@ REORIENT = """
 TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], make"
 STACK = "stack[ing] [up], pil(e|ing) [up]"
 BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
-OUT_OF = "a (tower|stack|pile) (out of|of|from|with|using)"
+A_TOWER = "(a|one) [single] (tower|stack|pile)"
+OUT_OF = f"{A_TOWER} (out of|of|from|with|using)"
+FORM_A_TOWER = f"""
+    ({_MUST}|can|could|may) (form|make [up]|become|be|(end up|be|stand) (in|as)) {A_TOWER}
+"""
+TURN_INTO = "turn[ing], mak(e|ing), arrang(e|ing), assembl(e|ing), combin(e|ing), form[ing]"
+"""Before things and what becomes of them."""
 SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange,
     (swap|exchange|switch|trade|change) [the] (places|positions) of

@@ -1,0 +1,71 @@
+"""Ways of speaking of what stands in the way of a drawer or a door, put into plain ones.
+
+Whoever clears the way to it moves all that is blocking it, out of the way of it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+_WHAT = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
+_AWAY = r"(?:out of the way(?! of\b)|aside|away(?! from\b))"
+_ENDS = r"(?=[,.;!?]| (?:and|then|so)\b|$)"
+_BLOCKS = (
+    r"(?:(?:is |are )?(?:blocking|obstructing)|blocks|obstructs"
+    r"|(?:is |are |stands |sits )(?:standing |sitting |lying )?in the way of)"
+)
+_OPENS = r"(?:open|be opened|be pulled out)"
+_SOMETHING = r"(?:something|a thing|an object)"
+_THERE = r"(?:is |stands )?(?:standing |sitting |lying )?(?:in front of it|in the way|blocking it)"
+
+
+def _freed(said: re.Match[str]) -> str:
+    """What is to be done with what blocks something that is named before it."""
+    begun, one, two, three, doing = said.groups()
+    return f"{begun}{doing} the thing that is blocking {one or two or three} "
+
+
+OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        rf"(^|[.;] )(?:({_WHAT}) (?:can not|will not|does not) {_OPENS}"
+        rf" because {_SOMETHING} {_THERE}"
+        rf"|(?:i|we|you) can not open ({_WHAT}) because {_SOMETHING} {_THERE}"
+        rf"|{_SOMETHING} {_BLOCKS} ({_WHAT}))"
+        rf"[.;,](?: so)?(?: please)? (move|put|take|bring|place) "
+        rf"(?:(?:that|the)(?: thing| object)|that|it) "
+        rf"(?=(?:on|in|onto|into|to|next|beside|near|behind|out)\b)",
+        lambda said: (
+            f"{said[1]}{said[5]} the thing that is blocking {said[2] or said[3] or said[4]} "
+        ),
+    ),
+    (
+        rf"(^|[.;] )({_WHAT}) (?:can not|will not|does not) {_OPENS} because ({_WHAT}) {_THERE}"
+        rf"(?=[.;,])",
+        r"\1\3 is blocking \2",
+    ),
+    (rf"(^|[.;] )({_WHAT}) (?:blocks|obstructs) (?={_WHAT})", r"\1\2 is blocking "),
+    (
+        rf"\b(?:whatever|what|anything|everything)(?: that| which)? {_BLOCKS} (?={_WHAT})",
+        "everything that is blocking ",
+    ),
+    (
+        rf"\bthe (thing|object) (?:that |which )?{_BLOCKS} (?={_WHAT})",
+        r"the \1 that is blocking ",
+    ),
+    (
+        rf"\b(that is blocking) ({_WHAT}) {_AWAY}{_ENDS}",
+        r"\1 \2 out of the way of \2",
+    ),
+    (
+        rf"\b(?:clear|free(?: up)?) the "
+        rf"(?:way to|path to|(?:space|area|spot|room) in front of) ({_WHAT}){_ENDS}",
+        r"move everything that is blocking \1 out of the way of \1",
+    ),
+    (
+        rf", but ({_WHAT}) (?:is|are) in the way(?: of it)?[,;.]? (?:so )?(?:please )?"
+        rf"(move|put|take|bring|place) (?:it|them) ",
+        r", but \2 \1 ",
+    ),
+)
+"""In order, before other ways of speaking."""

@@ -1,0 +1,125 @@
+"""Rules for stacks that there are: they are taken apart, or turned bottom to top."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.naming import WORDS
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    either,
+    one_of,
+    optional,
+    phrase,
+    separated,
+    sequence,
+)
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    Modifier,
+    NounPhrase,
+    PutClause,
+    RemoveClause,
+    Things,
+    TowerClause,
+    put_to,
+)
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import Prep
+
+_STACKS = spellings(nouns.STACK)
+
+
+def _is_stack(np: NounPhrase) -> bool:
+    return np.head in _STACKS
+
+
+def _part_of(stack: NounPhrase, determiner: str, *words: str) -> NounPhrase:
+    """What a stack is made of."""
+    text = f"{determiner} {' '.join(words)} of {stack.text}"
+    return NounPhrase(determiner, words, (Modifier(Prep.OF, (stack,)),), text=text)
+
+
+def _taken_apart(things: Things) -> RemoveClause | None:
+    """A stack, or the things that make one up; nothing else has parts that can be taken off."""
+    (np, *more) = things.phrases
+    if _is_stack(np) and not more:
+        return RemoveClause(Things((_part_of(np, "all", "objects"),)), stacked=True)
+    several = more or singular(np.head) != np.head
+    return RemoveClause(things, stacked=True) if several else None
+
+
+_APART = "tak(e|ing), break[ing], pull[ing]"
+UNSTACK = either(
+    sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
+    sequence(
+        f"{verbs.UNSTACK}, {verbs.DISMANTLE}",
+        noun_phrase,
+        build=lambda np: _taken_apart(Things((np,))) if _is_stack(np) else None,
+    ),
+    sequence(_APART, THINGS, "apart", build=_taken_apart),
+)
+
+
+def _spread(stack: NounPhrase, said: Any, where: tuple[Destination, ...]) -> PutClause | None:
+    """All that a stack is made of goes to one place."""
+    determiner, words = said
+    if not _is_stack(stack) or (words and singular(words[-1]) == words[-1]):
+        return None
+    return put_to(Things((_part_of(stack, determiner, *(words or ("objects",))),)), where)
+
+
+_COUNT = one_of({f"the {said}": said for said in NUMBERS if said != "one"})
+_ITS_PARTS = either(
+    sequence(phrase("its, all its, all of its, the", "all"), WORDS, build=lambda *said: said),
+    sequence("its, the", _COUNT, WORDS, build=lambda *said: said),
+    sequence(optional("all, all of"), "them, its parts, everything", build=lambda: ("all", ())),
+)
+SPREAD = sequence(
+    f"{_APART}, {verbs.UNSTACK}, {verbs.DISMANTLE}",
+    noun_phrase,
+    optional("apart"),
+    either(sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA), LIST),
+    verbs.SET_DOWN,
+    _ITS_PARTS,
+    DESTINATIONS,
+    build=_spread,
+)
+"""A stack is taken apart, and all of it goes to one place."""
+_END = one_of({"bottom": manner.AT_BOTTOM, "top": manner.AT_TOP})
+_PLAIN = sequence(noun_phrase, build=lambda np: np if np.words and not np.modifiers else None)
+_ENDS = either(
+    separated(
+        sequence(_PLAIN, optional(verbs.BE), _END, build=lambda np, end: (np, end)), LIST, most=2
+    ),
+    sequence(
+        _PLAIN,
+        verbs.BE,
+        places.ONTO,
+        _PLAIN,
+        build=lambda upper, lower: ((upper, "top"), (lower, "bottom")),
+    ),
+)
+
+
+def _turned_over(things: Things, ends: Any) -> TowerClause | None:
+    """The same stack from top to bottom."""
+    named = {end: np for np, end in ends}
+    stack = len(things.phrases) == 1 and _is_stack(things.phrases[0])
+    told = stack and len(named) == len(ends)
+    return TowerClause(things, reverses=True, **named) if told else None
+
+
+_SO = either(COMMA, sequence(OPTIONAL_COMMA, f"with, {small_words.SO_THAT}"))
+REVERSED = sequence(
+    f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)",
+    THINGS,
+    optional(sequence(_SO, _ENDS), ()),
+    build=_turned_over,
+)
