@@ -161,7 +161,8 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\b(once|after|when) you (?:have )?got (it|them) out\b", r"\1 you have taken \2 out"),
     (r"\b(bring|get) (?:me|us) (?=(?:the|my) [^.,;]*? (?:onto|into) )", r"\1 "),
     (
-        r"\b(?:leave|keep) (the [^.,;]*?) (closed|shut|open) (?:afterwards|(?:at|in) the end)\b",
+        r"\b(?:leave|keep) (the [^.,;]*?) (closed|shut|open) "
+        r"(?:afterwards|(?:at|in) the end|(?:when|once) you are (?:done|finished))\b",
         r"\1 should be \2 in the end",
     ),
     (
@@ -181,6 +182,17 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (
         r"\bon the (left|right) side,? (?:at|in|towards) the (front|back|rear)\b(?! of the)",
         r"in the \2 \1 part",
+    ),
+    (
+        r"\bwhere ((?:the|my) [^.,;]*?) (?:stood|lay|sat|used to be|has been|had been)\b",
+        r"where \1 was",
+    ),
+    (r"\b(?:everything|all) that is an? (?=\w)", "every "),
+    (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
+    (r",? from now on\b", ""),
+    (
+        r"\bthe (top|uppermost|highest) (\w+) off (?=(?:the|my) (?:tower|stack|pile)\b)",
+        r"the \1 \2 of ",
     ),
     # "From the right to the left" is about the sides of the table.
     (

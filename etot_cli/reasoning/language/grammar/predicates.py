@@ -100,7 +100,7 @@ _WITH_IT = optional(
             sequence(
                 "with",
                 NP_LIST,
-                "[still] (in it|inside [it])",
+                "[still|all|both] (in it|inside [it])",
                 build=lambda held: (("has", held, "inside"),),
             ),
         ),

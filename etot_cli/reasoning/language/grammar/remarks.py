@@ -30,12 +30,13 @@ _RELATIONS = (
 _OWN = "hands?|feet|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|bus|train|taxi|shift"
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
-    rf"(?:i|we|you|he|she|somebody|someone|everybody|everyone|people|grand(?:ma|pa)|granny|mum|mom|dad"
+    rf"(?:i|we|you|he|she|nobody|somebody|someone|everybody|everyone|people|grand(?:ma|pa)|granny|mum|mom|dad"
     rf"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the) )(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
 )
 _PERSON = re.compile(
-    rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often )*(?P<did>.+)$"
+    rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
+    r"never |hardly |rarely )*(?P<did>.+)$"
 )
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = re.compile(
@@ -44,7 +45,7 @@ _HAPPENED = re.compile(
     r"|^(?:am going to need|"
     r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
     rf"|^do not want (?:any(?:one|body|thing) |it |them )?(?=to (?:{_MISHAPS})\b)"
-    r"|^(?:want|need|have|plan|hope|would like|am going|are going|will have) to "
+    r"|^(?:wants?|needs?|have|has|plans?|hopes?|would like|(?:am|are|is) going|will have) to "
     r"|^(?:need|want) something to \w+(?: (?:with|on|from|in))?$"
     r"|^will [^~]* (?:myself|ourselves)$"
     r"|^keeps? (?:losing|forgetting|dropping|misplacing|missing|knocking|bumping|tripping)\b"

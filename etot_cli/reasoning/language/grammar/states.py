@@ -231,6 +231,15 @@ ENSURE = either(
             (State(nps, (Destination(Toward.INSIDE, (where,)),)),)
         ),
     ),
+    sequence(
+        # "The beaker is for the red vial and the marker"
+        noun_phrase,
+        "is for",
+        NP_LIST,
+        build=lambda np, held: EnsureClause(
+            (State(held, (Destination(Toward.INSIDE, (np,)),)),), far_fetched=1
+        ),
+    ),
     sequence(verbs.ARRANGE, noun_phrase, small_words.SO_THAT, states, build=_arranged),
     sequence(
         verbs.KEEP,
