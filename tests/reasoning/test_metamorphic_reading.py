@@ -83,9 +83,9 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
     framed = (
-        r"(?i)(i |i'd|could|would|the |my |there |some(one|body) |(you )?see |time |don't|never|"
+        r"(?i)(i |i'\w+ |could|would|the |my |there |some(one|body) |(you )?see |time |don't|never|"
     )
-    framed += r"1\.|\w+: )"
+    framed += r"1\.|(\w+ )?\w+: )"
     if re.match(framed, text):
         return  # it has a frame of its own
     if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:
