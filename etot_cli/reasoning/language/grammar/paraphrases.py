@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
@@ -27,13 +28,6 @@ _MAY_GO = re.compile(
     r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)(?: please)? go\b"
 )
 """A request in the words of a question."""
-_STATES = (
-    r"(?:going|on|in|inside|over|too|not|now|still|already|less|more|so|much)\b"
-    r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
-    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine|dead)"
-    r"(?: (?:and|so|but|where)\b| -|[,.;:!]|$)"
-)
-"""What "the door's" is followed by where it is no possessive."""
 _SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
 _ALL_DONE = re.compile(
     r"(?<=\w[.,;!? ])((?: |\b)(?:once|when|after|as soon as)) (?:everything|all)"
@@ -55,49 +49,6 @@ _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 _SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
 _TABLE = r"(?:table|desk|bench|counter|workbench|worktop|tabletop)"
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
-
-_CLITICS = (
-    # As people type who leave apostrophes out; "its" and "ill" are words of their own.
-    (r"\b(that|there|what|where|who)s\b", r"\1's"),
-    (rf"\bits (?={_STATES})|\bits (?=a\b|the\b)", "it's "),
-    (r"\b(do|does|did|is|are|was|has|have|should|could|would|must|need)nt\b", r"\1n't"),
-    (r"\b(can|won)t\b", r"\1't"),
-    (r"\b(i)(m|ve)\b", r"\1'\2"),
-    (r"\b(you|they)(re|ve|ll)\b", r"\1'\2"),
-    (r"\bu\b", "you"),
-    (r"\bw/?(?= (?:the|a|my|it|that|this|all|both)\b)", "with"),
-    (
-        r"\b((?:the|my|all|both)(?: (?!and\b|or\b)\w+){1,2}|everything|all|anything)"
-        r" what (?=(?:is|are)\b)",
-        r"\1 that ",
-    ),
-    (r"\bfor me (?=(?:out|off|from|on|in|into|onto|to|and)\b)", ""),
-    (r"\bgimme\b", "give me"),
-    (r"\blemme\b", "let me"),
-    (r"\bwanna\b", "want to"),
-    (r"\bgotta\b", "have to"),
-    (r"(?<=\w) (?:\+|n|'n'?) (?=\w)", " and "),
-    (r"\bwon't\b", "will not"),
-    (r"'s got\b", " has"),
-    (r"(?<=\w)'s(?= (?:been|gone)\b)", " has"),
-    (r"(?<=\w)'s(?= (?:getting|looking)\b)", " is"),
-    (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
-    (r"\blet's\b", "let us"),
-    (r"\b(?:don't|dont)\b", "do not"),
-    (r"\bdoesn't\b", "does not"),
-    (r"\bdidn't\b", "did not"),
-    (r"\b(is|are|was|were|has|have|should|must|would|could|need)n't\b", r"\1 not"),
-    (r"\b(?:can't|cannot)\b", "can not"),
-    (r"'d(?= better\b)", " had"),
-    (r"\b(i|it|that|we|you|they)'d\b", r"\1 would"),
-    (r"\bi'm\b", "i am"),
-    (r"\b(i|you|we)'ll\b", r"\1 will"),
-    (r"\b(i|you|we|they)'ve\b", r"\1 have"),
-    (r"\b(you|we|they)'re\b", r"\1 are"),
-    (rf"(?<=\w)'s(?= (?:{_STATES}))", " is"),
-    (r"(?<=\w)'s\b", " 's"),
-    (r"(?<=s)'(?=\s)", " 's"),
-)
 
 
 _DID = re.compile(
@@ -123,7 +74,7 @@ def _in_turn(said: re.Match[str]) -> str:
 
 
 _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
-    *_CLITICS,
+    *CONTRACTIONS,
     *OBSTACLES,
     (_WISHED, _as_asked),
     (
