@@ -97,11 +97,9 @@ def _wanted_from_start(name: str, goals: Iterable[Goal], start: SceneState) -> l
     """Places of an object that hold at the start and that a goal asks for."""
     found: dict[_Home, None] = {}
     for goal in goals:
-        for step in goal.steps:
-            asked = step.what if isinstance(step, Put) else ()
-            if all(Thing(name) not in things_in(goal.referents[i].options) for i in asked):
+        for step in (step for step in goal.steps if isinstance(step, Put)):
+            if all(Thing(name) not in things_in(goal.referents[i].options) for i in step.what):
                 continue
-            assert isinstance(step, Put)  # others ask for nothing here
             for place in step.places:
                 where = tuple(_whereabouts(near, goal) for near in place.beside)
                 at = place.where

@@ -85,8 +85,7 @@ def _must_be_out(goal: Goal, referent: int, later: Sequence[Step], scene: SceneS
     names = _named(goal, (referent,))
     around = set[str]().union(*(bearers(scene, name) for name in names if name in scene.states))
     for step in later:
-        what = step.what if isinstance(step, Put) else ()
-        if names & _named(goal, (step.what,) if isinstance(step, Pick) else what):
+        if isinstance(step, Put | Pick) and names & _named(goal, _held_in(step)):
             return False
         if not isinstance(step, Open) and around & _named(goal, referents_of(step)):
             return True
@@ -142,6 +141,11 @@ def _moves(step: Step, referent: int) -> bool:
     return isinstance(step, Put) and referent in step.what
 
 
+def _held_in(step: Put | Pick) -> tuple[int, ...]:
+    """Referents that a step takes into the hand."""
+    return step.what if isinstance(step, Put) else (step.what,)
+
+
 def _check_removal(goal: Goal, removed: Sequence[int], scene: SceneState) -> None:
     for index in removed:
         things = things_in(goal.referents[index].options)
@@ -153,7 +157,7 @@ def _check_removal(goal: Goal, removed: Sequence[int], scene: SceneState) -> Non
 
 def _with_poses(step: Put | Pick, earlier: Sequence[Step]) -> Put | Pick:
     """The step with the grasp poses that an earlier pick of the same things asked for."""
-    what = step.what if isinstance(step, Put) else (step.what,)
+    what = _held_in(step)
     for other in reversed(earlier if step.poses == (None,) else ()):
         if isinstance(other, Pick) and other.what in what and other.poses != (None,):
             return replace(step, poses=other.poses)

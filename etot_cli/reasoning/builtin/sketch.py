@@ -187,7 +187,9 @@ class Sketch:
         """Addresses of the containers around an object, from the nearest outwards."""
         found: list[str] = []
         current = name
-        while current != self._held:
+        passed: set[str] = set()
+        while current != self._held and current not in passed:
+            passed.add(current)
             if current in self._moved:
                 relation, place = self._moved[current]
                 if relation is Relation.ON and owner_of(place) in self.scene.states:
@@ -196,7 +198,7 @@ class Sketch:
                 around = place if relation is Relation.INSIDE else None
             else:
                 around = self.scene.states[current].inside
-            if around is None or around in found:
+            if around is None:
                 break
             found.append(container_address(self.scene, around) or around)
             current = owner_of(around)

@@ -9,7 +9,7 @@ from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, NUMBERS, SIZES
 from etot_cli.reasoning.language.words.verbs import PAST
 
 HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
@@ -47,7 +47,7 @@ _NO_MORE_SAID = r"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|th
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 
 _SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
-_TABLE = r"(?:table|desk|bench|counter|workbench|worktop|tabletop)"
+_TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 
