@@ -1435,3 +1435,90 @@ def lettered() -> SceneState:
         item("C", "box", (0.35, -0.20), size=CUBE, color="green"),
         item("tray", "box", (0.55, -0.20), size=(0.2, 0.2, 0.01)),
     )
+
+
+def pen_desk() -> SceneState:
+    """Pens, one of them in a holder, a filing cabinet, an open safe with an envelope."""
+    return scene(
+        drawers("filing_cabinet", (0.63, 0.34), {"top": 0.0, "bottom": 0.0}, color="gray"),
+        item("stapler", "box", (0.63, 0.34), size=(0.12, 0.04, 0.05), color="black",
+             on="filing_cabinet", inside="filing_cabinet.top"),
+        cabinet("safe", (0.63, -0.34), 0.95, color="black"),
+        item("envelope", "box", (0.63, -0.34), size=(0.1, 0.05, 0.015), color="white", on="safe",
+             inside="safe"),
+        item("notebook", "box", (0.46, 0.12), size=(0.15, 0.09, 0.03), color="red"),
+        item("eraser", "box", (0.46, 0.15), size=(0.05, 0.02, 0.015), color="pink", on="notebook"),
+        cup("pen_holder", (0.62, -0.02), size=(0.08, 0.08, 0.1), color="black"),
+        item("red_pen", "pen", (0.62, -0.02), size=(0.14, 0.012, 0.012), color="red",
+             on="pen_holder", inside="pen_holder"),
+        item("green_pen", "pen", (0.30, 0.17), size=(0.14, 0.012, 0.012), color="green"),
+        item("blue_pen", "pen", (0.30, -0.12), size=(0.14, 0.012, 0.012), color="blue"),
+        cup("coffee_cup", (0.28, 0.00), size=(0.075, 0.075, 0.08), color="white"),
+    )  # fmt: skip
+
+
+def playroom() -> SceneState:
+    """A chest with a lid, a bookshelf, blocks by the front edge, a ball in a basket."""
+    return scene(
+        cabinet("toy_chest", (0.63, 0.34), 0.0, color="pink"),
+        item("red_car", "box", (0.63, 0.34), size=(0.09, 0.05, 0.04), color="red",
+             on="toy_chest", inside="toy_chest"),
+        item("bookshelf", "shelf", (0.63, -0.34), boards=("lower", "middle", "upper",),
+             size=(0.25, 0.30, 0.40), color="white"),
+        item("teddy_bear", "box", (0.63, -0.34), size=(0.06, 0.06, 0.08), color="brown",
+             on="bookshelf.middle"),
+        item("basket", "bowl", (0.65, 0.03), size=(0.18, 0.18, 0.09), color="brown"),
+        item("green_ball", "sphere", (0.65, 0.03), size=(0.05, 0.05, 0.05), color="green",
+             on="basket", inside="basket"),
+        item("storybook", "box", (0.44, 0.09), size=(0.17, 0.07, 0.03), color="blue"),
+        item("blue_block", "box", (0.50, 0.09), size=(0.04, 0.04, 0.04), color="blue",
+             on="storybook"),
+        item("red_block_1", "box", (0.30, 0.16), size=(0.04, 0.04, 0.04), color="red",
+             label="red block"),
+        item("yellow_block", "box", (0.26, 0.05), size=(0.045, 0.045, 0.045), color="yellow"),
+        item("red_block_2", "box", (0.30, -0.20), size=(0.04, 0.04, 0.04), color="red",
+             label="red block"),
+    )  # fmt: skip
+
+
+def mug_shelf() -> SceneState:
+    """A bowl in a microwave, cans and jars on a shelf, mugs, fruit."""
+    return scene(
+        cabinet("microwave", (0.63, 0.32), 0.0, color="gray"),
+        item("white_bowl", "bowl", (0.63, 0.32), size=(0.13, 0.13, 0.06), color="white",
+             on="microwave", inside="microwave"),
+        item("shelf", "shelf", (0.66, -0.32), boards=("lower", "upper",), size=(0.25, 0.30,
+             0.40), color="brown"),
+        item("coffee_can", "cylinder", (0.66, -0.37), size=(0.07, 0.07, 0.1), color="black",
+             on="shelf.upper"),
+        item("jam_jar", "cylinder", (0.66, -0.27), size=(0.06, 0.06, 0.08), color="red",
+             on="shelf.lower"),
+        cup("red_mug", (0.32, 0.05), size=(0.08, 0.08, 0.09), color="red"),
+        cup("green_mug", (0.27, -0.27), size=(0.08, 0.08, 0.09), color="green"),
+        item("black_bowl", "bowl", (0.29, 0.23), size=(0.14, 0.14, 0.06), color="black"),
+        item("lemon", "sphere", (0.29, 0.23), size=(0.05, 0.05, 0.05), color="yellow",
+             on="black_bowl", inside="black_bowl"),
+        item("apple", "sphere", (0.52, 0.12), size=(0.06, 0.06, 0.06), color="red"),
+        item("basket", "bowl", (0.44, -0.12), size=(0.19, 0.19, 0.08), color="brown"),
+    )  # fmt: skip
+
+
+def paper_desk() -> SceneState:
+    """Paper balls, pens, sticky notes in a drawer that stands open."""
+    return scene(
+        drawers("filing_cabinet", (0.63, -0.33), {"top": 0.9, "bottom": 0.0}, color="white"),
+        item("sticky_notes", "box", (0.50, -0.33), size=(0.06, 0.06, 0.02), color="pink",
+             on="filing_cabinet", inside="filing_cabinet.top"),
+        cup("pencil_cup", (0.60, 0.04), size=(0.08, 0.08, 0.1), color="black"),
+        item("blue_pen", "pen", (0.60, 0.04), size=(0.14, 0.012, 0.012), color="blue",
+             on="pencil_cup", inside="pencil_cup"),
+        item("notebook", "box", (0.42, 0.10), size=(0.2, 0.14, 0.02), color="green"),
+        item("red_pen", "pen", (0.42, 0.07), size=(0.14, 0.012, 0.012), color="red", on="notebook"),
+        item("pencil", "pen", (0.29, 0.24), size=(0.14, 0.01, 0.01), color="yellow"),
+        item("stapler", "box", (0.45, -0.12), size=(0.13, 0.04, 0.05), color="orange"),
+        item("trash_bin", "bowl", (0.59, 0.34), size=(0.18, 0.18, 0.15), color="gray"),
+        item("paper_ball_1", "sphere", (0.38, 0.32), size=(0.05, 0.05, 0.05), color="white",
+             label="paper ball"),
+        item("paper_ball_2", "sphere", (0.31, -0.22), size=(0.05, 0.05, 0.05), color="white",
+             label="paper ball"),
+    )  # fmt: skip

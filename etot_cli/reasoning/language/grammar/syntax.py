@@ -151,7 +151,7 @@ class State:
 
     ``word``: the adjective in "the drawer is closed". ``kept``: it is so and has to stay so.
     ``denied``: it was said that the opposite must not be ("is not open"), or that they must not be
-    there.
+    there. ``going``: they go or belong there, which says nothing of what is there already.
     """
 
     subjects: tuple[NounPhrase, ...]
@@ -159,6 +159,7 @@ class State:
     word: str = ""
     kept: bool = False
     denied: bool = False
+    going: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,6 +38,8 @@ class Discourse:
     """What words were taken for, where that was a choice."""
     put: frozenset[int] = frozenset()
     """Referents that have been given a place."""
+    lifted: frozenset[int] = frozenset()
+    """Referents that were to be picked up."""
     last_landmark: tuple[int, int, Nearby] = (-1, -1, Nearby.NEAR)
     """Number of a clause, the referent that something is put beside there, and how it is to be."""
     stacks: dict[int, tuple[int, int]] = field(default_factory=dict)

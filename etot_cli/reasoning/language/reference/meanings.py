@@ -108,9 +108,14 @@ class Meanings:
             if spoken and matches_any(noun, THING_NOUNS):
                 raise ReferenceProblem(phrase.text, "name what is meant, and what is left out", 4)
             plural = phrase.pronoun in PLURAL_PRONOUNS
-            phrase = replace(
-                phrase, pronoun="", determiner="all" if plural else "the", words=(noun,)
-            )
+            it = replace(phrase, pronoun="", determiner="all" if plural else "the")
+            moved = discourse.last_noun(Role.THEME)
+            if spoken and moved not in (None, noun):
+                # "Put the cup on the plate. It is in the box": what that is true of.
+                with suppress(ReferenceProblem):
+                    return self._meaning(it.called(noun), role, noun_before)
+                noun = moved or noun
+            phrase = it.called(noun)
         possessor = _POSSESSORS.get(phrase.determiner.split(" ")[0])
         if possessor:
             pronoun = NounPhrase(pronoun=possessor, text=phrase.determiner)
