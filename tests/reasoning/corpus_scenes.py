@@ -1522,3 +1522,45 @@ def paper_desk() -> SceneState:
         item("paper_ball_2", "sphere", (0.31, -0.22), size=(0.05, 0.05, 0.05), color="white",
              label="paper ball"),
     )  # fmt: skip
+
+def spice_kitchen() -> SceneState:
+    """A cabinet with its middle drawer open, tomatoes on a board and on the desk."""
+    return scene(
+        drawers("kitchen_cabinet", (0.63, -0.32), {"top": 0.0, "middle": 0.9, "bottom": 0.0},
+             color="brown", label="cabinet"),
+        item("fork", "pen", (0.50, -0.32), size=(0.14, 0.02, 0.015), color="gray",
+             on="kitchen_cabinet", inside="kitchen_cabinet.middle"),
+        item("knife", "pen", (0.63, -0.32), size=(0.15, 0.02, 0.015), color="gray",
+             on="kitchen_cabinet", inside="kitchen_cabinet.top"),
+        item("salt_shaker", "cylinder", (0.63, -0.32), size=(0.04, 0.04, 0.07), color="white",
+             on="kitchen_cabinet"),
+        item("pepper_shaker", "cylinder", (0.30, -0.10), size=(0.04, 0.04, 0.07), color="black"),
+        item("frying_pan", "bowl", (0.58, 0.02), size=(0.22, 0.22, 0.05), color="black"),
+        item("sponge", "box", (0.58, 0.02), size=(0.09, 0.06, 0.03), color="yellow",
+             on="frying_pan", inside="frying_pan"),
+        item("cutting_board", "box", (0.40, 0.28), size=(0.18, 0.26, 0.02), color="brown"),
+        item("tomato_1", "sphere", (0.40, 0.32), size=(0.06, 0.06, 0.06), color="red",
+             label="tomato", on="cutting_board"),
+        item("tomato_2", "sphere", (0.30, 0.06), size=(0.06, 0.06, 0.06), color="red",
+             label="tomato"),
+        cup("green_cup", (0.62, 0.36), size=(0.08, 0.08, 0.1), color="green"),
+    )  # fmt: skip
+
+def two_plates() -> SceneState:
+    """Plates of two colours, fruit in a basket and on a plate, mugs."""
+    return scene(
+        item("white_plate", "box", (0.40, 0.24), size=(0.22, 0.22, 0.015), color="white"),
+        item("blue_plate", "box", (0.42, -0.28), size=(0.18, 0.18, 0.015), color="blue"),
+        item("cereal_bowl", "bowl", (0.40, -0.02), size=(0.14, 0.14, 0.06), color="blue"),
+        cup("red_mug_1", (0.60, 0.38), size=(0.1, 0.1, 0.11), color="red", label="red mug"),
+        cup("red_mug_2", (0.27, -0.36), size=(0.07, 0.07, 0.07), color="red", label="red mug"),
+        item("fruit_basket", "bowl", (0.60, 0.02), size=(0.2, 0.2, 0.08), color="brown"),
+        item("green_apple", "sphere", (0.60, 0.02), size=(0.07, 0.07, 0.07), color="green",
+             on="fruit_basket", inside="fruit_basket"),
+        item("red_apple", "sphere", (0.27, 0.08), size=(0.07, 0.07, 0.07), color="red"),
+        item("banana", "capsule", (0.40, 0.29), size=(0.17, 0.04, 0.04), color="yellow",
+             on="white_plate"),
+        item("spoon", "pen", (0.40, -0.02), size=(0.13, 0.02, 0.015), color="gray",
+             on="cereal_bowl", inside="cereal_bowl"),
+        item("milk_carton", "box", (0.60, -0.26), size=(0.06, 0.06, 0.16), color="white"),
+    )  # fmt: skip

@@ -193,7 +193,13 @@ def check_alone(
             if chosen and of_several:
                 context.discourse.notes.append(f"{phrase.text!r}: {others} stays there")
                 continue
-            if in_the_end and of_several and not all(_goes(context, name) for name in there):
+            stays = all(
+                touches(Thing(name), at, context.scene)
+                for name in own
+                for at in context.discourse.things(*where)
+            )
+            gone = all(_goes(context, name) for name in there)
+            if in_the_end and of_several and not (stays or gone):
                 # "Only the red pen goes into the box": none of the pens, or nothing else?
                 raise ReferenceProblem(phrase.text, f"say whether {others} is to stay there", 4)
             if in_the_end and all(thing.name != DESK for thing in context.discourse.things(*where)):

@@ -348,6 +348,7 @@ ENSURE = either(
             (1, (verbs.WANTED, NP_LIST)),
             (0, (verbs.CAN, NP_LIST, verbs.BE_PUT)),
             (0, (verbs.THERE_BE, NP_LIST)),
+            (0, (verbs.ENSURE, verbs.THERE_IS, NP_LIST)),
             (0, (sequence(verbs.THERE_NOT_BE, noun_phrase, build=_there_is_none),)),
         )
     ),

@@ -42,10 +42,12 @@ def in_area(
     many = len(things) if count is None and not nearest else count or 1
     if nearest:
         fitting = things
-    if not fitting and len(things) > 1 and Nearby.AT_CORNER not in area:
+    if not fitting and len(things) > 1:
         # "The back left one" of two in the middle is the left one if it is as far back.
         ahead = (t for t in things if all(_leads(area, t, o, scene) for o in things if o != t))
         fitting = list(ahead) if many == 1 else []
+        if Nearby.AT_CORNER in area:
+            fitting = [t for t in fitting if _leads(area, t, Thing(DESK), scene)]
     if not fitting:
         names = ", ".join(thing.address for thing in things)
         raise ReferenceProblem(phrase, f"none of {names} stands there", 1)

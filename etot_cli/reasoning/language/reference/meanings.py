@@ -71,6 +71,10 @@ class Meanings:
 
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""
+        bare = phrase.determiner == "the" and phrase.words in (("one",), ("ones",))
+        if bare and not (phrase.modifiers or phrase.owner or phrase.without):
+            # "The one on the board" is the one that is there.
+            raise ReferenceProblem(phrase.text, "say which one", 2)
         noun, moved = self.discourse.last_noun(role), self.discourse.last_noun(Role.THEME)
         plain = usual_form(phrase)
         bare = plain.head in ("", "one", "ones") and not plain.pronoun

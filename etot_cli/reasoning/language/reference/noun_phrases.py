@@ -265,8 +265,10 @@ class Resolver:
         phrase = next(iter(modifier.phrases), NounPhrase())
         if modifier.prep not in (Prep.OF, Prep.FROM, Prep.IN) or not self.names_stack(phrase):
             return []
-        (inner, *_) = (*(np for m in phrase.modifiers for np in m.phrases), NounPhrase())
-        every = replace(inner, determiner="all", words=inner.words or ("objects",))
+        of = [m for m in phrase.modifiers if m.prep is Prep.OF]
+        (inner, *_) = (*(np for m in of for np in m.phrases), NounPhrase())
+        there = tuple(m for m in phrase.modifiers if m not in of)  # "the tower on the mat"
+        every = replace(inner, determiner="all", words=inner.words or ("objects",)).told_by(*there)
         things = things_in(self.resolve(replace(every, text=phrase.text), Role.ANY).options)
         return stack_of(things, self._scene, phrase.text)
 
