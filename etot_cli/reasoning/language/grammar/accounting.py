@@ -219,8 +219,7 @@ def _said(node: object) -> Iterator[str]:
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
             yield from ("either", "any", "both") if either else ()
-            yield from ("both", _ORDER) if len(phrases) > 1 else ()
-            yield from ("all",) if len(phrases) > 2 else ()  # "the cup, the jar and the tin all"
+            yield from ("both", "all", _ORDER) if len(phrases) > 1 else ()
         case _:
             return
 

@@ -85,7 +85,11 @@ def _joined(
 
 
 def _nounless(determiner: str, modifiers: Any) -> NounPhrase | None:
-    """A determiner alone; in "the other one" the last word is the noun."""
+    """A determiner alone; in "the other one" the last word is the noun, and "all" are all of those
+    that were spoken of, whatever the last of them is called.
+    """
+    if determiner in ("all", "each") and not modifiers:
+        return NounPhrase(determiner, pronoun="them")
     alone = determiner.split()
     return None if len(alone) > 1 and alone[-1] == "one" else NounPhrase(determiner, (), modifiers)
 
