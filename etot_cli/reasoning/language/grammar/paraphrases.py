@@ -43,7 +43,9 @@ _DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
-_NO_MORE_SAID = r"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b|$)"
+_NO_MORE_SAID = (
+    rf"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b| {_WHERE}|$)"
+)
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 
 _SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
@@ -109,7 +111,10 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     ),
     (r"\b(like|love|prefer) for (?=(?:the|my|both|all) )", r"\1 "),
     (r"\b(standing|lying|sitting) over (?=(?:on|in|next|by) )", r"\1 "),
-    (r"\b(once|after|when) you (?:have )?got (it|them) out\b", r"\1 you have taken \2 out"),
+    (
+        r"\b(once|after|when) you (?:have|(?:have )?got) (it|them) out\b",
+        r"\1 you have taken \2 out",
+    ),
     (r"\b(bring|get) (?:me|us) (?=(?:the|my) [^.,;]*? (?:onto|into) )", r"\1 "),
     (
         r"\b(?:leave|keep) (the [^.,;]*?) (closed|shut|open) "
@@ -243,7 +248,11 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"(?:taken|occupied|in use|used)(?: by (?:the|a|my) [^.,;]*)?), ",
         r"\1\2, so ",
     ),
-    (r"(?<!that )(?<!which )\b(?=(?:nobody|no one) (?:uses|is using)\b)", "that "),
+    (
+        r"(?<=\w )(?<!that )(?<!which )(?<!and )(?<!so )(?<!but )(?<!as )(?<!since )(?<!because )"
+        r"(?=(?:nobody|no one) (?:uses|is using)\b)",
+        "that ",
+    ),
     (
         r"\b(that|which) (?:is (?:not (?:currently |yet |already )?(?:being )?"
         r"(?:used|in use|taken|occupied)|unused|free|vacant|unoccupied|still free)"
