@@ -278,11 +278,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"write with|(?:that|which) writes|(?:that is )?for writing)\b",
         "all the writing utensils",
     ),
-    (
-        r"(^|[.;,] )((?:i |we )?need (?:the|my|our|a) [^,.;]*?), (?:it is|they are) "
-        r"((?:in|on|next to|beside|behind) [^,.;]*)(?=[,.;])",
-        r"\1\2 that is \3",
-    ),
     # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
     (
         r"\b(off|out of) ((?:the|my|our) (?:\w+ ){0,2}?\w+?)((?: first)?(?:,? and|,)(?: then)?) "

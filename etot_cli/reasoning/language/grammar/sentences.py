@@ -211,6 +211,7 @@ _WITH_MORE_BEFORE_IT = either(
         sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
         lambda found: told_behind(found[0], found[1].split()[0], found[2]),
     ),
+    sequence(CHAIN, COMMA, AS_IT_IS, build=add),
     sequence(plain(either(MAKING_ROOM, FREEING)), "by", CHAIN, build=add),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),

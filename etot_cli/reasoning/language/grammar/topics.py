@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     MODIFIERS,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.naming import WORDS
+from etot_cli.reasoning.language.grammar.naming import ALREADY_THERE, WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -91,6 +91,7 @@ _STATED = either(
         noun_phrase,
         small_words.FOUND,
         DESCRIBED,
+        silent(optional(small_words.SO_LONG)),
         build=lambda np, said: Things((np.told_by(said),)),
     ),
     sequence(
@@ -187,7 +188,7 @@ _ALREADY = either(
     sequence(
         noun_phrase,
         "is already, are already, 's already",
-        DESCRIBED,
+        either(DESCRIBED, ALREADY_THERE),
         build=lambda np, said: Things((np.told_by(said),)),
     ),
     sequence(noun_phrase, f"{verbs.TAKEN_BY}, {verbs.HOLDS}", noun_phrase, build=_holding),
