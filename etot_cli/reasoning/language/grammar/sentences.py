@@ -7,6 +7,13 @@ from operator import add
 
 from etot_cli.reasoning.language.grammar.afterthoughts import out_of_the_way, told_behind
 from etot_cli.reasoning.language.grammar.ahead import not_so
+from etot_cli.reasoning.language.grammar.announced import (
+    ONE_FOR_EACH,
+    all_put,
+    each_sorted,
+    one_for_each,
+    shared_out,
+)
 from etot_cli.reasoning.language.grammar.chains import (
     BARE_CHAIN,
     CHAIN,
@@ -81,13 +88,10 @@ from etot_cli.reasoning.language.grammar.topics import (
     NAMED,
     SAID,
     about,
-    all_put,
     any_of_them,
     done_there,
-    each_sorted,
     for_a_reason,
     one_of_them,
-    shared_out,
 )
 from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
@@ -177,6 +181,7 @@ _WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
+    sequence(ONE_FOR_EACH, COLON, BARE_CHAIN, build=one_for_each),
     sequence(plain(either(EMPTY, UNSTACK)), COLON, BARE_CHAIN, build=add),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
     sequence(

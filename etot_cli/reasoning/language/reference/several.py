@@ -98,7 +98,8 @@ class Phrases(Referents):
                 self.discourse.referents[index] = replace(referent, options=own)
         named = {*self.discourse.things(*indices)}
         count = quantity_of(things.whole.determiner).count
-        if named < {*every} and count == len(named):
+        some = not things.whole.determiner and things.whole.head != "everything"
+        if named < {*every} and (some or count == len(named)):
             return  # "two pieces of fruit: the apple and the pear"
         if named != {*every}:
             rest = ", ".join(thing.name for thing in every if thing not in named)
