@@ -242,6 +242,11 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\1 then ",
     ),
     (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
+    (
+        r"\b((?:that|which) (?:is|are) (?:still |already |just )?)(?:lying |standing |sitting )?"
+        rf"out (?:here|there)\b(?! on (?:the|my) {_TABLE}\b)",
+        r"\1outside",
+    ),
     (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
     (
         r"(^|[.;] )(?:since|because|as) ((?:the|my|one) (?:\w+ ){1,3}?(?:is|are) (?:already )?"

@@ -334,9 +334,17 @@ SENTENCE = either(
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
 _BUT_NO_MORE = sequence(some(plain(WITHOUT), most=1), _END)
+
+
+def _in_the_end(reading: Reading) -> Reading | None:
+    """How things are to be when all is done, as they are anyway."""
+    return reading if all(isinstance(said.clause, EnsureClause) for said in reading) else None
+
+
 _GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
 WHOLE = either(
     sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
+    sequence(SENTENCE, COMMA, small_words.TRAILING_LAST, _END, build=_in_the_end),
     sequence(
         _GREETING,
         either(

@@ -347,6 +347,11 @@ class Places:
         discourse = self.discourse
         if word == "down":
             return (self.on_the_desk(),)
+        clause, toward, mark = discourse.told_at
+        if word == "there" and clause == discourse.clause - 1:
+            if toward is None:
+                raise ReferenceProblem(word, UNCLEAR, 2)
+            return tuple(in_or_on(discourse, toward, mark, themes))
         if word == "there" and discourse.roomy is not None:
             return tuple(in_or_on(discourse, Toward.TO, discourse.roomy, themes))
         if word in ("there", "the same place") and discourse.last_places:
