@@ -12,7 +12,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
     EnsureClause,
     NounPhrase,
     PutClause,
+    PutGroup,
     ReorientClause,
+    State,
     Things,
 )
 from etot_cli.reasoning.language.grammar.topics import are_several
@@ -47,6 +49,21 @@ def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
         for np, adjectives, last in zip(named, bare, alone, strict=True)
     )
     return (*topic, *rest) if told else None
+
+
+def in_detail(first: Reading, rest: Reading) -> Reading | None:
+    """Where several things go, and behind a colon where each of them goes there."""
+    (said, *others), (each, *more) = first, rest
+    match said.clause:
+        case PutClause(groups=(whole,)):
+            pass
+        case EnsureClause(states=(State(denied=False, kept=False, word="") as so,)):
+            whole = PutGroup(Things(so.subjects), so.destinations)
+        case _:
+            return None
+    if others or more or not isinstance(each.clause, PutClause) or not each.clause.groups[1:]:
+        return None
+    return (replace(said, clause=PutClause((whole, *each.clause.groups))),)
 
 
 def shared_out(topic: Reading, rest: Reading) -> Reading | None:

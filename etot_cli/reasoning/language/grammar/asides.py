@@ -57,7 +57,7 @@ _WITHIN = re.compile(
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
     r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
     rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
-    rf"| (?!me\b|us\b|you\b){PEOPLE}(?:$| {COMMA})))\b"
+    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA})))\b"
 )
 """Words that a clause begins with wherever they stand."""
 _AHEAD = re.compile(

@@ -241,6 +241,11 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         rf"(?=(?:please )?(?:{_DOING})\b)",
         r"\1 then ",
     ),
+    (
+        r"\b((?:next to|beside|behind|in front of|on top of) (?:it|them)) there"
+        r"(?=[.,;!?]| and\b| then\b|$)",
+        r"\1",
+    ),
     (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
     (
         r"\b((?:that|which) (?:is|are) (?:still |already |just )?)(?:lying |standing |sitting )?"

@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.grammar.announced import (
     ONE_FOR_EACH,
     all_put,
     each_sorted,
+    in_detail,
     one_for_each,
     shared_out,
 )
@@ -181,6 +182,7 @@ _WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
+    sequence(plain(either(PUT, ENSURE)), COLON, PLACED, build=in_detail),
     sequence(ONE_FOR_EACH, COLON, BARE_CHAIN, build=one_for_each),
     sequence(plain(either(EMPTY, UNSTACK)), COLON, BARE_CHAIN, build=add),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
