@@ -95,6 +95,8 @@ class Places:
         for destination in destinations:
             if destination.toward in (Toward.WITH, Toward.HOME):  # only where one thing is put
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
+            if destination.toward is Toward.BESIDE:
+                destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:
                 there = self._where_they_are(destination.word, themes) if stays else ()
                 found = list(there or self._here(destination.word, themes))
