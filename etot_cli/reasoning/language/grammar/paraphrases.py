@@ -48,6 +48,11 @@ _NO_MORE_SAID = (
 )
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 
+_ARROW = r"(?:[-=]+>|\N{RIGHTWARDS ARROW})"
+_STEP = (
+    r"(?:put|place|take|move|pick up|grab|close|shut|open (?=the|my))\b"
+    r"|(?!fully|completely|wide|all)\w+ (?:\w+ )?(?:open|closed|shut) ?(?:[-=]+>|[.,;\n]|$)"
+)
 _SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
 _TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
@@ -360,7 +365,10 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"\b([a-z])[{HYPHENS}](?=[a-z]{{3}})", r"\1"),  # "t-shirt", "x-ray"
     (rf"(?<=\w)[{HYPHENS}](?=\w)|/(?=\w)", " "),
     (r"&", " and "),
-    (r"[-=]+>|\N{RIGHTWARDS ARROW}", " to "),
+    # Steps ("open the drawer -> pen to drawer -> drawer closed"), else places ("pen -> drawer")
+    (rf"\b(open|closed|shut) ?{_ARROW}", r"\1, then "),
+    (rf" ?{_ARROW} ?(?={_STEP})", ", then "),
+    (_ARROW, " to "),
     (r"\s*=\s*(?=\w)", ": "),
 )
 

@@ -119,8 +119,17 @@ _STATED = either(
     ),
 )
 """How things are, said of them before something is asked of them."""
+
+
+def _meant_for(things: Things, words: tuple[str, ...]) -> Things | None:
+    """A vessel and things that it is for, of which some may be spoken of next."""
+    several = singular(words[-1]) != words[-1]
+    return Things((*things.phrases, NounPhrase("the", words))) if several else None
+
+
 _REMARK = either(
     sequence(ALL_THINGS, "(is|are|stands|lies) [right] in the way of", silent(noun_phrase)),
+    sequence(ALL_THINGS, "is for, are for", WORDS, build=_meant_for),
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
