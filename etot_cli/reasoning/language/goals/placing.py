@@ -28,8 +28,18 @@ from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.known import REASONS
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
+_NO_PLACES = (
+    Prep.OF,
+    Prep.FROM,
+    Prep.CONTAINING,
+    Prep.WITH,
+    Prep.CONTRAST,
+    Prep.EXCEPT,
+    Prep.COLORED,
+)
 _ITS_PLACE = "back to its place"
 _WAS_THERE = "where it was"
 
@@ -257,6 +267,22 @@ def where_is(
     return places
 
 
+def _tell_where(context: Context, things: Things, named: Sequence[int]) -> None:
+    """Notes where something that is only named is, for what goes "there" next."""
+    (np, *more), discourse = things.phrases, context.discourse
+    where = [item.prep for item in np.modifiers if item.phrases and item.prep not in _NO_PLACES]
+    said = (m.referent for m in discourse.mentions if m.clause == discourse.clause)
+    marks = [*dict.fromkeys(index for index in said if index not in named)]
+    if where and not more:
+        toward = {Prep.IN: Toward.INSIDE, Prep.ON: Toward.ON}.get(where[0])
+        known = len(where) == len(marks) == 1
+        discourse.told_at = (
+            discourse.clause,
+            toward if known else None,
+            marks[-1] if marks else -1,
+        )
+
+
 def reorient(context: Context, clause: ReorientClause) -> None:
     """Stands up what has toppled, where it lies; any other turning is part of what follows."""
     if clause.only_named:
@@ -264,6 +290,7 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         if not (clause.remark and all(np.pronoun for np in clause.things.phrases)):
             named = (*context.phrases.things(clause.things, Role.ANY),)
             context.discourse.is_about(named)
+            _tell_where(context, clause.things, named)
         if clause.remark:
             context.discourse.remarked |= {*named}
             said = clause.remark.split()

@@ -293,6 +293,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
         themes = context.phrases.things(things, Role.THEME, around)
     except NothingThere:
         return  # "put the pen in the cup to free the tray"
+    if clause.by_then and _is_out_already(context, themes):
+        return
     if is_off_desk(context, things):
         discourse.swept |= {*themes}
     if clause.stacked and len(themes) > 1:
@@ -308,6 +310,15 @@ def remove(context: Context, clause: RemoveClause) -> None:
     for place in discourse.last_places:
         context.mention_part(place)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+
+
+def _is_out_already(context: Context, themes: Sequence[int]) -> bool:
+    """Whether things have been moved from what they were in or on, which "once it is out" is about,
+    wherever they are now.
+    """
+    things, states = context.discourse.things(*themes), context.scene.states
+    moved = {*things} <= {*context.discourse.placed}
+    return moved and all(DESK not in states[thing.name].on for thing in things)
 
 
 def _stands_upon(context: Context, index: int, others: Sequence[int]) -> bool:

@@ -49,7 +49,12 @@ from etot_cli.reasoning.language.words.lexicon import (
     word_set,
 )
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.reasoning.language.words.small_words import FRAMES, SOMEBODY_LEFT, WITHOUT_MEANING
+from etot_cli.reasoning.language.words.small_words import (
+    FRAMES,
+    SO_LONG,
+    SOMEBODY_LEFT,
+    WITHOUT_MEANING,
+)
 from etot_cli.world.spatial import Nearby
 
 _DENIAL, _ORDER = "a denial", "an order"
@@ -84,7 +89,7 @@ _FIXED = """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
-    f", {manner.NOT_STACKED}"
+    f", {manner.NOT_STACKED}, {SO_LONG}"
 )
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
@@ -220,8 +225,7 @@ def _said(node: object) -> Iterator[str]:
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
             yield from ("either", "any", "both") if either else ()
-            yield from ("both", _ORDER) if len(phrases) > 1 else ()
-            yield from ("all",) if len(phrases) > 2 else ()  # "the cup, the jar and the tin all"
+            yield from ("both", "all", _ORDER) if len(phrases) > 1 else ()
         case _:
             return
 

@@ -6,6 +6,7 @@ tells out of whose way.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.chains import then_done
@@ -15,6 +16,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Clause,
     Destination,
+    EnsureClause,
     Modifier,
     MoveClause,
     NounPhrase,
@@ -57,20 +59,31 @@ def told_behind(rest: Reading, number: str, said: Modifier) -> list[Reading]:
     found: list[Clause] = []
     match clause:
         case PutClause(groups=(group,)):
-            marks = _marks(group)
-            named = _of(said, marks[0]) if len(marks) == 1 else said
-            vessel = said.prep is Prep.QUALITY and any(word in STATES for word in said.words)
-            if not vessel and (things := _told(group.things, named, number)):
-                found.append(replace(clause, groups=(replace(group, things=things),)))
-            for mark in marks if len(group.things.phrases) == 1 else ():
-                told = mark.told_by(_of(said, group.things.phrases[0]))
-                where = tuple(_with(item, mark, told) for item in group.destinations)
-                if mark.words:
-                    found.append(replace(clause, groups=(replace(group, destinations=where),)))
+            groups = _groups_told(group, number, said)
+            found += (replace(clause, groups=(told,)) for told in groups)
+        case EnsureClause(states=(state,)) if state.destinations and not state.denied:
+            group = PutGroup(Things(state.subjects), state.destinations)
+            for told in _groups_told(group, number, said):
+                so = replace(state, subjects=told.things.phrases, destinations=told.destinations)
+                found.append(replace(clause, states=(so,)))
         case PickClause(things=things) | RemoveClause(things=things) | MoveClause(things=things):
             if told_things := _told(things, said, number):
                 found.append(replace(clause, things=told_things))
     return [(*rest[:-1], replace(rest[-1], clause=item)) for item in found]
+
+
+def _groups_told(group: PutGroup, number: str, said: Modifier) -> Iterator[PutGroup]:
+    """Things and where they go, with what is said of either."""
+    marks = _marks(group)
+    named = _of(said, marks[0]) if len(marks) == 1 else said
+    vessel = said.prep is Prep.QUALITY and any(word in STATES for word in said.words)
+    if not vessel and (things := _told(group.things, named, number)):
+        yield replace(group, things=things)
+    for mark in marks if len(group.things.phrases) == 1 else ():
+        told = mark.told_by(_of(said, group.things.phrases[0]))
+        if mark.words:
+            where = tuple(_with(item, mark, told) for item in group.destinations)
+            yield replace(group, destinations=where)
 
 
 def _with(where: Destination, mark: NounPhrase, told: NounPhrase) -> Destination:

@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.remarks import (
     is_purpose,
     is_reason,
     is_remark,
+    is_turning,
     is_warning,
     told_of_thing,
 )
@@ -56,7 +57,7 @@ _WITHIN = re.compile(
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
     r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
     rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
-    rf"| (?!me\b|us\b|you\b){PEOPLE}(?:$| {COMMA})))\b"
+    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA})))\b"
 )
 """Words that a clause begins with wherever they stand."""
 _AHEAD = re.compile(
@@ -78,6 +79,7 @@ _BEFORE = {
     "where": word_set("is"),
 }
 """Words behind which others begin no clause ("my hands are so dry", "that is where I like it")."""
+_IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 _LIKED = [["favourite"], ["favorite"], ["best"]]
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
@@ -147,7 +149,8 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     if not cut or not rest or len(asides) > MOST or _mistakable(parted, is_name):
         return None
     told = [item.said for item in asides if item.kind in ("", "plain")]
-    topics = [told_of_thing(said, is_name) for said in told if not is_of_people(said)]
+    told = [said for said in told if not (is_of_people(said) or is_turning(said))]
+    topics = [told_of_thing(said, is_name) for said in told]
     if not _are_spoken_of(topics, rest):
         return None
     kept = (
@@ -197,7 +200,8 @@ def _is_no_phrase(aside: _Clause, is_name: IsName) -> bool:
     strange = any(word not in ALL_WORDS and not is_name(word) for word in words)
     first, verb = (*aside.said.split(), "", "")[:2]
     outside = first not in ALL_WORDS and not is_name(first) and verb in ("is", "are", "has", "have")
-    return aside.is_polite or aside.kind == "benefit" or strange or outside
+    told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
+    return told or strange or outside
 
 
 def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:

@@ -34,6 +34,7 @@ CONTRACTIONS = (
     (r"'s got\b", " has"),
     (r"(?<=\w)'s(?= (?:been|gone)\b)", " has"),
     (r"(?<=\w)'s(?= (?:getting|looking)\b)", " is"),
+    (r"\b((?:no|some|every)(?:body| ?one))'s(?= \w+ing\b)", r"\1 is"),
     (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),

@@ -9,7 +9,14 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from etot_cli.reasoning.language.grammar.common import COMMA, EXACTLY, LIST, OPTIONAL_COMMA, after
+from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
+    EXACTLY,
+    LIST,
+    LIST_COMMA,
+    OPTIONAL_COMMA,
+    after,
+)
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -309,7 +316,7 @@ APPOSED = either(
         DESCRIBED,
         either(COMMA, at_end),
     ),
-    sequence("~comma the", QUALITY, "one, ones", either(COMMA, at_end)),
+    sequence(LIST_COMMA, "the", QUALITY, "one, ones", either(COMMA, at_end)),
 )
 _modifier = either(
     PLAIN_MODIFIER,

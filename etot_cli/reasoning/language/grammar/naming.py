@@ -85,7 +85,11 @@ def _joined(
 
 
 def _nounless(determiner: str, modifiers: Any) -> NounPhrase | None:
-    """A determiner alone; in "the other one" the last word is the noun."""
+    """A determiner alone; in "the other one" the last word is the noun, and "all" are all of those
+    that were spoken of, whatever the last of them is called.
+    """
+    if determiner in ("all", "each") and not modifiers:
+        return NounPhrase(determiner, pronoun="them")
     alone = determiner.split()
     return None if len(alone) > 1 and alone[-1] == "one" else NounPhrase(determiner, (), modifiers)
 
@@ -145,10 +149,21 @@ def _all_of_them(words: tuple[str, ...], modifiers: Any, said: str) -> NounPhras
 
 
 _INSIDE = Modifier(Prep.IN, (NounPhrase(pronoun="it", text="inside"),))
-_THEREIN = sequence(
+THEREIN = sequence(
     one_of({Prep.IN: "in there, inside", Prep.ON: "on there, on top"}),
     build=lambda prep: Modifier(prep, (NounPhrase(pronoun="it", text="there"),)),
 )
+ALREADY_THERE = either(
+    THEREIN,
+    *(
+        sequence(
+            "there, in place",
+            build=lambda prep=prep: Modifier(prep, (NounPhrase(pronoun="it", text="there"),)),
+        )
+        for prep in (Prep.IN, Prep.ON)
+    ),
+)
+"""In or on what was spoken of."""
 OPTIONAL_DETERMINER = optional(DETERMINER, "")
 _OF_THEM = sequence(COMMA, phrase("all, both, each, every one"), "of them", either(COMMA, at_end))
 _ANY_ONE = either("one, of them", silent(NOUN_WORD))
@@ -250,7 +265,7 @@ noun_phrase.define(
             ),
             sequence(
                 "(what|whatever|everything [that]) (was|were) [already]",
-                either(PLAIN_MODIFIER, _THEREIN),
+                either(PLAIN_MODIFIER, THEREIN),
                 optional(phrase(nouns.BEFOREHAND), ""),
                 build=_what_was,
             ),

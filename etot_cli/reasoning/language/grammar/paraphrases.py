@@ -43,9 +43,16 @@ _DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
-_NO_MORE_SAID = r"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b|$)"
+_NO_MORE_SAID = (
+    rf"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b| {_WHERE}|$)"
+)
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 
+_ARROW = r"(?:[-=]+>|\N{RIGHTWARDS ARROW})"
+_STEP = (
+    r"(?:put|place|take|move|pick up|grab|close|shut|open (?=the|my))\b"
+    r"|(?!fully|completely|wide|all)\w+ (?:\w+ )?(?:open|closed|shut) ?(?:[-=]+>|[.,;\n]|$)"
+)
 _SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
 _TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
@@ -146,7 +153,10 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     ),
     (r"\b(like|love|prefer) for (?=(?:the|my|both|all) )", r"\1 "),
     (r"\b(standing|lying|sitting) over (?=(?:on|in|next|by) )", r"\1 "),
-    (r"\b(once|after|when) you (?:have )?got (it|them) out\b", r"\1 you have taken \2 out"),
+    (
+        r"\b(once|after|when) you (?:have|(?:have )?got) (it|them) out\b",
+        r"\1 you have taken \2 out",
+    ),
     (r"\b(bring|get) (?:me|us) (?=(?:the|my) [^.,;]*? (?:onto|into) )", r"\1 "),
     (
         r"\b(?:leave|keep) (the [^.,;]*?) (closed|shut|open) "
@@ -237,7 +247,10 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\bnothing (?:more|besides)\b", "nothing else"),
     (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
     (_MAY_GO, r"\1\2 should go"),
-    (r", say,? (?=(?:to|in|on|next|beside|near|behind)\b)", " "),
+    (
+        r", (?:say|for example|e\.g\.),? (?=(?:to|in|on|into|onto|at|next|beside|near|behind)\b)",
+        ", ",
+    ),
     (r"(?<=\w) please(?=, )", ""),
     (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW})", r"the only \1 that is "),
     (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
@@ -273,14 +286,28 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         rf"(?=(?:please )?(?:{_DOING})\b)",
         r"\1 then ",
     ),
+    (
+        r"\b((?:next to|beside|behind|in front of|on top of) (?:it|them)) there"
+        r"(?=[.,;!?]| and\b| then\b|$)",
+        r"\1",
+    ),
     (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
+    (
+        r"\b((?:that|which) (?:is|are) (?:still |already |just )?)(?:lying |standing |sitting )?"
+        rf"out (?:here|there)\b(?! on (?:the|my) {_TABLE}\b)",
+        r"\1outside",
+    ),
     (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
     (
         r"(^|[.;] )(?:since|because|as) ((?:the|my|one) (?:\w+ ){1,3}?(?:is|are) (?:already )?"
         r"(?:taken|occupied|in use|used)(?: by (?:the|a|my) [^.,;]*)?), ",
         r"\1\2, so ",
     ),
-    (r"(?<!that )(?<!which )\b(?=(?:nobody|no one) (?:uses|is using)\b)", "that "),
+    (
+        r"(?<=\w )(?<!that )(?<!which )(?<!and )(?<!so )(?<!but )(?<!as )(?<!since )(?<!because )"
+        r"(?=(?:nobody|no one) (?:uses|is using)\b)",
+        "that ",
+    ),
     (
         r"\b(that|which) (?:is (?:not (?:currently |yet |already )?(?:being )?"
         r"(?:used|in use|taken|occupied)|unused|free|vacant|unoccupied|still free)"
@@ -305,11 +332,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\b(?:everything|anything|all things|the things) (?:(?:that )?(?:you|one|i|we) can "
         r"write with|(?:that|which) writes|(?:that is )?for writing)\b",
         "all the writing utensils",
-    ),
-    (
-        r"(^|[.;,] )((?:i |we )?need (?:the|my|our|a) [^,.;]*?), (?:it is|they are) "
-        r"((?:in|on|next to|beside|behind) [^,.;]*)(?=[,.;])",
-        r"\1\2 that is \3",
     ),
     # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
     (
@@ -380,7 +402,10 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"\b([a-z])[{HYPHENS}](?=[a-z]{{3}})", r"\1"),  # "t-shirt", "x-ray"
     (rf"(?<=\w)[{HYPHENS}](?=\w)|/(?=\w)", " "),
     (r"&", " and "),
-    (r"[-=]+>|\N{RIGHTWARDS ARROW}", " to "),
+    # Steps ("open the drawer -> pen to drawer -> drawer closed"), else places ("pen -> drawer")
+    (rf"\b(open|closed|shut) ?{_ARROW}", r"\1, then "),
+    (rf" ?{_ARROW} ?(?={_STEP})", ", then "),
+    (_ARROW, " to "),
     (r"\s*=\s*(?=\w)", ": "),
 )
 

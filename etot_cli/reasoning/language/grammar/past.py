@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, plain
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -11,6 +13,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     sequence,
     silent,
+    valued,
 )
 from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, brought
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
@@ -95,9 +98,22 @@ _HAVING_DONE = either(
         build=lambda things, source: RemoveClause(things, source or None),
     ),
 )
-EARLIER = either(
-    sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-    sequence("having", plain(_HAVING_DONE)),
-    sequence(small_words.BY_THEN, plain(_SO_BY_THEN)),
+
+
+def _by_then(reading: Reading) -> Reading:
+    """With what has been taken away by then marked so."""
+    clause = reading[0].clause
+    if not isinstance(clause, RemoveClause):
+        return reading
+    return (replace(reading[0], clause=replace(clause, by_then=True)), *reading[1:])
+
+
+EARLIER = valued(
+    either(
+        sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
+        sequence("having", plain(_HAVING_DONE)),
+        sequence(small_words.BY_THEN, plain(_SO_BY_THEN)),
+    ),
+    _by_then,
 )
 """What comes before the rest of a sentence."""

@@ -67,6 +67,12 @@ def _per_place(np: NounPhrase, words: tuple[str, ...]) -> PutGroup | None:
     return PutGroup(Things((np,)), (Destination(Toward.TO, (each,)),)) if one else None
 
 
+def _tabled(things: Things, place: NounPhrase) -> PutGroup | None:
+    """What a table says of things; "mugs on the tray: the white ones" rather says which."""
+    where = (Destination(Toward.TO, (place,), FILLED),)
+    return None if place.is_elliptic else PutGroup(things, where)
+
+
 _PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
     optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
@@ -92,7 +98,7 @@ PUT_GROUP = either(
             THINGS,
             COLON,
             noun_phrase,
-            build=lambda things, np: PutGroup(things, (Destination(Toward.TO, (np,), FILLED),)),
+            build=_tabled,
         )
     ),
     quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place)),

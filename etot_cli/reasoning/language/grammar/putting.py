@@ -57,6 +57,7 @@ from etot_cli.reasoning.language.grammar.throwing import INSERTED, THROWN
 from etot_cli.reasoning.language.grammar.trees import UNSAID
 from etot_cli.reasoning.language.grammar.word_order import (
     ALONG_WITH,
+    ANNOUNCED,
     BROUGHT,
     FOLLOWING,
     FRONTED,
@@ -348,13 +349,18 @@ def _put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     return put_of(groups, extras)
 
 
-def _listed(place: NounPhrase, things: Things) -> PutClause:
-    """What a table says of a place; "teapot: tray" rather says where the teapot goes."""
-    return replace(put_to(things, (Destination(Toward.TO, (place,), FILLED),)), far_fetched=1)
+def _listed(place: NounPhrase, things: Things) -> PutClause | None:
+    """What a table says of a place; "teapot: tray" rather says where the teapot goes, and "mugs on
+    the tray: the white ones" which go there.
+    """
+    which = place.modifiers and any(np.is_elliptic for np in things.phrases)
+    put = put_to(things, (Destination(Toward.TO, (place,), FILLED),))
+    return None if which else replace(put, far_fetched=1)
 
 
 VERBLESS = either(
     sequence(noun_phrase, COLON, ALL_THINGS, build=_listed),
+    ANNOUNCED,
     sequence(
         # "Into the bin with it"
         either(INTO, ONTO),

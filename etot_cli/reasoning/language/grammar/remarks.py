@@ -7,7 +7,7 @@ goes, where something is, or what tells one thing from another.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.language.words.known import ALL_WORDS, OTHER_VERBS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     word_set,
 )
+from etot_cli.reasoning.language.words.small_words import TURNED
 
 IsName = Callable[[str], bool]
 """Whether something in the scene is called by a word."""
@@ -40,7 +41,9 @@ _PERSON = re.compile(
 )
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = re.compile(
-    r"^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
+    r"^forgot to (?:put|take|tidy|pack|clear) (?:\w+ )?away$"
+    r"|^likes? (?:it|them) (?:cold|cool|warm|hot|chilled|fresh|clean|tidy|neat|better|best)\b"
+    r"|^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
     r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?)\b"
     r"|^(?:am going to need|"
     r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
@@ -56,6 +59,11 @@ _HAPPENED = re.compile(
     r"(?!(?:want|lik|wish|ask|hop|expect|prefer)\w*ed\b|need)\w+ed|forget|lose|spill)\b"
 )
 """What somebody did, is or is about to do."""
+_HABIT = re.compile(
+    r"^(?:take|have|drink|eat|like|love|prefer)s? (?:my|our|his|her|their) (?P<what>\w+) "
+)
+"""What somebody has as he likes it, which is no thing of the scene ("I take my tea with lemon")."""
+_UNUSED = re.compile(r"^(?:nobody|no one) (?:\w+ )?(?:uses|needs|drinks|eats|reads|wears) ")
 _DOES = re.compile(
     r"^(?:(?:will|might|may|could|can|would|does not|do not|did not|"
     r"will not|can not|keeps?) )?(?P<verb>\w+)"
@@ -124,7 +132,10 @@ _PREDICATE = re.compile(
 _TOO_SO = re.compile(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
 _NO_PLACE = re.compile(
     rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$"
+    r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
+    rf"|^(?:is|are) (?:going|turning) (?:{TURNED})$"
+    r"|^(?:must|should) (?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
     r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "
     r"(?:warm|cold|cool|dry|fresh|clean|safe)$"
 )
@@ -133,7 +144,19 @@ _TELLING = (
     | set(NUMBERS) | set(THING_NOUNS) | _REFERRING
 )  # fmt: skip
 """They tell one thing from another, or say how one is to be."""
+_PLACED = word_set("in on into onto at next beside near off out")
 _GONE_WRONG = re.compile(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
+_THING = r"(?:the|my|our) (?:\w+ )?\w+"
+_SO_OF_ITSELF = re.compile(
+    rf"^{_THING} (?:(?:stays?|keeps?|remains?) (?:warm|cold|cool|dry|fresh|clean|safe)"
+    rf"|(?:do|does|will) not (?:get|go|turn) (?:{TURNED}))$"
+)
+_TURNING = re.compile(
+    rf" (?:(?:is|are) (?:getting|going|turning)|(?:has|have) gone) (?:{TURNED})$"
+    r"|(?:must|should|(?:needs?|has|have) to) "
+    r"(?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
+)
+"""Of whatever it is said, it asks for nothing."""
 _SO_PEOPLE = re.compile(rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has)\b")
 _SO_NOTHING = re.compile(
     r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
@@ -142,7 +165,9 @@ _SO_NOTHING = re.compile(
     r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"
     r"|cool|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
 )
-_OR_WILL = re.compile(rf"^(?:{PEOPLE}|it|they) \w+")
+_OR_WILL = re.compile(
+    rf"^(?:{PEOPLE}|it|they) \w+|^{_THING} (?:will |might |may )?(?:get|go|turn)s? (?:{TURNED})$"
+)
 _COMMENT = re.compile(r"^(?:is|are|was|were|has|have) ")
 
 
@@ -169,8 +194,15 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
         return bool(_SO_PEOPLE.match(said) or home) and not named
     if _SO_PEOPLE.match(said) or (_SO_NOTHING.match(said) and not named):
         return True
+    if _SO_OF_ITSELF.match(said):
+        return True
     told_of = told_of_thing(said, is_name)
     return bool(told_of and re.search(r" (?:is|are|looks?|seems?|feels?) ", said))
+
+
+def is_turning(said: str) -> bool:
+    """Whether this tells how something gets by itself, as food that stands in the warmth."""
+    return bool(_TURNING.search(said))
 
 
 def is_warning(said: str) -> bool:
@@ -182,6 +214,8 @@ def is_warning(said: str) -> bool:
 
 def is_comment(said: str, is_name: IsName) -> bool:
     """Whether a relative clause behind a comma tells nothing apart ("which is fragile")."""
+    if is_of_people(said):
+        return is_remark(said, is_name) and not any(map(is_name, said.split()))
     return bool(_COMMENT.match(said)) and _is_idle(said, is_name)
 
 
@@ -192,8 +226,7 @@ def is_reason(said: str, is_name: IsName) -> bool:
     if not is_of_people(said):
         return not (_ASKING | _CHANGING - {"to", "by", "than"} | _WORK) & words
     wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words
-    placed = {"in", "on", "into", "onto", "at", "next", "beside", "near", "off", "out"} & words
-    return not (wanted and placed and any(map(is_name, words)))
+    return not (wanted and _PLACED & words and any(map(is_name, words)))
 
 
 def is_remark(said: str, is_name: IsName) -> bool:
@@ -203,9 +236,13 @@ def is_remark(said: str, is_name: IsName) -> bool:
     if asks_besides(said):
         return False
     if person:
-        happened = _HAPPENED.match(person["did"])
+        happened, habit = _HAPPENED.match(person["did"]), _HABIT.match(person["did"])
+        if _UNUSED.match(said) or (habit and _is_of_no_thing(habit, words, is_name)):
+            return True
         if happened is None:
-            return not any(map(is_name, words)) and _does_nothing(person["did"])
+            verb, *more = person["did"].split()
+            named = more if verb in OTHER_VERBS else words  # "I drink from it" is of no drink
+            return not any(map(is_name, named)) and _does_nothing(person["did"])
         did = person["did"].removeprefix(happened[0]).split()
         if happened[0].endswith(" to "):
             return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
@@ -219,6 +256,12 @@ def is_remark(said: str, is_name: IsName) -> bool:
     told = _TOO.sub("", said).split()  # "too close" is no "close"
     asking = (_WORK | _ASKING | _REFERRING) & {*told}
     return bool(_IN_GENERAL.match(said) or (outside and not asking))
+
+
+def _is_of_no_thing(habit: re.Match[str], words: Sequence[str], is_name: IsName) -> bool:
+    """Whether what somebody has as he likes it is no thing of the scene, nor is to be at one."""
+    strange = not is_name(habit["what"]) and habit["what"] not in ALL_WORDS
+    return strange and not (_PLACED & {*words} and any(map(is_name, words)))
 
 
 def _does_nothing(did: str) -> bool:

@@ -7,6 +7,14 @@ from operator import add
 
 from etot_cli.reasoning.language.grammar.afterthoughts import out_of_the_way, told_behind
 from etot_cli.reasoning.language.grammar.ahead import not_so
+from etot_cli.reasoning.language.grammar.announced import (
+    ONE_FOR_EACH,
+    all_put,
+    each_sorted,
+    in_detail,
+    one_for_each,
+    shared_out,
+)
 from etot_cli.reasoning.language.grammar.chains import (
     BARE_CHAIN,
     CHAIN,
@@ -81,13 +89,10 @@ from etot_cli.reasoning.language.grammar.topics import (
     NAMED,
     SAID,
     about,
-    all_put,
     any_of_them,
     done_there,
-    each_sorted,
     for_a_reason,
     one_of_them,
-    shared_out,
 )
 from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
@@ -177,6 +182,8 @@ _WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
+    sequence(plain(either(PUT, ENSURE)), COLON, PLACED, build=in_detail),
+    sequence(ONE_FOR_EACH, COLON, BARE_CHAIN, build=one_for_each),
     sequence(plain(either(EMPTY, UNSTACK)), COLON, BARE_CHAIN, build=add),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
     sequence(
@@ -211,6 +218,7 @@ _WITH_MORE_BEFORE_IT = either(
         sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
         lambda found: told_behind(found[0], found[1].split()[0], found[2]),
     ),
+    sequence(CHAIN, COMMA, AS_IT_IS, build=add),
     sequence(plain(either(MAKING_ROOM, FREEING)), "by", CHAIN, build=add),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
@@ -328,9 +336,17 @@ SENTENCE = either(
 )
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
 _BUT_NO_MORE = sequence(some(plain(WITHOUT), most=1), _END)
+
+
+def _in_the_end(reading: Reading) -> Reading | None:
+    """How things are to be when all is done, as they are anyway."""
+    return reading if all(isinstance(said.clause, EnsureClause) for said in reading) else None
+
+
 _GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
 WHOLE = either(
     sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
+    sequence(SENTENCE, COMMA, small_words.TRAILING_LAST, _END, build=_in_the_end),
     sequence(
         _GREETING,
         either(

@@ -251,6 +251,8 @@ class RemoveClause:
     """It is not to come along with that ("the mug without the pen")."""
     stacked: bool = False
     """It is what stands upon something else that can be moved."""
+    by_then: bool = False
+    """It has been done before what is asked for next ("once it is out, …")."""
 
 
 @dataclass(frozen=True, slots=True)

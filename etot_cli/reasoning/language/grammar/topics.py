@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     MODIFIERS,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.naming import WORDS
+from etot_cli.reasoning.language.grammar.naming import ALREADY_THERE, WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -27,11 +27,9 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
-    EnsureClause,
     Modifier,
     MoveClause,
     NounPhrase,
-    PutClause,
     RemoveClause,
     ReorientClause,
     Things,
@@ -91,6 +89,7 @@ _STATED = either(
         noun_phrase,
         small_words.FOUND,
         DESCRIBED,
+        silent(optional(small_words.SO_LONG)),
         build=lambda np, said: Things((np.told_by(said),)),
     ),
     sequence(
@@ -120,8 +119,17 @@ _STATED = either(
     ),
 )
 """How things are, said of them before something is asked of them."""
+
+
+def _meant_for(things: Things, words: tuple[str, ...]) -> Things | None:
+    """A vessel and things that it is for, of which some may be spoken of next."""
+    several = singular(words[-1]) != words[-1]
+    return Things((*things.phrases, NounPhrase("the", words))) if several else None
+
+
 _REMARK = either(
     sequence(ALL_THINGS, "(is|are|stands|lies) [right] in the way of", silent(noun_phrase)),
+    sequence(ALL_THINGS, "is for, are for", WORDS, build=_meant_for),
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
     sequence(small_words.DONE_WITH, ALL_THINGS),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
@@ -187,7 +195,7 @@ _ALREADY = either(
     sequence(
         noun_phrase,
         "is already, are already, 's already",
-        DESCRIBED,
+        either(DESCRIBED, ALREADY_THERE),
         build=lambda np, said: Things((np.told_by(said),)),
     ),
     sequence(noun_phrase, f"{verbs.TAKEN_BY}, {verbs.HOLDS}", noun_phrase, build=_holding),
@@ -272,7 +280,7 @@ def one_of_them(topic: Reading, rest: Reading) -> Reading | None:
     one", "… put one on the tray and the other in the sink").
     """
     nps = [item for item in nodes(rest[0].clause) if isinstance(item, NounPhrase)]
-    some = _are_several(topic[0].clause) and any(map(_is_one_of_them, nps))
+    some = are_several(topic[0].clause) and any(map(_is_one_of_them, nps))
     return (*topic, *rest) if some else None
 
 
@@ -285,7 +293,7 @@ def _is_one_of_them(np: NounPhrase) -> bool:
     return noun_left_out or "other" in np.determiner.split()
 
 
-def _are_several(topic: Clause) -> bool:
+def are_several(topic: Clause) -> bool:
     """Whether several things are named."""
     nps = topic.things.phrases if isinstance(topic, ReorientClause) else ()
     return len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
@@ -295,45 +303,3 @@ def any_of_them(topic: NounPhrase, rest: Reading) -> Reading | None:
     """Any of some things will do for what is to be done with "it"."""
     put = Spoken(ReorientClause(Things((topic,)), only_named=True), -1)
     return (put, *rest) if _all_of_any(topic) and "it" in pronouns(rest[0].clause) else None
-
-
-def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
-    """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
-    match rest[0].clause:
-        case PutClause(groups=groups):
-            named = [np for group in groups for np in group.things.phrases]
-        case EnsureClause(states=states):
-            named = [np for state in states for np in state.subjects]
-        case _:
-            return None
-    topics = topic[0].clause.things.phrases if isinstance(topic[0].clause, ReorientClause) else ()
-    bare = [not np.determiner and all(map(is_descriptive, np.words or (".",))) for np in named]
-    of_them = any(
-        np.head == "ones" or adjectives for np, adjectives in zip(named, bare, strict=True)
-    )
-    if len({np.head for np in topics}) > 1 and of_them:
-        return None  # of the cups and the plates "the red ones" would be plates alone
-    alone = ({"one", "other", "others", "rest"} & {*np.text.split()[-1:]} for np in named)
-    told = all(
-        np.is_elliptic or adjectives or last
-        for np, adjectives, last in zip(named, bare, alone, strict=True)
-    )
-    return (*topic, *rest) if told else None
-
-
-def shared_out(topic: Reading, rest: Reading) -> Reading | None:
-    """Several things are taken, and each of them goes somewhere of its own."""
-    return each_sorted(topic, rest) if _are_several(topic[0].clause) else None
-
-
-def all_put(topic: Reading, rest: Reading) -> Reading | None:
-    """Where all that is to be tidied up goes ("tidy up the cars and put them …")."""
-    match rest[0].clause:
-        case PutClause(groups=groups):
-            named = [np for group in groups for np in group.things.phrases]
-        case EnsureClause(states=states):
-            named = [np for state in states for np in state.subjects]
-        case _:
-            return None
-    spoken = all(np.pronoun in ("them", "they") or np.text.endswith(" of them") for np in named)
-    return (*topic, *rest) if spoken else None

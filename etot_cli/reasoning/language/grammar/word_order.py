@@ -12,7 +12,7 @@ from etot_cli.reasoning.language.grammar.additions import (
     GROUPING,
     put_of,
 )
-from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COLON, COMMA, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
 )
@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
     is_descriptive,
@@ -95,11 +96,16 @@ PLACE_AHEAD = quiet(
     )
 )
 """The same, where the verb was said before ("…, and beside it, the spoon")."""
+_THESE = "(this|these|the following) [things|objects|items]"
 FOLLOWING = sequence(
-    verbs.PUT,
-    "(these|the following) [things|objects|items]",
-    DESTINATIONS,
-    COMMA,
+    either(
+        sequence(sequence(verbs.PUT, _THESE), DESTINATIONS, COMMA),
+        sequence(
+            either(sequence(_THESE, verbs.MODAL), "what (goes|belongs|should go|should be)"),
+            DESTINATIONS,
+            COLON,
+        ),
+    ),
     NP_LIST,
     build=lambda where, nps: put_to(Things(nps), where),
 )
@@ -112,15 +118,17 @@ def _named_behind(
     noun = singular(whole.head)
     every = noun == whole.head and whole.words == ("everything",)
     counted = NUMBERS.get(whole.determiner) == len(nps)
-    if not nps[1:] or not (every or counted or whole.determiner in _ALL_THESE):
+    some = not whole.determiner and is_category(whole.head)  # "food in the basket: …"
+    several = nps[1:] or (not whole.determiner and nps[0].is_elliptic)
+    if not several or not (every or counted or some or whole.determiner in _ALL_THESE):
         return None
-    if noun == whole.head and not (every or counted):
+    if noun == whole.head and not (every or counted or some):
         return None
     named = (np.called(noun) if np.is_elliptic else np for np in nps)
     return put_to(Things(tuple(named), whole=whole), where)
 
 
-_ALL_THESE = ("the", "these", "those", "all", "all the")
+_ALL_THESE = ("", "the", "these", "those", "all", "all the")
 NAMED_BEHIND = quiet(
     sequence(
         either(
@@ -136,6 +144,13 @@ NAMED_BEHIND = quiet(
     )
 )
 """What goes somewhere is named one by one at the end."""
+ANNOUNCED = quiet(
+    either(
+        sequence(noun_phrase, DESTINATIONS, COLON, NP_LIST, build=_named_behind),
+        sequence(DESTINATIONS, COLON, NP_LIST, build=_fronted),
+    )
+)
+"""The same without a verb ("food in the basket: the apple and the pear", "in the basket: …")."""
 ALONG_WITH = sequence(
     verbs.PUT,
     NP_LIST,

@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.lexicon import SIDES
-from etot_cli.world.spatial import NEXT_TO, Nearby, Whereabouts, holds, outline_of
+from etot_cli.world.spatial import NEXT_TO, THIRD, Nearby, Whereabouts, holds, outline_of
 from etot_cli.world.state import DESK, SceneState
 
 Area = tuple[Nearby, ...]
@@ -93,6 +93,24 @@ def _distance(area: Area, thing: Thing, scene: SceneState) -> float:
     if Nearby.AT_CENTRE in area:
         return math.hypot(*offsets)
     return min(math.hypot(*goal) for goal in goals)
+
+
+def side_across(thing: Thing, scene: SceneState) -> Nearby | None:
+    """The side of the desk across from the one that a thing is at; None where it is at none, or as
+    well at another one.
+    """
+    desk = outline_of(DESK, scene)
+    x, y = scene.forward
+    shares = {
+        of: (of(thing, scene) - of(Thing(DESK), scene)) / desk.extent(np.array(axis))
+        for of, axis in ((space.to_the_left, (-y, x)), (space.to_the_back, (x, y)))
+    }
+    less, more = sorted(shares, key=lambda of: abs(shares[of]))
+    if abs(shares[more]) < max(THIRD, 2 * abs(shares[less])):
+        return None
+    ends = (Nearby.AT_LEFT, Nearby.AT_RIGHT)
+    ends = ends if more is space.to_the_left else (Nearby.AT_BACK, Nearby.AT_FRONT)
+    return ends[shares[more] > 0]
 
 
 def _points(area: Area) -> list[tuple[float | None, float | None]]:

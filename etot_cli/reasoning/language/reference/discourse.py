@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from etot_cli.reasoning.builtin.goal import Place, Referent, Thing, things_in
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import Role
+from etot_cli.reasoning.language.grammar.syntax import Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun
@@ -63,6 +64,10 @@ class Discourse:
     """What the clause before took out of what it empties."""
     roomy: int | None = None
     """The referent of what room is made on or in, which "there" means then."""
+    told_at: tuple[int, Toward | None, int] = (-1, None, -1)
+    """Number of a clause that only names something by where it is, how it is to what, and that;
+    "there" means that then. None for how where it is beside something.
+    """
     left_alone: frozenset[int] = frozenset()
     """Referents that must not be moved or touched."""
     returning: bool = False

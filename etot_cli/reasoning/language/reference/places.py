@@ -96,6 +96,8 @@ class Places:
         for destination in destinations:
             if destination.toward in (Toward.WITH, Toward.HOME):  # only where one thing is put
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
+            if destination.toward is Toward.BESIDE:
+                destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:
                 there = self._where_they_are(destination.word, themes) if stays else ()
                 found = list(there or self._here(destination.word, themes))
@@ -289,6 +291,11 @@ class Places:
         discourse = self.discourse
         if word == "down":
             return (self.on_the_desk(),)
+        clause, toward, mark = discourse.told_at
+        if word == "there" and clause == discourse.clause - 1:
+            if toward is None:
+                raise ReferenceProblem(word, UNCLEAR, 2)
+            return tuple(in_or_on(discourse, toward, mark, themes))
         if word == "there" and discourse.roomy is not None:
             return tuple(in_or_on(discourse, Toward.TO, discourse.roomy, themes))
         if word in ("there", "the same place") and discourse.last_places:

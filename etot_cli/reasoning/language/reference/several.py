@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
@@ -98,8 +98,13 @@ class Phrases(Referents):
                 self.discourse.referents[index] = replace(referent, options=own)
         named = {*self.discourse.things(*indices)}
         count = quantity_of(things.whole.determiner).count
-        if named < {*every} and count == len(named):
+        some = not things.whole.determiner and things.whole.head != "everything"
+        if named < {*every} and (some or count == len(named)):
             return  # "two pieces of fruit: the apple and the pear"
+        if things.whole.head == "everything" and things.whole.modifiers:
+            # "Everything on the table" is not what it all goes into, nor its like.
+            scene = self.discourse.scene
+            every = tuple(t for t in every if t in named or not can_be(t, Role.CONTAINER, scene))
         if named != {*every}:
             rest = ", ".join(thing.name for thing in every if thing not in named)
             why = f"{rest} would be meant as well" if rest else "not all that is named is called so"

@@ -9,9 +9,10 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Near, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax import Beside, Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.areas import side_across
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.resolved import Resolved
@@ -216,6 +217,21 @@ class Surroundings:
             raise ReferenceProblem(text, "say 'left of', 'in front of' and so on", 3)
         discourse.notes.append(f"{text!r} is {sides[0]} it")
         return sides[0]
+
+    def across_the_desk(self, where: Destination, themes: Sequence[int]) -> Destination:
+        """The other side of the desk than that where things are, which is told."""
+        (beside, *more) = where.beside
+        if more or " ".join(beside.text.split()[:5]) not in spellings(ACROSS):
+            return where
+        marks = things_in(self._phrases.meaning(beside.phrases[0], Role.ANY).options)
+        if [mark.name for mark in marks] != [DESK]:
+            return where
+        things = self._discourse.things(*themes)
+        (side, *others) = {side_across(thing, self._scene) for thing in things}
+        if others or side is None or self._discourse.put & {*themes}:
+            raise ReferenceProblem(beside.text, "say to the left, right, front or back", 3)
+        self._discourse.notes.append(f"{beside.text!r}: {side}")
+        return replace(where, beside=(replace(beside, relation=side, phrases=()),))
 
     def _check_side(self, beside: Beside, things: Sequence[Thing]) -> None:
         """The left side of a sideboard is a part of it; what is on the left of a tray is beside it,

@@ -113,18 +113,26 @@ END_STATE = f"""
 """
 """Before how things are to be by then."""
 ANY_MORE = "anymore, any more, any longer"
-REMARKS = """
+TURNED = "warm|hot|cold|wet|dry|dirty|dusty|stale|soft|hard|bad|off|flat|mouldy|sour|old"
+"""How things get or go by themselves."""
+SO_LONG = """
+    [for] (long enough|too long|ages|hours|days|weeks|a [long] while|[quite] some time),
+    [for] (an hour|a day|a week|all (day|night|morning|week))
+"""
+"""With how things are by now."""
+REMARKS = f"""
+    (has|have) been (in|out|up|down|on|over|) (here|there) ({SO_LONG}),
     (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
     (dirty|clean|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
     (is|are) not (needed|wanted|used) [anymore|any more|any longer],
     (is|are|stands|lies) in (my|the) way [here|there], (is|are) [still] put away,
     (has|have|needs|need) to (move|go),
     (is|are) (fine|good|ok|okay|alright),
-    (has|have) gone (cold|warm|stale|soft|hard|bad|off|dry|flat|mouldy),
+    (has|have) gone ({TURNED}), (is|are) (getting|going|turning) ({TURNED}),
     (is|are) (dead|blunt|dull|dusty|sticky|greasy|cracked|chipped|leaking|unwashed),
-    (is|are) [just] (lying|standing|sitting) (around|about),
-    (is|are) getting (warm|cold|wet|dry|dirty|dusty|stale|soft|old),
+    (is|are|has been|have been) [just] (lying|standing|sitting) (around|about) [{SO_LONG}],
     (needs|need|has|have) to (stay|be kept|keep|remain) (warm|cold|cool|dry|fresh|clean|safe),
+    (must|should) (stay|be kept|keep|remain) (warm|cold|cool|fresh),
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
     (is|are) (in|on|at) the wrong (one|place|spot|side),
     (has|have) been (used|washed|cleaned),

@@ -194,7 +194,7 @@ TAKEN_ALREADY = """
 """
 HOLDS = "already (holds|contains|has), (holds|contains|has) already"
 """Between a vessel and what is in it by now."""
-CONTAIN = f"({_MUST}) (contain|hold|have|end up (containing|holding)), keep[s]"
+CONTAIN = f"({_MUST}) (contain|hold|have|(be|end up) (containing|holding)), keep[s]"
 END_WITH = f"({_MUST}) end [up] with"
 CONTAINED = """
     had, contained, held, has, contains, holds, could (have|contain|hold),

@@ -1,0 +1,132 @@
+"""Rules for what is announced of several things before it is said where each of them goes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.clauses import Reading
+from etot_cli.reasoning.language.grammar.naming import WORDS
+from etot_cli.reasoning.language.grammar.parsing import either, optional, sequence, silent
+from etot_cli.reasoning.language.grammar.spoken import Spoken
+from etot_cli.reasoning.language.grammar.syntax import (
+    EnsureClause,
+    NounPhrase,
+    PutClause,
+    PutGroup,
+    ReorientClause,
+    State,
+    Things,
+)
+from etot_cli.reasoning.language.grammar.topics import are_several
+from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.lexicon import (
+    BOARD_NOUNS,
+    LEVELS,
+    is_descriptive,
+    singular,
+)
+
+
+def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
+    """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
+    match rest[0].clause:
+        case PutClause(groups=groups):
+            named = [np for group in groups for np in group.things.phrases]
+        case EnsureClause(states=states):
+            named = [np for state in states for np in state.subjects]
+        case _:
+            return None
+    topics = topic[0].clause.things.phrases if isinstance(topic[0].clause, ReorientClause) else ()
+    bare = [not np.determiner and all(map(is_descriptive, np.words or (".",))) for np in named]
+    of_them = any(
+        np.head == "ones" or adjectives for np, adjectives in zip(named, bare, strict=True)
+    )
+    if len({np.head for np in topics}) > 1 and of_them:
+        return None  # of the cups and the plates "the red ones" would be plates alone
+    alone = ({"one", "other", "others", "rest"} & {*np.text.split()[-1:]} for np in named)
+    told = all(
+        np.is_elliptic or adjectives or last
+        for np, adjectives, last in zip(named, bare, alone, strict=True)
+    )
+    return (*topic, *rest) if told else None
+
+
+def in_detail(first: Reading, rest: Reading) -> Reading | None:
+    """Where several things go, and behind a colon where each of them goes there."""
+    (said, *others), (each, *more) = first, rest
+    match said.clause:
+        case PutClause(groups=(whole,)):
+            pass
+        case EnsureClause(states=(State(denied=False, kept=False, word="") as so,)):
+            whole = PutGroup(Things(so.subjects), so.destinations)
+        case _:
+            return None
+    if others or more or not isinstance(each.clause, PutClause) or not each.clause.groups[1:]:
+        return None
+    return (replace(said, clause=PutClause((whole, *each.clause.groups))),)
+
+
+def shared_out(topic: Reading, rest: Reading) -> Reading | None:
+    """Several things are taken, and each of them goes somewhere of its own."""
+    return each_sorted(topic, rest) if are_several(topic[0].clause) else None
+
+
+def _each_and_one(words: tuple[str, ...], places: tuple[str, ...]) -> Reading:
+    """Each of several places, and things, which were spoken of last."""
+    plural = (*words[:-1], f"{singular(words[-1])}s")
+    topics = (NounPhrase("each", places), NounPhrase("the", plural))
+    return tuple(Spoken(ReorientClause(Things((np,)), only_named=True), -1) for np in topics)
+
+
+ONE_FOR_EACH = either(
+    sequence(
+        silent(optional(f"{verbs.PUT}, {verbs.WANTED}, there should be")),
+        "one, a, an",
+        WORDS,
+        "(in|into|on|onto|to|for) (each|every), per",
+        WORDS,
+        build=_each_and_one,
+    ),
+    sequence(
+        "one",
+        WORDS,
+        "each for [the|my|both], for each of [the|my]",
+        WORDS,
+        build=lambda places, words: _each_and_one(words, places),
+    ),
+)
+"""What each of several places gets, before it is said which ("one cup on each tray: …")."""
+
+
+def one_for_each(topics: Reading, rest: Reading) -> Reading | None:
+    """One thing for each of several places, which may leave their noun out ("on the lower")."""
+    announced, (said, *more) = topics[0].clause, rest
+    put = said.clause
+    if not isinstance(announced, ReorientClause) or not isinstance(put, PutClause) or more:
+        return None
+    (place,) = announced.things.phrases
+
+    def named(np: NounPhrase) -> NounPhrase:
+        bare = all(is_descriptive(word) or word in LEVELS for word in np.words)
+        return replace(np, words=(*np.words, *place.words)) if bare else np
+
+    groups = tuple(group.going_to(named) for group in put.groups)
+    targets = [np for group in groups for w in group.destinations for np in w.targets]
+    kinds = BOARD_NOUNS if place.head in BOARD_NOUNS else (place.head, "one")
+    each = len(groups) > 1 and all(len(group.things.phrases) == 1 for group in groups)
+    if not each or any(np.head not in kinds for np in targets):
+        return None
+    return (*topics, replace(said, clause=replace(put, groups=groups)))
+
+
+def all_put(topic: Reading, rest: Reading) -> Reading | None:
+    """Where all that is to be tidied up goes ("tidy up the cars and put them …")."""
+    match rest[0].clause:
+        case PutClause(groups=groups):
+            named = [np for group in groups for np in group.things.phrases]
+        case EnsureClause(states=states):
+            named = [np for state in states for np in state.subjects]
+        case _:
+            return None
+    spoken = all(np.pronoun in ("them", "they") or np.text.endswith(" of them") for np in named)
+    return (*topic, *rest) if spoken else None
