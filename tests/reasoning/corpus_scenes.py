@@ -1523,6 +1523,7 @@ def paper_desk() -> SceneState:
              label="paper ball"),
     )  # fmt: skip
 
+
 def spice_kitchen() -> SceneState:
     """A cabinet with its middle drawer open, tomatoes on a board and on the desk."""
     return scene(
@@ -1546,6 +1547,7 @@ def spice_kitchen() -> SceneState:
         cup("green_cup", (0.62, 0.36), size=(0.08, 0.08, 0.1), color="green"),
     )  # fmt: skip
 
+
 def two_plates() -> SceneState:
     """Plates of two colours, fruit in a basket and on a plate, mugs."""
     return scene(
@@ -1563,4 +1565,68 @@ def two_plates() -> SceneState:
         item("spoon", "pen", (0.40, -0.02), size=(0.13, 0.02, 0.015), color="gray",
              on="cereal_bowl", inside="cereal_bowl"),
         item("milk_carton", "box", (0.60, -0.26), size=(0.06, 0.06, 0.16), color="white"),
+    )  # fmt: skip
+
+
+def tower_and_cups() -> SceneState:
+    """A tower of three blocks, two green blocks, cups, a tray and a box."""
+    return scene(
+        item("red_block", "box", (0.42, 0.12), size=(0.05, 0.05, 0.05), color="red"),
+        item("blue_block", "box", (0.42, 0.12), size=(0.045, 0.045, 0.045), color="blue",
+             on="red_block"),
+        item("yellow_block", "box", (0.42, 0.12), size=(0.04, 0.04, 0.04), color="yellow",
+             on="blue_block"),
+        item("big_green_block", "box", (0.30, -0.06), size=(0.06, 0.06, 0.06), color="green"),
+        item("small_green_block", "box", (0.33, 0.28), size=(0.03, 0.03, 0.03), color="green"),
+        cup("white_cup", (0.48, -0.12), size=(0.08, 0.08, 0.08), color="white"),
+        cup("black_cup", (0.58, 0.04), size=(0.08, 0.08, 0.08), color="black"),
+        item("orange_ball", "sphere", (0.58, 0.04), size=(0.035, 0.035, 0.035), color="orange",
+             on="black_cup", inside="black_cup"),
+        item("purple_ball", "sphere", (0.34, -0.24), size=(0.035, 0.035, 0.035), color="purple"),
+        item("tray", "box", (0.58, 0.31), size=(0.22, 0.22, 0.015), color="gray"),
+        item("wooden_box", "bowl", (0.58, -0.33), size=(0.18, 0.18, 0.07), color="brown"),
+    )  # fmt: skip
+
+
+def screwdriver_bench() -> SceneState:
+    """Screwdrivers, one of them in a drawer that stands open, bins."""
+    return scene(
+        drawers("tool_chest", (0.63, -0.34), {"top": 0.0, "middle": 0.0, "bottom": 0.9},
+             color="red"),
+        item("blue_bin", "bowl", (0.56, 0.34), size=(0.17, 0.17, 0.08), color="blue"),
+        item("yellow_bin", "bowl", (0.56, 0.08), size=(0.17, 0.17, 0.08), color="yellow"),
+        item("bolt", "cylinder", (0.54, 0.31), size=(0.02, 0.02, 0.05), color="gray",
+             on="blue_bin", inside="blue_bin"),
+        item("nut", "box", (0.58, 0.37), size=(0.03, 0.03, 0.015), color="gray", on="blue_bin",
+             inside="blue_bin"),
+        item("board", "box", (0.34, 0.14), size=(0.16, 0.22, 0.02), color="brown",
+             label="wooden board"),
+        item("glue_bottle", "cylinder", (0.37, 0.19), size=(0.05, 0.05, 0.1), color="white",
+             on="board"),
+        item("red_screwdriver", "pen", (0.28, -0.12), size=(0.15, 0.02, 0.02), color="red"),
+        item("yellow_screwdriver", "pen", (0.48, -0.34), size=(0.14, 0.02, 0.02), color="yellow",
+             on="tool_chest", inside="tool_chest.bottom"),
+        item("tape_measure", "box", (0.44, -0.12), size=(0.06, 0.05, 0.04), color="black"),
+        item("pliers", "box", (0.63, -0.34), size=(0.13, 0.05, 0.02), color="black",
+             on="tool_chest", inside="tool_chest.top"),
+    )  # fmt: skip
+
+
+def three_cups() -> SceneState:
+    """Two cups on a tray and one on the desk, a microwave, a fridge."""
+    return scene(
+        cabinet("microwave", (0.63, 0.36), 0.0, color="gray"),
+        cabinet("fridge", (0.63, -0.36), 0.95, color="white"),
+        item("milk", "box", (0.63, -0.36), size=(0.06, 0.06, 0.12), color="white", on="fridge",
+             inside="fridge"),
+        item("tray", "box", (0.43, 0.00), size=(0.16, 0.3, 0.015), color="gray"),
+        cup("red_cup", (0.43, 0.08), size=(0.08, 0.08, 0.09), color="red", on="tray"),
+        cup("white_cup", (0.43, -0.08), size=(0.08, 0.08, 0.09), color="white", on="tray"),
+        cup("blue_cup", (0.30, 0.29), size=(0.08, 0.08, 0.09), color="blue"),
+        item("orange", "sphere", (0.27, 0.02), size=(0.07, 0.07, 0.07), color="orange"),
+        item("orange_bowl", "bowl", (0.64, 0.03), size=(0.17, 0.17, 0.07), color="orange"),
+        item("apple", "sphere", (0.64, 0.03), size=(0.07, 0.07, 0.07), color="green",
+             on="orange_bowl", inside="orange_bowl"),
+        item("apple_juice", "box", (0.28, -0.24), size=(0.05, 0.05, 0.11), color="green",
+             label="apple juice box"),
     )  # fmt: skip

@@ -110,7 +110,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """
     said = _HEADING.match(instruction)
     words = words_in(normalized(said[1])) if said else ()
-    counted = {*spellings(STACK)} & {*words} and {*NUMBERS} & {*words}  # "a stack of three: …"
+    # "A stack of three: …", "the tower on the tray: …"
+    counted = {*spellings(STACK)} & {*words} and {*NUMBERS, "on", "in", "onto"} & {*words}
     if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:
         raise UnreadableError(instruction, "")
     on_desk = bool({*DESK_NOUNS} & {*words})

@@ -144,7 +144,8 @@ def _note_placed(clause: Clause, context: Context) -> None:
     for step in (*context.cleared, *(() if cleared else puts)):
         note_placed(context.discourse, step.what, step.places)
     context.cleared = puts if cleared else []
-    only = isinstance(clause, EnsureClause)  # "only the jar should be left on the shelf"
+    # "Only the jar should be left on the shelf", "nothing but the jar"
+    only = isinstance(clause, EnsureClause | AvoidClause)
     off = [step for step in puts if cleared or (only and step.removal)]
     taken = (index for step in off for index in step.what)
     context.discourse.cleared = frozenset(context.discourse.things(*taken))

@@ -121,9 +121,16 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"(?=on the same (?:level|board|shelf) as\b)",
         "",
     ),
+    (r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b", r"build a \1"),
+    (
+        r"\bmake (?:the|a second|another|a new) (tower|stack) (?=(?:out of|with|from|of|on)\b)",
+        r"make a \1 ",
+    ),
     (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
     (r"\b(set|put|place|lay) ([^.,;]*?) aside (?=(?:on|in|next to|beside) )", r"\1 \2 "),
     (rf"\b((?:on|in) {_NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
+    (r"^(without \w+ing any other [^,.;]*), ([^.;]*)", r"\2 \1"),
+    (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
     (r"\bleave no (?=\w)", "do not leave any "),
     (
         rf"\b(?:take|carry|move|bring|shift) ({_NAMED} [^.,;:]*?) (?:over |across )?"

@@ -277,7 +277,8 @@ class Discourse:
             )
             if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
-        return tuple(found)
+        # What was but taken away may be told a place yet.
+        return tuple(thing for thing in found if thing not in self.cleared)
 
     def left_open(self) -> tuple[tuple[Thing, ...], ...]:
         """What may be meant by what was but named last, where that is one of several phrases ("the

@@ -49,6 +49,8 @@ from etot_cli.reasoning.language.words.lexicon import (
     same_noun,
     singular,
 )
+from etot_cli.reasoning.language.words.nouns import STACK
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
@@ -217,6 +219,9 @@ class Meanings:
         on it; else the one that goes by its noun alone, or is called after it ("the soap … its
         dish", a soap dish).
         """
+        noun_of_it = self.discourse.last_noun(Role.ANY) or ""
+        if owner.pronoun and noun_of_it in spellings(STACK):
+            owner = NounPhrase("the", (noun_of_it,), text=owner.text)  # not its lowest block
         ways = [
             replace(phrase, modifiers=(Modifier(prep, (owner,)), *phrase.modifiers))
             for prep in (Prep.OF, Prep.WITH, Prep.FROM)
