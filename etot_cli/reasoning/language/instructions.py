@@ -32,6 +32,11 @@ from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import OPEN_AT, SceneState
 
 _HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
+_TABLE_SET = re.compile(
+    r"((?:please )?(?:set|lay) the table(?: for [^,.:;!?\n]+)?)[,.]\s+(\S.*)",
+    re.IGNORECASE | re.DOTALL,
+)
+"""Says nothing of what is to stand where, which comes next."""
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last then do t "
@@ -108,7 +113,7 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     Raises:
         UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
     """
-    said = _HEADING.match(instruction)
+    said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
     words = words_in(normalized(said[1])) if said else ()
     # "A stack of three: …", "the tower on the tray: …"
     counted = {*spellings(STACK)} & {*words} and {*NUMBERS, "on", "in", "onto"} & {*words}

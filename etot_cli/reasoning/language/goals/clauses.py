@@ -42,7 +42,7 @@ from etot_cli.reasoning.language.words.places import Prep
 
 _RELATIVE_PLACE = re.compile(
     r"\b(?:that|which) (?:is|are|stands?|sits?|lies?)"
-    r" (?:in|on|at|next|beside|near|behind|left|right)\b"
+    r" (?:in|on|at|next|beside|near|behind|left|right|there)\b"
     r"|\b(?:standing|lying|sitting|located|placed)\b"
 )
 """It tells where a thing is, and not where it is to be."""

@@ -38,7 +38,8 @@ def _told(things: Things, said: Modifier, number: str) -> Things | None:
     (np, *more) = things.phrases
     plural = singular(np.head) != np.head
     fits = np.words and not more and plural == (number == "they")
-    return replace(things, phrases=(np.told_by(said),)) if fits else None
+    told = replace(np.told_by(said), text=f"{np.text} that is there")
+    return replace(things, phrases=(told,)) if fits else None
 
 
 def _of(said: Modifier, mark: NounPhrase) -> Modifier:

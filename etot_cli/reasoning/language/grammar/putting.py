@@ -182,7 +182,7 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
 
 OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, optional("go[es]"), DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
-_A_PLACE = "a [new|nice|good|free|safe|proper] (place|spot|home) [~comma]"
+_A_PLACE = "a [new|nice|good|free|safe|proper] (place|spot|home|seat) [~comma]"
 _COMES_AND_GOES = """
     [should|must|has to|have to|can] come[s] (out|off) [of (it|there)] and
     [should|must|has to|have to|can|to] (go|goes|be put)

@@ -31,8 +31,9 @@ _RELATIONS = (
 _OWN = "hands?|feet|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|bus|train|taxi|shift"
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
-    rf"(?:i|we|you|he|she|nobody|somebody|someone|everybody|everyone|people|grand(?:ma|pa)|granny|mum|mom|dad"
-    rf"|(?:mr|mrs|ms|dr|miss) \w+"
+    r"(?:i|we|you|he|she|nobody|no one|somebody|someone|everybody|everyone|people"
+    r"|grand(?:ma|pa)|granny|mum|mom|dad"
+    r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the) )(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
 )
 _PERSON = re.compile(
@@ -42,7 +43,8 @@ _PERSON = re.compile(
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = re.compile(
     r"^forgot to (?:put|take|tidy|pack|clear) (?:\w+ )?away$"
-    r"|^likes? (?:it|them) (?:cold|cool|warm|hot|chilled|fresh|clean|tidy|neat|better|best)\b"
+    r"|^likes? (?:it|them|(?:my|our|his|her|the) \w+) "
+    r"(?:cold|cool|warm|hot|chilled|fresh|clean|neat|better|best)(?= anyway|$)"
     r"|^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
     r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?)\b"
     r"|^(?:am going to need|"
@@ -63,7 +65,10 @@ _HABIT = re.compile(
     r"^(?:take|have|drink|eat|like|love|prefer)s? (?:my|our|his|her|their) (?P<what>\w+) "
 )
 """What somebody has as he likes it, which is no thing of the scene ("I take my tea with lemon")."""
-_UNUSED = re.compile(r"^(?:nobody|no one) (?:\w+ )?(?:uses|needs|drinks|eats|reads|wears) ")
+_UNUSED = re.compile(
+    r"^(?:nobody|no one) (?:is going to |will |would |ever |really )*"
+    r"(?:use|need|drink|eat|read|wear)s? "
+)
 _DOES = re.compile(
     r"^(?:(?:will|might|may|could|can|would|does not|do not|did not|"
     r"will not|can not|keeps?) )?(?P<verb>\w+)"
@@ -248,6 +253,9 @@ def is_remark(said: str, is_name: IsName) -> bool:
             return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
         if happened[0].startswith(("would hate", "do not want")):
             return not any(map(is_name, words))
+        placed = _PLACED & {*did} and any(map(is_name, did))
+        if did[:1] == ["to"] or (placed and happened[0].startswith(("like", "love", "hate"))):
+            return False  # "nobody is to use it", "she likes the cup on the tray"
         if did[:1] in _TIDYING and not any(map(is_name, words)):
             return True
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
