@@ -1630,3 +1630,23 @@ def three_cups() -> SceneState:
         item("apple_juice", "box", (0.28, -0.24), size=(0.05, 0.05, 0.11), color="green",
              label="apple juice box"),
     )  # fmt: skip
+
+def sorting_corner() -> SceneState:
+    """Blocks of several colours, two on a mat, balls, a bucket, a shelf."""
+    return scene(
+        item("toy_box", "bowl", (0.60, 0.33), size=(0.22, 0.22, 0.1), color="brown"),
+        item("red_ball", "sphere", (0.60, 0.33), size=(0.05, 0.05, 0.05), color="red",
+             on="toy_box", inside="toy_box"),
+        item("shelf", "shelf", (0.63, -0.32), boards=("lower", "upper",), size=(0.25, 0.30,
+             0.40), color="white"),
+        item("toy_car", "box", (0.63, -0.32), size=(0.09, 0.05, 0.04), color="yellow",
+             on="shelf.upper"),
+        item("mat", "box", (0.42, 0.08), size=(0.22, 0.22, 0.01), color="gray"),
+        item("blue_block", "box", (0.46, 0.13), size=(0.05, 0.05, 0.05), color="blue", on="mat"),
+        item("green_block", "box", (0.46, 0.13), size=(0.05, 0.05, 0.05), color="green",
+             on="blue_block"),
+        item("big_red_block", "box", (0.30, -0.11), size=(0.07, 0.07, 0.07), color="red"),
+        item("small_red_block", "box", (0.29, 0.30), size=(0.04, 0.04, 0.04), color="red"),
+        item("blue_ball", "sphere", (0.30, -0.29), size=(0.05, 0.05, 0.05), color="blue"),
+        item("bucket", "bowl", (0.63, 0.04), size=(0.16, 0.16, 0.1), color="white"),
+    )  # fmt: skip

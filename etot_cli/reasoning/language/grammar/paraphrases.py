@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
+from etot_cli.reasoning.language.grammar.listings import LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
@@ -18,12 +19,6 @@ _NOTHING_ELSE = re.compile(
     rf"((?:^|[.;\n])(?:(?!\b{_WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({_WHERE}[^,.;\n]*)"
 )
 """Behind the things it stands for what is said of them behind their place."""
-_ALL_NAMED = re.compile(
-    r"(^|[.;\n]\s*)([^:.;\n]+): "
-    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
-    r" (?=(?:in|on|into|onto|to)\b)"
-)
-"""What a list before a colon names, all of it."""
 _MAY_GO = re.compile(
     r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)(?: please)? go\b"
 )
@@ -37,8 +32,6 @@ _ALL_DONE = re.compile(
 _BESIDE = (
     r"(?:next to|beside|near|behind|in front of|between|(?:to the )?(?:left|right) of|on|in)\b"
 )
-_SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
-_NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
 _DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
@@ -58,6 +51,7 @@ _TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 
+_TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
 _DID = re.compile(
     rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
     r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
@@ -80,16 +74,10 @@ def _in_turn(said: re.Match[str]) -> str:
     return f"{away} {where}{joint} {other} {place}"
 
 
-def _one_by_one(said: re.Match[str]) -> str:
-    """A list whose order was announced ("these in this order: the cup, the plate")."""
-    asked, where, items = said.groups()
-    parts = re.split(rf"(?:, | and |, and )(?:then )?(?={_NAMED}|\w+$|\w+,)", items)
-    return f"{asked} these{where}: {', then '.join(parts)}"
-
-
 _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     *CONTRACTIONS,
     *OBSTACLES,
+    *LISTINGS,
     (_WISHED, _as_asked),
     (
         r",? (?:ok|okay|alright|all right|yeah|deal|understood|(?:would|will|could|can) you"
@@ -112,25 +100,14 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\1 is empty ",
     ),
     (
-        r"\b(put|place|set|stack) (?:these|them|the following|these things|the following things)"
-        r"( (?:on|in|into|onto) [^:.;]*?),? in (?:this|the following) order: ([^.;]*)",
-        _one_by_one,
-    ),
-    (
         r"\bon the (?:\w+ )?(?:shelf|bookcase|rack|unit), "
         r"(?=on the same (?:level|board|shelf) as\b)",
         "",
     ),
-    (r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b", r"build a \1"),
-    (
-        r"\bmake (?:the|a second|another|a new) (tower|stack) (?=(?:out of|with|from|of|on)\b)",
-        r"make a \1 ",
-    ),
-    (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
     (r"\b(set|put|place|lay) ([^.,;]*?) aside (?=(?:on|in|next to|beside) )", r"\1 \2 "),
     (rf"\b((?:on|in) {_NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(without \w+ing any other [^,.;]*), ([^.;]*)", r"\2 \1"),
-    (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
+    (_TAKES_PLACE, r"\1 go in place of"),
     (r"\bleave no (?=\w)", "do not leave any "),
     (
         rf"\b(?:take|carry|move|bring|shift) ({_NAMED} [^.,;:]*?) (?:over |across )?"
@@ -195,10 +172,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
     (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
     (r",? from now on\b", ""),
-    (
-        r"\bthe (top|uppermost|highest) (\w+) off (?=(?:the|my) (?:tower|stack|pile)\b)",
-        r"the \1 \2 of ",
-    ),
     # "From the right to the left" is about the sides of the table.
     (
         rf"\b(?:away )?from the {_SIDE}(?: of the {_TABLE})?"
@@ -206,12 +179,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         rf"(?:to|on|onto|at) the {_SIDE}(?: of the {_TABLE})?"
         r"(?=[.,;!?]|$| and\b| then\b)",
         r"on the \1 side of the table\2 to the \3 side of the table",
-    ),
-    # What is stacked goes on what was put down just before, not beside it.
-    (
-        r"\b((?:put|place|set|lay) ((?:the|my) [^.,;]*?) (?:on|onto) (?:the|my) [^.,;]*?[,;.]? "
-        r"(?:and |then )*(?:stack|pile) (?:the|my) [^.,;]*? (?:on|onto))(?: top of)? it\b",
-        r"\1 \2",
     ),
     (
         r"\b((?:clear|empty|tidy) (?:the|my) [^.,;:]*?[,;:.] (?:and |then )*"
@@ -245,14 +212,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         rf"(?={_BESIDE})",
         ", ",
     ),
-    # "All three, the cup, the mug and the plate, in the box"
-    (
-        rf"\b({_SO_MANY})(?: of them)?(?:,| -|:) ({_NAMES}(?:, {_NAMES})*,? and {_NAMES})"
-        rf"(?:(?:,| -) (?={_WHERE})|(?=[.;!]|$))",
-        r"\1 things, \2, ",
-    ),
     (r"\bnothing (?:more|besides)\b", "nothing else"),
-    (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
     (_MAY_GO, r"\1\2 should go"),
     (
         r", (?:say|for example|e\.g\.),? (?=(?:to|in|on|into|onto|at|next|beside|near|behind)\b)",

@@ -75,11 +75,19 @@ def _spread(stack: NounPhrase, said: Any, where: tuple[Destination, ...]) -> Put
     return put_to(Things((_part_of(stack, determiner, *(words or ("objects",))),)), where)
 
 
-_COUNT = one_of({f"the {said}": said for said in NUMBERS if said != "one"})
+_COUNT, _ALL_OF_SO_MANY = (
+    one_of({f"{all_of_them} {said}": said for said in NUMBERS if said != "one"})
+    for all_of_them in ("the", "all")
+)
 _ITS_PARTS = either(
     sequence(phrase("its, all its, all of its, the", "all"), WORDS, build=lambda *said: said),
     sequence("its, the", _COUNT, WORDS, build=lambda *said: said),
-    sequence(optional("all, all of"), "them, its parts, everything", build=lambda: ("all", ())),
+    sequence("all [of] [the|its]", _ALL_OF_SO_MANY, WORDS, build=lambda *said: said),
+    sequence(
+        optional("all, all of"),
+        "them [all], its parts, everything, all of it",
+        build=lambda: ("all", ()),
+    ),
 )
 SPREAD = sequence(
     f"{_APART}, {verbs.UNSTACK}, {verbs.DISMANTLE}",

@@ -1,0 +1,75 @@
+"""Ways of announcing several things: lists with their order or number, what is sorted, towers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive
+
+_WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
+_NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
+_SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
+_NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
+_BARE = re.compile(
+    r"(^|, |; |\b(?:and|then|put) )(\w+) (?=(?:in|on|into|onto|to|goe?s?|next to)\b)"
+)
+_ALL_NAMED = re.compile(
+    r"(^|[.;\n]\s*)([^:.;\n]+): "
+    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
+    r" (?=(?:in|on|into|onto|to)\b)"
+)
+"""What a list before a colon names, all of it."""
+
+
+def _sorted(said: re.Match[str]) -> str:
+    """Bare adjectives below what is to be sorted ("sort the blocks: red in the bin, blue …")."""
+    return said[1] + _BARE.sub(
+        lambda bare: f"{bare[1]}{bare[2]} ones " if is_descriptive(bare[2]) else bare[0], said[2]
+    )
+
+
+def _one_by_one(said: re.Match[str]) -> str:
+    """A list whose order was announced ("these in this order: the cup, the plate")."""
+    asked, where, items = said.groups()
+    parts = re.split(rf"(?:, | and |, and )(?:then )?(?={_NAMED}|\w+$|\w+,)", items)
+    return f"{asked} these{where}: {', then '.join(parts)}"
+
+
+LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        r"\b(put|place|set|stack) (?:these|them|the following|these things|the following things)"
+        r"( (?:on|in|into|onto) [^:.;]*?),? in (?:this|the following) order: ([^.;]*)",
+        _one_by_one,
+    ),
+    (r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b", r"build a \1"),
+    (
+        r"\bmake (?:the|a second|another|a new) (tower|stack) (?=(?:out of|with|from|of|on)\b)",
+        r"make a \1 ",
+    ),
+    (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
+    (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
+    (
+        r"^((?:please )?(?:sort|separate|organi[sz]e|tidy|divide|split|group|put) [^:.,;]*[:,] "
+        r"|[^:.,;]+: )((?:put )?\w+ (?:in|on|into|onto|to|goe?s?|next to) .*)$",
+        _sorted,
+    ),
+    (
+        r"\bthe (top|uppermost|highest) (\w+) off (?=(?:the|my) (?:tower|stack|pile)\b)",
+        r"the \1 \2 of ",
+    ),
+    # What is stacked goes on what was put down just before, not beside it.
+    (
+        r"\b((?:put|place|set|lay) ((?:the|my) [^.,;]*?) (?:on|onto) (?:the|my) [^.,;]*?[,;.]? "
+        r"(?:and |then )*(?:stack|pile) (?:the|my) [^.,;]*? (?:on|onto))(?: top of)? it\b",
+        r"\1 \2",
+    ),
+    # "All three, the cup, the mug and the plate, in the box"
+    (
+        rf"\b({_SO_MANY})(?: of them)?(?:,| -|:) ({_NAMES}(?:, {_NAMES})*,? and {_NAMES})"
+        rf"(?:(?:,| -) (?={_WHERE})|(?=[.;!]|$))",
+        r"\1 things, \2, ",
+    ),
+    (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
+)
+"""What they are put into, in order (see :mod:`etot_cli.reasoning.language.grammar.paraphrases`)."""
