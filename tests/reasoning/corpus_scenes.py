@@ -1435,3 +1435,198 @@ def lettered() -> SceneState:
         item("C", "box", (0.35, -0.20), size=CUBE, color="green"),
         item("tray", "box", (0.55, -0.20), size=(0.2, 0.2, 0.01)),
     )
+
+
+def pen_desk() -> SceneState:
+    """Pens, one of them in a holder, a filing cabinet, an open safe with an envelope."""
+    return scene(
+        drawers("filing_cabinet", (0.63, 0.34), {"top": 0.0, "bottom": 0.0}, color="gray"),
+        item("stapler", "box", (0.63, 0.34), size=(0.12, 0.04, 0.05), color="black",
+             on="filing_cabinet", inside="filing_cabinet.top"),
+        cabinet("safe", (0.63, -0.34), 0.95, color="black"),
+        item("envelope", "box", (0.63, -0.34), size=(0.1, 0.05, 0.015), color="white", on="safe",
+             inside="safe"),
+        item("notebook", "box", (0.46, 0.12), size=(0.15, 0.09, 0.03), color="red"),
+        item("eraser", "box", (0.46, 0.15), size=(0.05, 0.02, 0.015), color="pink", on="notebook"),
+        cup("pen_holder", (0.62, -0.02), size=(0.08, 0.08, 0.1), color="black"),
+        item("red_pen", "pen", (0.62, -0.02), size=(0.14, 0.012, 0.012), color="red",
+             on="pen_holder", inside="pen_holder"),
+        item("green_pen", "pen", (0.30, 0.17), size=(0.14, 0.012, 0.012), color="green"),
+        item("blue_pen", "pen", (0.30, -0.12), size=(0.14, 0.012, 0.012), color="blue"),
+        cup("coffee_cup", (0.28, 0.00), size=(0.075, 0.075, 0.08), color="white"),
+    )  # fmt: skip
+
+
+def playroom() -> SceneState:
+    """A chest with a lid, a bookshelf, blocks by the front edge, a ball in a basket."""
+    return scene(
+        cabinet("toy_chest", (0.63, 0.34), 0.0, color="pink"),
+        item("red_car", "box", (0.63, 0.34), size=(0.09, 0.05, 0.04), color="red",
+             on="toy_chest", inside="toy_chest"),
+        item("bookshelf", "shelf", (0.63, -0.34), boards=("lower", "middle", "upper",),
+             size=(0.25, 0.30, 0.40), color="white"),
+        item("teddy_bear", "box", (0.63, -0.34), size=(0.06, 0.06, 0.08), color="brown",
+             on="bookshelf.middle"),
+        item("basket", "bowl", (0.65, 0.03), size=(0.18, 0.18, 0.09), color="brown"),
+        item("green_ball", "sphere", (0.65, 0.03), size=(0.05, 0.05, 0.05), color="green",
+             on="basket", inside="basket"),
+        item("storybook", "box", (0.44, 0.09), size=(0.17, 0.07, 0.03), color="blue"),
+        item("blue_block", "box", (0.50, 0.09), size=(0.04, 0.04, 0.04), color="blue",
+             on="storybook"),
+        item("red_block_1", "box", (0.30, 0.16), size=(0.04, 0.04, 0.04), color="red",
+             label="red block"),
+        item("yellow_block", "box", (0.26, 0.05), size=(0.045, 0.045, 0.045), color="yellow"),
+        item("red_block_2", "box", (0.30, -0.20), size=(0.04, 0.04, 0.04), color="red",
+             label="red block"),
+    )  # fmt: skip
+
+
+def mug_shelf() -> SceneState:
+    """A bowl in a microwave, cans and jars on a shelf, mugs, fruit."""
+    return scene(
+        cabinet("microwave", (0.63, 0.32), 0.0, color="gray"),
+        item("white_bowl", "bowl", (0.63, 0.32), size=(0.13, 0.13, 0.06), color="white",
+             on="microwave", inside="microwave"),
+        item("shelf", "shelf", (0.66, -0.32), boards=("lower", "upper",), size=(0.25, 0.30,
+             0.40), color="brown"),
+        item("coffee_can", "cylinder", (0.66, -0.37), size=(0.07, 0.07, 0.1), color="black",
+             on="shelf.upper"),
+        item("jam_jar", "cylinder", (0.66, -0.27), size=(0.06, 0.06, 0.08), color="red",
+             on="shelf.lower"),
+        cup("red_mug", (0.32, 0.05), size=(0.08, 0.08, 0.09), color="red"),
+        cup("green_mug", (0.27, -0.27), size=(0.08, 0.08, 0.09), color="green"),
+        item("black_bowl", "bowl", (0.29, 0.23), size=(0.14, 0.14, 0.06), color="black"),
+        item("lemon", "sphere", (0.29, 0.23), size=(0.05, 0.05, 0.05), color="yellow",
+             on="black_bowl", inside="black_bowl"),
+        item("apple", "sphere", (0.52, 0.12), size=(0.06, 0.06, 0.06), color="red"),
+        item("basket", "bowl", (0.44, -0.12), size=(0.19, 0.19, 0.08), color="brown"),
+    )  # fmt: skip
+
+
+def paper_desk() -> SceneState:
+    """Paper balls, pens, sticky notes in a drawer that stands open."""
+    return scene(
+        drawers("filing_cabinet", (0.63, -0.33), {"top": 0.9, "bottom": 0.0}, color="white"),
+        item("sticky_notes", "box", (0.50, -0.33), size=(0.06, 0.06, 0.02), color="pink",
+             on="filing_cabinet", inside="filing_cabinet.top"),
+        cup("pencil_cup", (0.60, 0.04), size=(0.08, 0.08, 0.1), color="black"),
+        item("blue_pen", "pen", (0.60, 0.04), size=(0.14, 0.012, 0.012), color="blue",
+             on="pencil_cup", inside="pencil_cup"),
+        item("notebook", "box", (0.42, 0.10), size=(0.2, 0.14, 0.02), color="green"),
+        item("red_pen", "pen", (0.42, 0.07), size=(0.14, 0.012, 0.012), color="red", on="notebook"),
+        item("pencil", "pen", (0.29, 0.24), size=(0.14, 0.01, 0.01), color="yellow"),
+        item("stapler", "box", (0.45, -0.12), size=(0.13, 0.04, 0.05), color="orange"),
+        item("trash_bin", "bowl", (0.59, 0.34), size=(0.18, 0.18, 0.15), color="gray"),
+        item("paper_ball_1", "sphere", (0.38, 0.32), size=(0.05, 0.05, 0.05), color="white",
+             label="paper ball"),
+        item("paper_ball_2", "sphere", (0.31, -0.22), size=(0.05, 0.05, 0.05), color="white",
+             label="paper ball"),
+    )  # fmt: skip
+
+
+def spice_kitchen() -> SceneState:
+    """A cabinet with its middle drawer open, tomatoes on a board and on the desk."""
+    return scene(
+        drawers("kitchen_cabinet", (0.63, -0.32), {"top": 0.0, "middle": 0.9, "bottom": 0.0},
+             color="brown", label="cabinet"),
+        item("fork", "pen", (0.50, -0.32), size=(0.14, 0.02, 0.015), color="gray",
+             on="kitchen_cabinet", inside="kitchen_cabinet.middle"),
+        item("knife", "pen", (0.63, -0.32), size=(0.15, 0.02, 0.015), color="gray",
+             on="kitchen_cabinet", inside="kitchen_cabinet.top"),
+        item("salt_shaker", "cylinder", (0.63, -0.32), size=(0.04, 0.04, 0.07), color="white",
+             on="kitchen_cabinet"),
+        item("pepper_shaker", "cylinder", (0.30, -0.10), size=(0.04, 0.04, 0.07), color="black"),
+        item("frying_pan", "bowl", (0.58, 0.02), size=(0.22, 0.22, 0.05), color="black"),
+        item("sponge", "box", (0.58, 0.02), size=(0.09, 0.06, 0.03), color="yellow",
+             on="frying_pan", inside="frying_pan"),
+        item("cutting_board", "box", (0.40, 0.28), size=(0.18, 0.26, 0.02), color="brown"),
+        item("tomato_1", "sphere", (0.40, 0.32), size=(0.06, 0.06, 0.06), color="red",
+             label="tomato", on="cutting_board"),
+        item("tomato_2", "sphere", (0.30, 0.06), size=(0.06, 0.06, 0.06), color="red",
+             label="tomato"),
+        cup("green_cup", (0.62, 0.36), size=(0.08, 0.08, 0.1), color="green"),
+    )  # fmt: skip
+
+
+def two_plates() -> SceneState:
+    """Plates of two colours, fruit in a basket and on a plate, mugs."""
+    return scene(
+        item("white_plate", "box", (0.40, 0.24), size=(0.22, 0.22, 0.015), color="white"),
+        item("blue_plate", "box", (0.42, -0.28), size=(0.18, 0.18, 0.015), color="blue"),
+        item("cereal_bowl", "bowl", (0.40, -0.02), size=(0.14, 0.14, 0.06), color="blue"),
+        cup("red_mug_1", (0.60, 0.38), size=(0.1, 0.1, 0.11), color="red", label="red mug"),
+        cup("red_mug_2", (0.27, -0.36), size=(0.07, 0.07, 0.07), color="red", label="red mug"),
+        item("fruit_basket", "bowl", (0.60, 0.02), size=(0.2, 0.2, 0.08), color="brown"),
+        item("green_apple", "sphere", (0.60, 0.02), size=(0.07, 0.07, 0.07), color="green",
+             on="fruit_basket", inside="fruit_basket"),
+        item("red_apple", "sphere", (0.27, 0.08), size=(0.07, 0.07, 0.07), color="red"),
+        item("banana", "capsule", (0.40, 0.29), size=(0.17, 0.04, 0.04), color="yellow",
+             on="white_plate"),
+        item("spoon", "pen", (0.40, -0.02), size=(0.13, 0.02, 0.015), color="gray",
+             on="cereal_bowl", inside="cereal_bowl"),
+        item("milk_carton", "box", (0.60, -0.26), size=(0.06, 0.06, 0.16), color="white"),
+    )  # fmt: skip
+
+
+def tower_and_cups() -> SceneState:
+    """A tower of three blocks, two green blocks, cups, a tray and a box."""
+    return scene(
+        item("red_block", "box", (0.42, 0.12), size=(0.05, 0.05, 0.05), color="red"),
+        item("blue_block", "box", (0.42, 0.12), size=(0.045, 0.045, 0.045), color="blue",
+             on="red_block"),
+        item("yellow_block", "box", (0.42, 0.12), size=(0.04, 0.04, 0.04), color="yellow",
+             on="blue_block"),
+        item("big_green_block", "box", (0.30, -0.06), size=(0.06, 0.06, 0.06), color="green"),
+        item("small_green_block", "box", (0.33, 0.28), size=(0.03, 0.03, 0.03), color="green"),
+        cup("white_cup", (0.48, -0.12), size=(0.08, 0.08, 0.08), color="white"),
+        cup("black_cup", (0.58, 0.04), size=(0.08, 0.08, 0.08), color="black"),
+        item("orange_ball", "sphere", (0.58, 0.04), size=(0.035, 0.035, 0.035), color="orange",
+             on="black_cup", inside="black_cup"),
+        item("purple_ball", "sphere", (0.34, -0.24), size=(0.035, 0.035, 0.035), color="purple"),
+        item("tray", "box", (0.58, 0.31), size=(0.22, 0.22, 0.015), color="gray"),
+        item("wooden_box", "bowl", (0.58, -0.33), size=(0.18, 0.18, 0.07), color="brown"),
+    )  # fmt: skip
+
+
+def screwdriver_bench() -> SceneState:
+    """Screwdrivers, one of them in a drawer that stands open, bins."""
+    return scene(
+        drawers("tool_chest", (0.63, -0.34), {"top": 0.0, "middle": 0.0, "bottom": 0.9},
+             color="red"),
+        item("blue_bin", "bowl", (0.56, 0.34), size=(0.17, 0.17, 0.08), color="blue"),
+        item("yellow_bin", "bowl", (0.56, 0.08), size=(0.17, 0.17, 0.08), color="yellow"),
+        item("bolt", "cylinder", (0.54, 0.31), size=(0.02, 0.02, 0.05), color="gray",
+             on="blue_bin", inside="blue_bin"),
+        item("nut", "box", (0.58, 0.37), size=(0.03, 0.03, 0.015), color="gray", on="blue_bin",
+             inside="blue_bin"),
+        item("board", "box", (0.34, 0.14), size=(0.16, 0.22, 0.02), color="brown",
+             label="wooden board"),
+        item("glue_bottle", "cylinder", (0.37, 0.19), size=(0.05, 0.05, 0.1), color="white",
+             on="board"),
+        item("red_screwdriver", "pen", (0.28, -0.12), size=(0.15, 0.02, 0.02), color="red"),
+        item("yellow_screwdriver", "pen", (0.48, -0.34), size=(0.14, 0.02, 0.02), color="yellow",
+             on="tool_chest", inside="tool_chest.bottom"),
+        item("tape_measure", "box", (0.44, -0.12), size=(0.06, 0.05, 0.04), color="black"),
+        item("pliers", "box", (0.63, -0.34), size=(0.13, 0.05, 0.02), color="black",
+             on="tool_chest", inside="tool_chest.top"),
+    )  # fmt: skip
+
+
+def three_cups() -> SceneState:
+    """Two cups on a tray and one on the desk, a microwave, a fridge."""
+    return scene(
+        cabinet("microwave", (0.63, 0.36), 0.0, color="gray"),
+        cabinet("fridge", (0.63, -0.36), 0.95, color="white"),
+        item("milk", "box", (0.63, -0.36), size=(0.06, 0.06, 0.12), color="white", on="fridge",
+             inside="fridge"),
+        item("tray", "box", (0.43, 0.00), size=(0.16, 0.3, 0.015), color="gray"),
+        cup("red_cup", (0.43, 0.08), size=(0.08, 0.08, 0.09), color="red", on="tray"),
+        cup("white_cup", (0.43, -0.08), size=(0.08, 0.08, 0.09), color="white", on="tray"),
+        cup("blue_cup", (0.30, 0.29), size=(0.08, 0.08, 0.09), color="blue"),
+        item("orange", "sphere", (0.27, 0.02), size=(0.07, 0.07, 0.07), color="orange"),
+        item("orange_bowl", "bowl", (0.64, 0.03), size=(0.17, 0.17, 0.07), color="orange"),
+        item("apple", "sphere", (0.64, 0.03), size=(0.07, 0.07, 0.07), color="green",
+             on="orange_bowl", inside="orange_bowl"),
+        item("apple_juice", "box", (0.28, -0.24), size=(0.05, 0.05, 0.11), color="green",
+             label="apple juice box"),
+    )  # fmt: skip

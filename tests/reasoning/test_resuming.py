@@ -79,6 +79,8 @@ def arrangement(state: SceneState) -> dict[str, object]:
         "Put the pen into the red mug, then put it back where it was.",
         "Put the pen on the plate, then put the pen in the cupboard, then put it on the desk.",
         "Move the mug out of the cupboard and put the ball closest to it on the plate.",
+        "Pick up the pen and put it back where it was.",
+        "Lift the right ball, set it down again and pick up the pen.",
         # Doors and drawers.
         "Put the red ball into the upper drawer.",
         "Open the upper drawer, put the red ball in it and leave it open.",

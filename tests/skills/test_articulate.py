@@ -136,6 +136,13 @@ def test_out_of_reach_is_said() -> None:
     assert record.cause.objects == ("unit",)
 
 
+def test_furniture_that_is_the_wrong_way_round_is_said_to_be_so() -> None:
+    unit = UNIT | {"at": [0.58, 0.0], "yaw_deg": 0, "drawers": drawers(handle={})}
+    cause = episode(unit=unit).do("[OPEN, unit]").record.cause
+    assert cause is not None and cause.kind is CauseKind.UNREACHABLE
+    assert cause.text.endswith("it faces away from the robot")
+
+
 @pytest.mark.parametrize(
     "unit",
     [

@@ -105,7 +105,7 @@ def _lasting(steps: Sequence[Step]) -> tuple[Step, ...]:
     """The steps whose effect is still to be seen at the end.
 
     What is opened and closed later, or put somewhere and put elsewhere later, leaves no trace of
-    the first step; nor does what only had to wait elsewhere.
+    the first step; nor does what only had to wait elsewhere, or was to be lifted.
     """
     kept: list[Step] = []
     parts: set[int] = set()
@@ -114,7 +114,7 @@ def _lasting(steps: Sequence[Step]) -> tuple[Step, ...]:
         if isinstance(step, Put):
             last = tuple(index for index in step.what if index not in things)
             if last and not (step.aside or step.removal):
-                kept.append(replace(step, what=last))
+                kept.append(replace(step, what=last, lifted=False))
             things |= set() if step.aside else set(last)
             continue
         later = parts if isinstance(step, Open | Close) else things

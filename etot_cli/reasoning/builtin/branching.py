@@ -181,7 +181,8 @@ def _branch(
                     to_shut |= {p.address: p for p in shut if p.address not in left_open}
                 if _is_closed_later(target, steps, index, choice, sketch, puts):
                     kept_open.add(target)
-                sketch.put(name, relation, target, grasp, where, kept_open)
+                lift = step.lifted and not course.was_held(name)
+                sketch.put(name, relation, target, grasp, where, kept_open, again=lift)
                 joint = "into" if relation is Relation.INSIDE else "on"
                 words.append(" ".join([name, joint, target, *map(str, where)]))
             if not puts:
@@ -222,14 +223,14 @@ def _bring_back(
 
 
 def _moves_anything(steps: Sequence[Step], choice: Choice, sketch: Sketch) -> bool:
-    """Whether anything is not where it is to be put."""
+    """Whether anything is to be lifted, or is not where it is to be put."""
     placed = (
-        placement
+        (step, placement)
         for index, placements in choice.placements.items()
-        if not (isinstance(step := steps[index], Put) and step.aside)
+        if isinstance(step := steps[index], Put) and not step.aside
         for placement in placements
     )
-    return any(not sketch.holds(*placement) for placement in placed)
+    return any(step.lifted or not sketch.holds(*placement) for step, placement in placed)
 
 
 def _in_the_way(name: str, choice: Choice, sketch: Sketch) -> bool:

@@ -124,6 +124,8 @@ class Put:
     removal: bool = False
     aside: bool = False
     """Only to wait there, anywhere on the desk where it is not in the way."""
+    lifted: bool = False
+    """To be picked up first, even where it is there already."""
     run: int = 0
     """Steps of one run are a set, which may be done in any order; runs follow each other."""
 

@@ -85,6 +85,10 @@ class Course:
         """Whether what is in the hand was taken since the goal was understood."""
         return held is not None and held != self.first.holding
 
+    def was_held(self, name: str) -> bool:
+        """Whether an object has been in the hand since the goal was understood."""
+        return any(seen.holding == name for seen, _ in self._seen)
+
     def behind(self, steps: Sequence[Step], choice: Choice) -> frozenset[tuple[int, str]]:
         """What was reached once and a later step undoes: places of steps, with the object or part.
 

@@ -54,15 +54,17 @@ class Sketch:
         pose: GraspPose | None = None,
         where: tuple[Whereabouts, ...] = (),
         left_open: Collection[str] = (),
+        *,
+        again: bool = False,
     ) -> None:
-        """Brings an object to a place; nothing when it is there.
+        """Brings an object to a place; nothing when it is there, unless it is to go there again.
 
         An insertion into an articulated container is a cycle of its own: open, pick, put, close,
         without the last one for parts that are to be ``left_open``. What comes out of another
         drawer of the same piece is put down in between: of two drawers that stand open, the upper
         one covers the lower one.
         """
-        if self.holds(name, relation, target, where):
+        if self.holds(name, relation, target, where) and not again:
             return
         part = self.scene.part(target) if relation is Relation.INSIDE else None
         if part is None:

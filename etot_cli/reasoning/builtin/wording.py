@@ -41,12 +41,13 @@ def _step(step: Step, goal: Goal) -> str:
         what = " and ".join(_choice(index, goal) for index in step.what)
         things = sum(len(goal.referents[index].options[0]) for index in step.what)
         said = "" if step.grouping is Grouping.ANY or things < 2 else f" {step.grouping.value}"
+        first = f"in_hand: {what}; " if step.lifted else ""
         keys = dict.fromkeys(_key(place) for place in step.places)
         if len(keys) == 1:
             where = " or ".join(dict.fromkeys(_place(place, goal) for place in step.places))
-            return f"{next(iter(keys))}: [{what}, {where}]{_poses(step)}{said}"
+            return f"{first}{next(iter(keys))}: [{what}, {where}]{_poses(step)}{said}"
         ways = (f"{_key(place)} {_place(place, goal)}" for place in step.places)
-        return f"[{what}] {' or '.join(dict.fromkeys(ways))}{_poses(step)}{said}"
+        return f"{first}[{what}] {' or '.join(dict.fromkeys(ways))}{_poses(step)}{said}"
     if isinstance(step, Pick):
         return f"in_hand: {_choice(step.what, goal)}{_poses(step)}"
     assert isinstance(step, Open | Close)  # there is no other step

@@ -52,8 +52,11 @@ _REFERRING = word_set(
 _SWEEPING = word_set("other others rest else everything anything")
 """Of a desk."""
 _DECLARED = frozenset({"is", "are"})
-_OF_ITS_OWN = re.compile(r"\b(?:all|both|each|every|any)(?: of)? the\b")
-"""Such words before a noun speak of what that names."""
+_OF_ITS_OWN = re.compile(
+    r"\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
+    r"|(?<= )(?:all|both) (?=(?:go|are|should|belong|must|need)\b)"
+)
+"""Such words before a noun, or between that and its verb, speak of what it names."""
 
 
 def goal_of(instruction: str, scene: SceneState) -> Goal:
@@ -112,13 +115,16 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """
     said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
     words = words_in(normalized(said[1])) if said else ()
-    counted = {*spellings(STACK)} & {*words} and {*NUMBERS} & {*words}  # "a stack of three: …"
+    # "A stack of three: …", "the tower on the tray: …"
+    counted = {*spellings(STACK)} & {*words} and {*NUMBERS, "on", "in", "onto"} & {*words}
     if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:
         raise UnreadableError(instruction, "")
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(_is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
     heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in OPENING_WORDS
-    below = {*words_in(_OF_ITS_OWN.sub("the", normalized(said[2])))}
+    below = {*words_in(_OF_ITS_OWN.sub("", normalized(said[2])))}
+    if any(_is_name(word, vocabulary) for word in {*words} & {*below, *map(_several, below)}):
+        below -= {"one"}  # "bring the mugs together: put the blue mug next to the red one"
     if not heading or (_REFERRING if named else _SWEEPING if on_desk else set()) & below:
         raise UnreadableError(said[2], "")
     if _reads(said[1], scene, vocabulary):
@@ -145,6 +151,10 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     said = (_as_written(aside, instruction) for aside in plain.asides)
     notes = (f"{text!r} is not asked for: the rest is done" for text in said)
     return replace(goal, notes=(*notes, *goal.notes))
+
+
+def _several(noun: str) -> str:
+    return f"{noun}s"
 
 
 def _as_written(aside: str, instruction: str) -> str:

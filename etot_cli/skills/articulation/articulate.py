@@ -129,10 +129,11 @@ def _no_move(search: PartSearch) -> SkillOutcome:
         handle = "" if any(grasp.bar for grasp in search.part.grasps) else " has no handle and"
         text = f"{info.address}{handle} offers the hand nothing to hold or push to {verb} it"
         return failed(CauseKind.NO_GRASP, [info.owner], text)
+    side = ": it faces away from the robot" if search.faces_away else ""
     return failed(
         CauseKind.UNREACHABLE,
         [info.owner],
-        f"the arm cannot move {info.address} far enough with any of its holds to {verb} it",
+        f"the arm cannot move {info.address} far enough with any of its holds to {verb} it{side}",
     )
 
 

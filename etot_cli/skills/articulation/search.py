@@ -49,6 +49,8 @@ MAX_SINGLE = 3
 ALIKE, ALIKE_COSINE = 0.02, 0.9
 """Two holds are alike when the tool is this close [m] and points and closes in much the same
 directions (cosine): neighbouring candidates differ by more."""
+FACING_COSINE = 0.7
+"""Handles within 45° of straight away from the base are on the far side: no arm bends around it."""
 MAX_FIRST_STEPS = 3
 """Moves that leave a part ajar which a second move is looked for from."""
 
@@ -90,6 +92,19 @@ class PartSearch:
         self._belief = belief
         self._seen: Counter[str] = Counter()
         self._travel = PartTravel(belief, part, part.upper if opening else part.lower)
+
+    @property
+    def faces_away(self) -> bool:
+        """Whether its handles are on the far side of its furniture, as the robot's base sees it."""
+        handles = [grasp.center for grasp in self.part.grasps if grasp.bar]
+        if not handles:
+            return False
+        part = self._travel.at(self._travel.value)
+        body = self._belief.world.entries[self.part.info.owner].body
+        owner = self._belief.object_pose(body).position[:2]
+        outward = (part.position + part.rotation @ np.mean(handles, axis=0))[:2] - owner
+        lengths = float(np.linalg.norm(outward) * np.linalg.norm(owner))
+        return bool(outward @ owner > FACING_COSINE * lengths)
 
     def moves(self, *, in_two: bool = True, explain: bool = True) -> Iterator[PreparedMove]:
         """Moves that follow the part to its end at once; then those that at least get far enough,

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Put, Step, Thing
-from etot_cli.reasoning.builtin.relations import parts_of
+from etot_cli.reasoning.builtin.relations import is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.again import again
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.goals.placing import cover, reorient
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.putting import ensure, put, remove
 from etot_cli.reasoning.language.goals.turns import in_turns
+from etot_cli.reasoning.language.grammar.putting import DOWN
 from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     AvoidClause,
@@ -23,18 +24,20 @@ from etot_cli.reasoning.language.grammar.syntax import (
     CoverClause,
     EnsureClause,
     MoveClause,
+    NounPhrase,
     PickClause,
     PutClause,
     RemoveClause,
     SwapClause,
     Things,
+    Toward,
     TowerClause,
 )
 from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.reference.by_now import note_placed
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words import verbs
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 _RELATIVE_PLACE = re.compile(
@@ -81,10 +84,13 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                 _check_told(context, clause.things)
             for index in context.phrases.things(_one_of_any(clause.things), Role.THEME):
                 context.steps.append(Pick(index, poses))
+                context.discourse.lifted |= {index}
             if clause.to:
                 context.discourse.notes.append(f"{clause.to!r}: {verbs.HELD_UP}")
         case PutClause():
+            moved = {*context.discourse.put}
             put(context, clause)
+            context.steps = _after_a_lift(clause, context, moved)
         case RemoveClause():
             remove(context, clause)
         case MoveClause():
@@ -113,6 +119,22 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
     return context.steps
 
 
+def _after_a_lift(clause: PutClause, context: Context, moved: set[int]) -> list[Step]:
+    """The steps of "put it down" or "put it back", which what was picked up is put by even where
+    it is there all the time. ``moved``: what was put anywhere before.
+    """
+    wheres = [where for group in clause.groups for where in group.destinations]
+    if not all(where.toward is Toward.HOME or where in DOWN for where in wheres):
+        return context.steps
+    lifted = {*context.discourse.things(*(context.discourse.lifted - moved))}
+    return [
+        replace(step, lifted=True)
+        if isinstance(step, Put) and {*context.discourse.things(*step.what)} <= lifted
+        else step
+        for step in context.steps
+    ]
+
+
 def _note_placed(clause: Clause, context: Context) -> None:
     """Notes where things are by now. Of what a clause empties the next one may say where all that
     is in there goes ("clear the tray: whatever is on it goes into the bin").
@@ -122,7 +144,8 @@ def _note_placed(clause: Clause, context: Context) -> None:
     for step in (*context.cleared, *(() if cleared else puts)):
         note_placed(context.discourse, step.what, step.places)
     context.cleared = puts if cleared else []
-    only = isinstance(clause, EnsureClause)  # "only the jar should be left on the shelf"
+    # "Only the jar should be left on the shelf", "nothing but the jar"
+    only = isinstance(clause, EnsureClause | AvoidClause)
     off = [step for step in puts if cleared or (only and step.removal)]
     taken = (index for step in off for index in step.what)
     context.discourse.cleared = frozenset(context.discourse.things(*taken))
@@ -135,8 +158,17 @@ def _all_of(context: Context, index: int) -> int:
     whole = [infos[thing.name] for thing in discourse.things(index) if thing.part is None]
     joints = {part.joint_type for info in whole for part in info.parts}
     by_part = any(matches_any(noun, JOINT_NOUNS.get(joint, ())) for joint in joints)
-    if by_part or all(len(info.parts) < 2 for info in whole):
+    if all(len(info.parts) < 2 for info in whole):
         return index
+    if by_part:
+        moved = [part for info in whole for part in info.parts if is_open(context.scene, part)]
+        named = [mention.referent for mention in discourse.mentions].count(index)
+        if len(moved) != 1 or singular(noun) != noun or len(whole) != 1 or named > 1:
+            return index
+        meant = ((Thing(moved[0].owner, moved[0].name),),)
+        discourse.mentions = [item for item in discourse.mentions if item.referent != index]
+        text = discourse.referents[index].text
+        return discourse.add(Resolved(meant, definite=True, noun=noun), text, Role.PART)
     options = tuple(
         tuple(
             Thing(thing.name, part.name)
@@ -151,9 +183,13 @@ def _all_of(context: Context, index: int) -> int:
 
 
 def _one_of_any(things: Things) -> Things:
-    """Whoever is to pick up "anything red" picks up one thing; elsewhere it is all."""
-    phrases = tuple(
-        replace(phrase, words=("something",)) if phrase.words == ("anything",) else phrase
-        for phrase in things.phrases
-    )
-    return replace(things, phrases=phrases)
+    """Whoever is to pick up "anything red" or "any cup that is red" picks up one thing; elsewhere
+    it is all.
+    """
+
+    def one(phrase: NounPhrase) -> NounPhrase:
+        if phrase.words == ("anything",):
+            return replace(phrase, words=("something",))
+        return replace(phrase, determiner="any one") if phrase.determiner == "any" else phrase
+
+    return replace(things, phrases=tuple(map(one, things.phrases)))

@@ -17,7 +17,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
 )
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax import Clause, Destination, NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import Mention
@@ -28,7 +28,7 @@ from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.several import Phrases
-from etot_cli.reasoning.language.reference.space import is_support, touches
+from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
@@ -175,7 +175,7 @@ class Context:
         if len(outer) != 1 or self.discourse.put & {*themes}:
             return ()
         ((place, below),) = outer
-        fits = place.relation is Relation.INSIDE or is_support(below, self.scene)
+        fits = place.relation is Relation.INSIDE or can_be(below, Role.SURFACE, self.scene)
         return (place,) if fits and below.name != DESK else ()
 
     def mention_part(self, place: Place) -> None:

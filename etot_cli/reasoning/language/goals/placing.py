@@ -41,6 +41,7 @@ _NO_PLACES = (
     Prep.COLORED,
 )
 _ITS_PLACE = "back to its place"
+_WAS_THERE = "where it was"
 
 
 def put_back(
@@ -52,18 +53,31 @@ def put_back(
     (where,) = group.destinations
     told = isinstance(context.last, EnsureClause) and context.order is Order.SAID
     told = told and where.word in ("", "back", _ITS_PLACE)
+    lifted = context.discourse.lifted
     for index in themes:
         if told and any(isinstance(s, Put) and index in s.what for s in context.done):
             text = context.discourse.referents[index].text
             context.discourse.notes.append(f"{text!r}: back to where it is said to belong")
             continue
         things = context.only(index, "say which one goes back")
-        if not {*things} & {*context.discourse.things(*context.discourse.put)}:
-            text = context.discourse.referents[index].text
-            raise ReferenceProblem(text, "not moved before; say where that is to go", 3)
-        for thing in things:
-            place = context.home(thing)
+        moved = {*things} & {*context.discourse.things(*context.discourse.put, *lifted)}
+        for thing, before in zip(
+            things, things if moved else _gone(context, index, where), strict=True
+        ):
+            place = context.home(before)
             context.steps.append(Put((context.single(thing, thing.name),), (place,)))
+
+
+def _gone(context: Context, theme: int, where: Destination) -> tuple[Thing, ...]:
+    """For "put the cup where it was", which has not been moved: the one thing that has gone from
+    there.
+    """
+    gone = tuple(dict.fromkeys(context.discourse.things(*context.discourse.put)))
+    if _WAS_THERE not in where.word or len(context.discourse.things(theme)) != len(gone) != 1:
+        text = context.discourse.referents[theme].text
+        raise ReferenceProblem(text, "not moved before; say where that is to go", 3)
+    context.discourse.notes.append(f"{where.word!r}: where {gone[0].address} was")
+    return gone
 
 
 def spread(context: Context, place: Place) -> Place:

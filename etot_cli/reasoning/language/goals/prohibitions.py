@@ -189,9 +189,19 @@ def check_alone(
             more = f"the {len(there) - 1} others" if there[2:] else there[-1]
             others = f"{there[0]} and {more}" if there[1:] else there[0]
             alike = {thing.name for thing in context.all_called(phrase, Role.THEME)}
-            if chosen and alike - own and not alike & {*there}:
+            of_several = alike - own and not alike & {*there}
+            if chosen and of_several:
                 context.discourse.notes.append(f"{phrase.text!r}: {others} stays there")
                 continue
+            stays = all(
+                touches(Thing(name), at, context.scene)
+                for name in own
+                for at in context.discourse.things(*where)
+            )
+            gone = all(_goes(context, name) for name in there)
+            if in_the_end and of_several and not (stays or gone):
+                # "Only the red pen goes into the box": none of the pens, or nothing else?
+                raise ReferenceProblem(phrase.text, f"say whether {others} is to stay there", 4)
             if in_the_end and all(thing.name != DESK for thing in context.discourse.things(*where)):
                 alone = [name for name in there if not _goes(context, name)]
                 rest = tuple(context.single(Thing(name), name) for name in alone)

@@ -86,9 +86,11 @@ from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
 
-def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
+def put(
+    context: Context, clause: PutClause, *, wherever: bool = False, going: bool = False
+) -> None:
     """Adds the steps of a clause that says what goes where; ``wherever``: what is there already
-    may be meant as well.
+    may be meant as well; ``going``: it is said what goes there, not how it is in the end.
     """
     if clause.turns != Turns() and len(clause.groups) > 1:
         text = clause.groups[-1].things.text
@@ -148,7 +150,7 @@ def put(context: Context, clause: PutClause, *, wherever: bool = False) -> None:
             only if chosen_from else group.things.phrases,
             themes,
             places,
-            chosen=chosen_from,
+            chosen=chosen_from or going,
             in_the_end=not chosen_from,
         )
         check_taken(context, group, themes, places)
@@ -244,7 +246,7 @@ def ensure(context: Context, state: State) -> None:
     away = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
     before, done = context.discourse.put - away, len(context.steps)
     said = replace(put_to(Things(state.subjects), state.destinations), stays=state.kept)
-    put(context, said, wherever=True)
+    put(context, said, wherever=True, going=state.going)
     for step in (step for step in context.steps[done:] if isinstance(step, Put)):
         again = before.intersection(step.what)
         if again and any(place.beside for place in step.places):

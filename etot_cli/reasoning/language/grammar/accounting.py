@@ -72,6 +72,7 @@ _FIXED = """
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
     back on [the] top of, right (next|behind|beside|in front|after|once|when), not both [of them],
+    right (above|below|under|underneath|beneath),
     at the very, (first|last) of all, last but not least,
     one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, none of,

@@ -67,6 +67,7 @@ _THE_PLACE = sequence(
     either(
         sequence("in [the] place of", noun_phrase),
         phrase("in its place", NounPhrase(pronoun="it", text="its")),
+        phrase("in their place", NounPhrase(pronoun="them", text="their")),
         phrase("in (his|her) place", NounPhrase(pronoun="him", text="its")),
     ),
 )

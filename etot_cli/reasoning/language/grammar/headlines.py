@@ -59,7 +59,11 @@ def _tabled(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
 
 
 def taken_out(things: Things) -> RemoveClause | None:
-    """What is taken from somewhere, without a verb."""
+    """What is taken from somewhere, without a verb; "then the one from the tray" goes on with what
+    was done before.
+    """
+    if any(np.is_elliptic for np in things.phrases):
+        return None
     all_of_them = len(sources(things)) == len(things.phrases)
     doing = VERB_WORDS | words_of((verbs.CLOSE,))  # "shut off the fridge"
     return RemoveClause(things) if all_of_them and things.phrases[0].head not in doing else None

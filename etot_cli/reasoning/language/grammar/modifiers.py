@@ -361,6 +361,11 @@ _modifier = either(
         either(
             sequence("[and] not", PLAIN_MODIFIER),
             sequence("and not", QUALITY),
+            sequence(
+                after("that", "which"),
+                "and [(that|which)] (is|are) not",
+                either(PLAIN_MODIFIER, QUALITY),
+            ),
             sequence(after("not", "neither"), "nor", either(PLAIN_MODIFIER, QUALITY)),
         ),
         build=_denied,

@@ -80,6 +80,13 @@ def _in_turn(said: re.Match[str]) -> str:
     return f"{away} {where}{joint} {other} {place}"
 
 
+def _one_by_one(said: re.Match[str]) -> str:
+    """A list whose order was announced ("these in this order: the cup, the plate")."""
+    asked, where, items = said.groups()
+    parts = re.split(rf"(?:, | and |, and )(?:then )?(?={_NAMED}|\w+$|\w+,)", items)
+    return f"{asked} these{where}: {', then '.join(parts)}"
+
+
 _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     *CONTRACTIONS,
     *OBSTACLES,
@@ -94,6 +101,43 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"i will need \1 ",
     ),
     (r"^((?:please )?leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
+    (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={_NAMED}|(?:it|them)\b)", r"\1set "),
+    (
+        r"\byou (?:will|can|should) find (it|(?:the|my) \w+(?: \w+)?) "
+        r"(?=(?:in|on|inside|next|beside|behind|near|at)\b)",
+        r"\1 is ",
+    ),
+    (
+        r"\bthere is nothing (?:left )?(?:in|on|inside) ((?:the|my) \w+(?: \w+)?) (?=and its\b)",
+        r"\1 is empty ",
+    ),
+    (
+        r"\b(put|place|set|stack) (?:these|them|the following|these things|the following things)"
+        r"( (?:on|in|into|onto) [^:.;]*?),? in (?:this|the following) order: ([^.;]*)",
+        _one_by_one,
+    ),
+    (
+        r"\bon the (?:\w+ )?(?:shelf|bookcase|rack|unit), "
+        r"(?=on the same (?:level|board|shelf) as\b)",
+        "",
+    ),
+    (r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b", r"build a \1"),
+    (
+        r"\bmake (?:the|a second|another|a new) (tower|stack) (?=(?:out of|with|from|of|on)\b)",
+        r"make a \1 ",
+    ),
+    (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
+    (r"\b(set|put|place|lay) ([^.,;]*?) aside (?=(?:on|in|next to|beside) )", r"\1 \2 "),
+    (rf"\b((?:on|in) {_NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
+    (r"^(without \w+ing any other [^,.;]*), ([^.;]*)", r"\2 \1"),
+    (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
+    (r"\bleave no (?=\w)", "do not leave any "),
+    (
+        rf"\b(?:take|carry|move|bring|shift) ({_NAMED} [^.,;:]*?) (?:over |across )?"
+        rf"to ({_NAMED} [^.,;:]*?), (?:right |just |close )?"
+        r"(next to|beside|behind|in front of|to the (?:left|right) of) it(?=[.,;!?]| and\b|$)",
+        r"put \1 \3 \2",
+    ),
     (
         r"\b((?:need|want|have|like|love|is|are) (?:[^.,;]* )?)out "
         rf"(?=on(?:to)? (?:the|my) {_TABLE})",

@@ -86,7 +86,7 @@ _SO_THAT_IT_IS = sequence(
 
 
 def _got(gathered: bool, group: PutGroup) -> PutClause:
-    several = gathered and any(singular(np.head) != np.head for np in group.things.phrases)
+    several = gathered and group.things.may_be_several
     return PutClause((group,), far_fetched=0 if several else 2)
 
 
@@ -142,6 +142,10 @@ def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) ->
         told = any(item.prep is Prep.IN for np in things.phrases for item in np.modifiers)
         return replace(put_to(things, (where,)), far_fetched=2 * told)
     out_of = (m.prep is Prep.FROM for np in things.phrases for m in np.modifiers)
+    there = [[item.prep for item in np.modifiers] in ([Prep.IN], [Prep.ON]) for np in others]
+    if all(there) and said != "in with":
+        # "With the pen in the cup" is where the pen is, if that is there.
+        return replace(put_to(things, (where,)), far_fetched=2)
     described = any(np.modifiers for np in others) or not all(out_of)
     inside = said == "in with"
     known = (*THE_WORDS, *([""] if inside else ()))  # "in with teddy", "in with it"

@@ -192,9 +192,14 @@ BESIDES_SO = sequence(
 
 
 def _going(verb: str, clause: EnsureClause | None) -> EnsureClause | None:
-    """What "go" or "belong" somewhere are several things."""
-    odd = clause is not None and disagrees(clause.states[0].subjects, verb)
-    return replace(clause, far_fetched=OF_SEVERAL) if odd and clause is not None else clause
+    """What goes or belongs somewhere; what "go" there are several things."""
+    if clause is None:
+        return None
+    if {"go", "goes", "belong", "belongs"} & {*verb.split()}:
+        going = tuple(replace(state, going=not state.word) for state in clause.states)
+        clause = replace(clause, states=going)
+    odd = disagrees(clause.states[0].subjects, verb)
+    return replace(clause, far_fetched=OF_SEVERAL) if odd else clause
 
 
 def _so_wanted(cost: int, nps: tuple[NounPhrase, ...], said: Any) -> EnsureClause | None:
@@ -343,6 +348,7 @@ ENSURE = either(
             (1, (verbs.WANTED, NP_LIST)),
             (0, (verbs.CAN, NP_LIST, verbs.BE_PUT)),
             (0, (verbs.THERE_BE, NP_LIST)),
+            (0, (verbs.ENSURE, verbs.THERE_IS, NP_LIST)),
             (0, (sequence(verbs.THERE_NOT_BE, noun_phrase, build=_there_is_none),)),
         )
     ),

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
+from etot_cli.reasoning.language.words.categories import MASS_NOUNS
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
@@ -95,6 +96,16 @@ class Things:
         bare = (np.words for np in self.phrases if len(np.words) == 1 and not np.modifiers)
         return any(matches_any(noun, THING_NOUNS) for (noun,) in bare)
 
+    @property
+    def may_be_several(self) -> bool:
+        """Whether more than one thing of some sort is spoken of, be it by "fruit"."""
+        return bool(self.phrases[1:]) or any(
+            np.head in MASS_NOUNS
+            or singular(np.head) != np.head
+            or np.determiner.split()[:1] in (["all"], ["both"], ["every"])
+            for np in self.phrases
+        )
+
     def taken_from(self, source: NounPhrase | None) -> Things:
         """The same, each of them from somewhere."""
         out = () if source is None else (Modifier(Prep.FROM, (source,)),)
@@ -151,7 +162,7 @@ class State:
 
     ``word``: the adjective in "the drawer is closed". ``kept``: it is so and has to stay so.
     ``denied``: it was said that the opposite must not be ("is not open"), or that they must not be
-    there.
+    there. ``going``: they go or belong there, which says nothing of what is there already.
     """
 
     subjects: tuple[NounPhrase, ...]
@@ -159,6 +170,7 @@ class State:
     word: str = ""
     kept: bool = False
     denied: bool = False
+    going: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,6 +183,8 @@ class PickClause:
     """To whom it is to be handed ("to me")."""
     wanted: bool = False
     """Somebody wants it; what is said of its place may say where."""
+    far_fetched: int = 0
+    """By how much the words rather mean that several things are brought there."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
 from etot_cli.skills.action import GraspPose
 
@@ -67,17 +68,23 @@ POSES = alternatives(POSE, 1)
 SOURCE = sequence(places.SOURCE, noun_phrase)
 
 
-def _pick(ahead: Any, before: Any, things: Things, source: Any, after: Any) -> PickClause | None:
+def _pick(
+    ahead: Any, before: Any, verb: str, things: Things, source: Any, after: Any
+) -> PickClause | None:
     if (before and after) or (ahead and source):
         return None
-    poses = dict.fromkeys(before or after or ())
-    return PickClause(things.taken_from(ahead or source), tuple(poses))
+    poses = tuple(dict.fromkeys(before or after or ()))
+    gathered = verb in _GATHERED and things.may_be_several and things.phrases[-1].modifiers
+    return PickClause(things.taken_from(ahead or source), poses, far_fetched=int(bool(gathered)))
+
+
+_GATHERED = frozenset(spellings(verbs.GATHER))
 
 
 PICK = sequence(
     optional(sequence("in, inside, on, from", noun_phrase, OPTIONAL_COMMA), None),
     optional(sequence(POSES, OPTIONAL_COMMA), None),
-    verbs.PICK,
+    phrase(verbs.PICK),
     THINGS,
     optional("up"),
     optional(either(SOURCE, sequence("(from|off [of]) the top of", noun_phrase)), None),

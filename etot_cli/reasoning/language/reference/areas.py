@@ -42,6 +42,12 @@ def in_area(
     many = len(things) if count is None and not nearest else count or 1
     if nearest:
         fitting = things
+    if not fitting and len(things) > 1:
+        # "The back left one" of two in the middle is the left one if it is as far back.
+        ahead = (t for t in things if all(_leads(area, t, o, scene) for o in things if o != t))
+        fitting = list(ahead) if many == 1 else []
+        if Nearby.AT_CORNER in area:
+            fitting = [t for t in fitting if _leads(area, t, Thing(DESK), scene)]
     if not fitting:
         names = ", ".join(thing.address for thing in things)
         raise ReferenceProblem(phrase, f"none of {names} stands there", 1)
@@ -57,6 +63,19 @@ def _standing_in(area: Area, things: list[Thing], scene: SceneState) -> list[Thi
     where = [Whereabouts(relation) for relation in area]
     on_desk = (thing for thing in things if thing.name in scene.states)
     return [thing for thing in on_desk if all(holds(item, thing.name, scene) for item in where)]
+
+
+def _leads(area: Area, thing: Thing, other: Thing, scene: SceneState) -> bool:
+    """Whether a thing is plainly farther to one of an area's sides than another, and to none less
+    far.
+    """
+    farther = [
+        sign * (of(thing, scene) - of(other, scene))
+        for ends in (_ENDS[side] for side in area if side in _ENDS)
+        for sign, of in zip(ends, (space.to_the_left, space.to_the_back), strict=True)
+        if sign is not None
+    ]
+    return len(farther) == 2 and min(farther) > -space.OFFSET and max(farther) > NEXT_TO
 
 
 def _distance(area: Area, thing: Thing, scene: SceneState) -> float:

@@ -39,6 +39,8 @@ class Discourse:
     """What words were taken for, where that was a choice."""
     put: frozenset[int] = frozenset()
     """Referents that have been given a place."""
+    lifted: frozenset[int] = frozenset()
+    """Referents that were to be picked up."""
     last_landmark: tuple[int, int, Nearby] = (-1, -1, Nearby.NEAR)
     """Number of a clause, the referent that something is put beside there, and how it is to be."""
     stacks: dict[int, tuple[int, int]] = field(default_factory=dict)
@@ -275,7 +277,8 @@ class Discourse:
             )
             if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
-        return tuple(found)
+        # What was but taken away may be told a place yet.
+        return tuple(thing for thing in found if thing not in self.cleared)
 
     def left_open(self) -> tuple[tuple[Thing, ...], ...]:
         """What may be meant by what was but named last, where that is one of several phrases ("the

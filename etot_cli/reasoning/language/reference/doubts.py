@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import rows, space
@@ -20,6 +21,7 @@ from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     CONTAINER_NOUNS,
+    DESK_NOUNS,
     LEVELS,
     ORDINALS,
     REFUSE,
@@ -129,7 +131,8 @@ def check_on_side(
     rivals: Sequence[Thing],
     scene: SceneState,
 ) -> None:
-    """Refuses "the cup closest to you on the left" where that one stands on the right.
+    """Refuses "the cup closest to you on the left" where that one stands on the right, and "the cup
+    on the left of the table" where that one stands in a cupboard there, and another beside it.
 
     Args:
         asked: the phrase.
@@ -143,11 +146,22 @@ def check_on_side(
     """
     by_distance = any(item.prep in (Prep.NEAREST, Prep.FARTHEST) for item in modifiers)
     sides = [side_word(" ".join(item.words)) for item in modifiers if item.prep is Prep.SIDE]
-    for side in sides if by_distance and len(things) == 1 else ():
+    asides = [item for item in modifiers if item.prep is Prep.SIDE and not item.denied]
+    of_desk = any({*DESK_NOUNS} & {*item.words} for item in asides)
+    away = of_desk and all(_is_in_furniture(thing, scene) for thing in things)
+    for side in sides if (by_distance or away) and len(things) == 1 else ():
         beyond = [t for t in rivals if rows.is_beyond_middle(side or "", t, scene)]
+        if not by_distance:
+            beyond = [thing for thing in beyond if not _is_in_furniture(thing, scene)]
         if beyond and not {*things} & {*beyond}:
             named = [thing.address for thing in (*things, *beyond)]
             raise AmbiguousReference(asked.phrase.text, named)
+
+
+def _is_in_furniture(thing: Thing, scene: SceneState) -> bool:
+    return thing.name in scene.states and any(
+        not scene.infos[name].movable for name in bearers(scene, thing.name)
+    )
 
 
 def check_modified(

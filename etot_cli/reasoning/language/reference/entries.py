@@ -28,12 +28,14 @@ from etot_cli.reasoning.language.words.lexicon import (
     HELPING_NOUNS,
     JOINT_NOUNS,
     KIND_GROUPS,
+    LIDDED,
     SORTS,
     TWINS,
     basic_color,
     is_plural_of,
     matches_any,
     singular,
+    word_set,
 )
 from etot_cli.world.state import ObjectInfo
 
@@ -46,6 +48,10 @@ what is called so from others, but names nothing where the noun is for it."""
 SHAPES = frozenset({"block", "cube", "ball", "sphere", "cylinder", "square", "triangle", "star"})
 PORTIONS = frozenset({"roll", "pack", "bundle", "stick", "bar", "sheet", "bag", "reel", "spool"})
 """Nouns for so much of what stands before them, which is what the thing is."""
+PIECES = word_set(
+    "piece slice loaf chunk lump wedge hunk block cube ball head bunch clove ear bulb"
+)
+"""Other nouns for one thing of what is told behind an "of" ("the loaf of bread")."""
 _VESSELS = frozenset(
     noun
     for kind, groups in KIND_GROUPS.items()
@@ -338,9 +344,15 @@ def object_entry(info: ObjectInfo) -> Entry:
 def part_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
     """The words of an object's drawers and doors, ``owner`` being its own."""
     nouns = {part: JOINT_NOUNS.get(part.joint_type, ()) for part in info.parts}
+    lidded = any(singular(word) in LIDDED for word in owner.heads)
     return [
-        # A door is no lid.
-        _level_entry(info, owner, Thing(info.name, part.name), said[: 1 if part.front else None])
+        # A door is no lid, unless it is all that a chest has.
+        _level_entry(
+            info,
+            owner,
+            Thing(info.name, part.name),
+            said[: 1 if part.front and not lidded else None],
+        )
         for part, said in nouns.items()
     ]
 

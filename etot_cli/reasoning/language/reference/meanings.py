@@ -49,6 +49,8 @@ from etot_cli.reasoning.language.words.lexicon import (
     same_noun,
     singular,
 )
+from etot_cli.reasoning.language.words.nouns import STACK
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
@@ -71,6 +73,10 @@ class Meanings:
 
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""
+        bare = phrase.determiner == "the" and phrase.words in (("one",), ("ones",))
+        if bare and not (phrase.modifiers or phrase.owner or phrase.without):
+            # "The one on the board" is the one that is there.
+            raise ReferenceProblem(phrase.text, "say which one", 2)
         noun, moved = self.discourse.last_noun(role), self.discourse.last_noun(Role.THEME)
         plain = usual_form(phrase)
         bare = plain.head in ("", "one", "ones") and not plain.pronoun
@@ -108,9 +114,14 @@ class Meanings:
             if spoken and matches_any(noun, THING_NOUNS):
                 raise ReferenceProblem(phrase.text, "name what is meant, and what is left out", 4)
             plural = phrase.pronoun in PLURAL_PRONOUNS
-            phrase = replace(
-                phrase, pronoun="", determiner="all" if plural else "the", words=(noun,)
-            )
+            it = replace(phrase, pronoun="", determiner="all" if plural else "the")
+            moved = discourse.last_noun(Role.THEME)
+            if spoken and moved not in (None, noun):
+                # "Put the cup on the plate. It is in the box": what that is true of.
+                with suppress(ReferenceProblem):
+                    return self._meaning(it.called(noun), role, noun_before)
+                noun = moved or noun
+            phrase = it.called(noun)
         possessor = _POSSESSORS.get(phrase.determiner.split(" ")[0])
         if possessor:
             pronoun = NounPhrase(pronoun=possessor, text=phrase.determiner)
@@ -208,6 +219,9 @@ class Meanings:
         on it; else the one that goes by its noun alone, or is called after it ("the soap … its
         dish", a soap dish).
         """
+        noun_of_it = self.discourse.last_noun(Role.ANY) or ""
+        if owner.pronoun and noun_of_it in spellings(STACK):
+            owner = NounPhrase("the", (noun_of_it,), text=owner.text)  # not its lowest block
         ways = [
             replace(phrase, modifiers=(Modifier(prep, (owner,)), *phrase.modifiers))
             for prep in (Prep.OF, Prep.WITH, Prep.FROM)

@@ -7,6 +7,7 @@ to be understood; what is taken for something near it is noted.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -66,6 +67,8 @@ BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
 _INCOMPLETE = frozenset({*THE_WORDS, "", "a", "an"})
 """Determiners that do not stand without a noun."""
+_WHATEVER = re.compile(r"\b(?:that|which|still)\b")
+"""In "any cup that is red" and "any cup still on the desk" it makes "any" speak of all of them."""
 
 
 Pronoun = Callable[[NounPhrase], Sequence[Sequence[Thing]]]
@@ -204,7 +207,9 @@ class Resolver:
         single = quantity.every or phrase.determiner == "one" or several or out
         if single and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
-        if match.plural and phrase.words and phrase.determiner in ("any", "either"):
+        several = match.plural and bool(phrase.words) and phrase.determiner in ("any", "either")
+        whatever = phrase.determiner == "any" and _WHATEVER.search(phrase.text) is not None
+        if several or (whatever and role is Role.THEME):
             quantity = Quantity(every=True)
         return Asked(phrase, role, words, noun, quantity, match)
 
@@ -260,8 +265,10 @@ class Resolver:
         phrase = next(iter(modifier.phrases), NounPhrase())
         if modifier.prep not in (Prep.OF, Prep.FROM, Prep.IN) or not self.names_stack(phrase):
             return []
-        (inner, *_) = (*(np for m in phrase.modifiers for np in m.phrases), NounPhrase())
-        every = replace(inner, determiner="all", words=inner.words or ("objects",))
+        of = [m for m in phrase.modifiers if m.prep is Prep.OF]
+        (inner, *_) = (*(np for m in of for np in m.phrases), NounPhrase())
+        there = tuple(m for m in phrase.modifiers if m not in of)  # "the tower on the mat"
+        every = replace(inner, determiner="all", words=inner.words or ("objects",)).told_by(*there)
         things = things_in(self.resolve(replace(every, text=phrase.text), Role.ANY).options)
         return stack_of(things, self._scene, phrase.text)
 

@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.destinations import FILLED, ONWARD, TOP
-from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import (
@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.several import Phrases
+from etot_cli.reasoning.language.reference.spots import Spots
 from etot_cli.reasoning.language.reference.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.usual_form import usual_form
 from etot_cli.reasoning.language.reference.vessels import bears, lies_on
@@ -37,7 +38,6 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN, Prep
-from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
@@ -59,6 +59,7 @@ class Places:
         self._phrases = phrases
         self.discourse = discourse
         self._surroundings = Surroundings(scene, phrases, discourse)
+        self._spots = Spots(scene, phrases, discourse, self._surroundings)
 
     def on_the_desk(self) -> Place:
         """Somewhere on the desk."""
@@ -101,7 +102,7 @@ class Places:
                 there = self._where_they_are(destination.word, themes) if stays else ()
                 found = list(there or self._here(destination.word, themes))
             elif destination.toward is Toward.BESIDE and (
-                around := self._around(destination.beside, themes)
+                around := self._spots.around(destination.beside, themes)
             ):
                 found = [around]
             elif destination.toward is Toward.BESIDE:
@@ -128,7 +129,7 @@ class Places:
                 if destination.word in (TOP, *AT_END):
                     found = [self._at_end(place, destination.word) for place in found]
                 if destination.beside:
-                    found = self._narrowed(found, destination, themes)
+                    found = self._spots.narrowed(found, destination, themes)
             places.update(dict.fromkeys(found))
         return tuple(places)
 
@@ -272,65 +273,6 @@ class Places:
         if sinks and inner:  # "one in it and one on it"
             raise ReferenceProblem(text, "what goes on it would be in it, too; say 'in'", 3)
         return index
-
-    def _narrowed(
-        self, places: list[Place], destination: Destination, themes: Sequence[int]
-    ) -> list[Place]:
-        """Places on a surface, at some part of it only."""
-        text = " or ".join(phrase.text for phrase in destination.targets)
-        surfaces = [place for place in places if place.relation is Relation.ON]
-        slides = JOINT_NOUNS["slide"][:1]  # "to the drawer in the middle" is into it
-        drawer = any(matches_any(np.words[-1], slides) for np in destination.targets if np.words)
-        if not surfaces or (drawer and len(surfaces) < len(places)):
-            if within := self._within(places, destination.beside, themes):
-                return within
-            raise ReferenceProblem(text, "there is no left or right inside a container", 2)
-        # "On the plate on the left" is the left one of several, not the left part of any, and "on
-        # the plate next to the cup" the one of several that is there.
-        targets = [item for item in destination.targets if not item.pronoun]
-        meant = [self._phrases.meaning(item, Role.SURFACE).options for item in targets]
-        things = [thing for options in meant for thing in things_in(options)]
-        upon = {t for p in places if p.where is not None for t in self.discourse.things(p.where)}
-        for phrase in (
-            np for b in destination.beside if not b.relation.landmarks for np in b.phrases
-        ):
-            # "On the tray at the back of the table" may say which tray, but no part of it.
-            if not {*things_in(self._phrases.meaning(phrase, Role.ANY).options)} & {*things, *upon}:
-                raise ReferenceProblem(phrase.text, f"it is no part of {text}", 2)
-        stacked = [t for t in things if t.name != DESK and self._scene.infos[t.name].boards]
-        part = all(item.relation.landmarks == 0 and not item.phrases for item in destination.beside)
-        if len(things) > 1 or (part and stacked and things[0].board is None):
-            raise ReferenceProblem(text, "say which one of them", 2)
-        near = self._surroundings.near(destination.beside, themes, {thing.name for thing in things})
-        return [replace(place, beside=near) for place in surfaces]
-
-    def _around(self, beside: Sequence[Beside], themes: Sequence[int]) -> Place | None:
-        """Beside what lies in a container is in there; None where it does not."""
-        around = self._surroundings.container(beside)
-        if around is None or any(item.relation is not Nearby.NEXT_TO for item in beside):
-            return None
-        near = self._surroundings.near(beside, themes, {around.name})
-        inside = Resolved(((around,),), definite=True, noun=around.part or around.name)
-        index = self.discourse.add(inside, around.address, Role.CONTAINER)
-        self.discourse.notes.append(f"{beside[0].text!r}: in {around.address}, where that is")
-        return Place(Relation.INSIDE, index, near)
-
-    def _within(
-        self, places: Sequence[Place], beside: Sequence[Beside], themes: Sequence[int]
-    ) -> list[Place]:
-        """Places in a container beside what lies in it; none where that lies elsewhere."""
-        if any(item.relation.landmarks == 0 for item in beside):
-            return []
-        found = []
-        for place in places:
-            options = () if place.where is None else self.discourse.referents[place.where].options
-            held = tuple(o for o in options if self._surroundings.are_in(o[0], beside))
-            if place.where is not None and held and place.relation is Relation.INSIDE:
-                near = self._surroundings.near(beside, themes, {held[0][0].name})
-                referent = self.discourse.referents[place.where]
-                self.discourse.referents[place.where] = replace(referent, options=held)
-                found.append(replace(place, beside=near))
-        return found
 
     def _where_they_are(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
         """In the one thing spoken of that holds them ("keep the bowl in there")."""

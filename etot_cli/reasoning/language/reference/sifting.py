@@ -140,6 +140,9 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
         names = names_of([entry for entry, _ in apt])
         sifted.notes.append(f"{TAKEN_FOR}{word!r} for what {names} is for")
         sifted.dropped.append(word)
+    elif word in MATERIALS and len(graded) == 1 and not MATERIALS & {*graded[0][0].own}:
+        sifted.notes.append(f"{word!r} or not, only {names_of([graded[0][0]])} is called so")
+        sifted.dropped.append(word)
     else:
         sifted.unknown.append(word)
 

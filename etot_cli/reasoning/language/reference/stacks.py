@@ -55,7 +55,7 @@ def of_stack(
     for modifier in modifiers:
         if members := stack(modifier):
             names = ", ".join(thing.name for thing in members)
-            things = [thing for thing in things if thing in members]
+            things = [thing for thing in things if (thing in members) != modifier.denied]
             if not things:
                 raise ReferenceProblem(modifier.phrases[0].text, f"it is {names}", 2)
         else:

@@ -127,13 +127,26 @@ class Surroundings:
         mentions = self._discourse.mentions
         nouns = [mention.noun for mention in mentions if mention.referent in themes]
         phrases = list(beside.phrases)
-        for number, phrase in enumerate(phrases if nouns and below else ()):
+        for number, phrase in enumerate(phrases if nouns else ()):
             if phrase.head == "one":
-                with suppress(ReferenceProblem):
-                    options = self._phrases.meaning(phrase, Role.ANY).options
-                    if all(thing.name in below for thing in things_in(options)):
-                        phrases[number] = phrase.called(singular(nouns[-1]))
+                told = phrase.called(singular(nouns[-1]))
+                found, alike = (
+                    self._meant(phrase),
+                    self._meant(told)
+                    - {thing for index in themes for thing in self._discourse.things(index)},
+                )
+                # Nothing is beside a drawer, either, that something was taken out of.
+                if found and all(thing.part or thing.name in below for thing in found):
+                    phrases[number] = told
+                elif len(found) == len(alike) == 1 and found != alike:
+                    raise AmbiguousReference(phrase.text, [t.name for t in (*found, *alike)])
         return replace(beside, phrases=tuple(phrases))
+
+    def _meant(self, phrase: NounPhrase) -> set[Thing]:
+        """All that a landmark's phrase may mean; nothing where it means nothing."""
+        with suppress(ReferenceProblem):
+            return {*things_in(self._phrases.meaning(phrase, Role.ANY).options)}
+        return set()
 
     def _check_region(self, phrase: NounPhrase, region: Beside) -> None:
         """Whether a thing has such a region. The left side of what can be moved is beside it, the

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference.entries import (
     EXACT,
     HEAD,
+    PIECES,
     PORTIONS,
     Entry,
     board_entries,
@@ -223,7 +224,7 @@ class Vocabulary:
             # "Put a on b" where boxes are called A and B; "a cup" is no such thing.
             told = _BEHIND_NAMES if letter in "ai" else ""
             text = re.sub(rf"(?<![\w'~]){letter}(?![\w']){told}", f"{letter}_", text)
-        for portion in (*PORTIONS, "piece"):
+        for portion in sorted(PORTIONS | PIECES):
             # "Both rolls of tape" where they are but called tape
             if re.search(rf"\b{portion}s? of\b", text) and not self.is_known(portion):
                 text = re.sub(rf"\b{portion}(s?) of ([a-z]+)\b", self._portioned, text)

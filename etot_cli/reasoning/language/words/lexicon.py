@@ -58,6 +58,7 @@ TWINS: tuple[tuple[str, ...], ...] = (
     ("faucet", "tap"), ("phone", "telephone", "cellphone"), ("tv", "television", "telly"),
     ("flashlight", "torch"), ("sneaker", "trainer"), ("cookie", "biscuit"),
     ("cutting board", "chopping board"), ("spanner", "wrench"), ("eraser", "rubber"),
+    ("paper ball", "crumpled paper", "paper wad"),
     ("pen holder", "pen pot", "pen cup", "pencil holder", "pencil pot", "pencil cup"),
     ("tv cabinet", "telly cabinet", "television cabinet"), ("stove", "cooker", "hob"),
     ("dish towel", "tea towel", "dishcloth"), ("candy", "sweet"), ("tape", "sellotape"),
@@ -147,6 +148,8 @@ JOINT_NOUNS: dict[str, tuple[str, ...]] = {
     "hinge": ("door", "lid", "flap", "cover"),
 }
 """Nouns that name a movable part by the way it moves."""
+LIDDED = word_set("chest box trunk case crate bin coffer cooler hamper container basket")
+"""Names of furniture whose door people call its lid."""
 CONTAINER_NOUNS = ("container", "receptacle", "vessel")
 """Nouns for anything that things can be put into; a vessel is no furniture."""
 THING_NOUNS = (

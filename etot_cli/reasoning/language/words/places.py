@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.world.spatial import Nearby
 
 
@@ -47,13 +48,14 @@ class Prep(StrEnum):
 
 
 SOURCE = "from, off of, off, out of, away from, from (on top of|inside)"
-SIDE = """
+_DESKS = "|".join((*DESK_NOUNS, "scene"))
+SIDE = f"""
     (on|at|to|in|from) the (left|right|front|back|rear|middle|centre|center)
     [side|end|edge|corner|hand side], in the (middle|centre|center) of the row,
     (on|at|to|in|from) the [far] (left|right|front|back|rear) (side|end|edge) of the
-    (desk|table|scene|room|row),
-    (on|at) the (far|near) (side|end|edge) of the (desk|table|scene),
-    (on|at) the (left|right) of the (desk|table|scene),
+    ({_DESKS}|room|row),
+    (on|at) the (far|near) (side|end|edge) of the ({_DESKS}),
+    (on|at) the (left|right) of the ({_DESKS}), (on|at|in) the (front|back|rear) of the ({_DESKS}),
     (on|at|to) your [far] (left|right) [side],
     (on|at) the far (left|right), in front, (furthest|farthest) (left|right|back),
     (furthest|farthest|further|farther|closest|nearest|most) (to|on|at) (the|your)
