@@ -124,7 +124,7 @@ SIDED = [
     if re.search(r"(?i)\b(left|right|leftmost|rightmost)\b", text)
     and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
     and not re.search(
-        r"(?i)right (next|away|behind|then)|^right,|"
+        r"(?i)right (next|away|behind|then|above|below)|^right,|"
         r"(is|be|been|were|someone|i|anything|nothing) left\b"
         r"|left (open|closed|shut|untouched|alone)",
         text,
