@@ -1631,6 +1631,7 @@ def three_cups() -> SceneState:
              label="apple juice box"),
     )  # fmt: skip
 
+
 def sorting_corner() -> SceneState:
     """Blocks of several colours, two on a mat, balls, a bucket, a shelf."""
     return scene(

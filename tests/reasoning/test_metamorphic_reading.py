@@ -85,7 +85,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
     framed = (
         r"(?i)(i |i'\w+ |could|would|the |my |there |some(one|body) |(you )?see |time |don't|never|"
     )
-    framed += r"1\.|(\w+ )?\w+: )"
+    framed += r"1\.|(\w+ )?\w+: |right, |\w+, \w+\. )"
     if re.match(framed, text):
         return  # it has a frame of its own
     if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:
@@ -124,7 +124,7 @@ SIDED = [
     if re.search(r"(?i)\b(left|right|leftmost|rightmost)\b", text)
     and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
     and not re.search(
-        r"(?i)right (next|away|behind|then)|^right,|"
+        r"(?i)right (next|away|behind|then|above|below)|^right,|"
         r"(is|be|been|were|someone|i|anything|nothing) left\b"
         r"|left (open|closed|shut|untouched|alone)",
         text,

@@ -6,11 +6,12 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
+from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.listings import LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, NUMBERS, SIZES
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
 from etot_cli.reasoning.language.words.verbs import PAST
 
 HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
@@ -46,8 +47,6 @@ _STEP = (
     r"(?:put|place|take|move|pick up|grab|close|shut|open (?=the|my))\b"
     r"|(?!fully|completely|wide|all)\w+ (?:\w+ )?(?:open|closed|shut) ?(?:[-=]+>|[.,;\n]|$)"
 )
-_SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
-_TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 
@@ -117,7 +116,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     ),
     (
         r"\b((?:need|want|have|like|love|is|are) (?:[^.,;]* )?)out "
-        rf"(?=on(?:to)? (?:the|my) {_TABLE})",
+        rf"(?=on(?:to)? (?:the|my) {TABLE})",
         r"\1",
     ),
     (
@@ -147,24 +146,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"(?:afterwards|(?:at|in) the end|(?:when|once) you are (?:done|finished))\b",
         r"\1 should be \2 in the end",
     ),
-    (
-        r"\bthe (left|right) corner,? (?:at|on|in|to|towards) the (front|back|rear)"
-        r"(?: (?:side|end))?\b",
-        r"the \2 \1 corner",
-    ),
-    (
-        r"\bthe (front|back|rear) corner,? (?:at|on|in|to|towards) the (left|right)(?: side)?\b",
-        r"the \1 \2 corner",
-    ),
-    (
-        r"\b(in|at|to|into) the corner,? (?:at|on|in) the "
-        r"((?:front|back|rear)(?: (?:left|right))?)\b",
-        r"\1 the \2 corner",
-    ),
-    (
-        r"\bon the (left|right) side,? (?:at|in|towards) the (front|back|rear)\b(?! of the)",
-        r"in the \2 \1 part",
-    ),
+    *CORNERS_AND_SIDES,
     (
         r"\bwhere ((?:the|my) [^.,;]*?) (?:stood|lay|sat|used to be|has been|had been)\b",
         r"where \1 was",
@@ -172,14 +154,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
     (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
     (r",? from now on\b", ""),
-    # "From the right to the left" is about the sides of the table.
-    (
-        rf"\b(?:away )?from the {_SIDE}(?: of the {_TABLE})?"
-        r"((?:,? and (?:then )?(?:put|place|bring|move|set|lay) (?:it|them))?) (?:over )?"
-        rf"(?:to|on|onto|at) the {_SIDE}(?: of the {_TABLE})?"
-        r"(?=[.,;!?]|$| and\b| then\b)",
-        r"on the \1 side of the table\2 to the \3 side of the table",
-    ),
     (
         r"\b((?:clear|empty|tidy) (?:the|my) [^.,;:]*?[,;:.] (?:and |then )*"
         r"(?:(?:put|move|bring) )?)"
@@ -261,7 +235,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
     (
         r"\b((?:that|which) (?:is|are) (?:still |already |just )?)(?:lying |standing |sitting )?"
-        rf"out (?:here|there)\b(?! on (?:the|my) {_TABLE}\b)",
+        rf"out (?:here|there)\b(?! on (?:the|my) {TABLE}\b)",
         r"\1outside",
     ),
     (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),

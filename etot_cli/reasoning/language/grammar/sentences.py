@@ -161,9 +161,12 @@ IN_THE_END = either(
 """How things are, where it is said that they are to be so in the end."""
 _NOW = optional(small_words.BY_NOW)
 _AND = either(COMMA, "and, and then, then")
-_TOLD_BEHIND = variants(
-    sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
-    lambda found: told_behind(found[0], found[1].split()[0], found[2]),
+_TOLD_BEHIND = either(
+    variants(
+        sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
+        lambda found: told_behind(found[0], found[1].split()[0], found[2]),
+    ),
+    sequence(CHAIN, COMMA, AS_IT_IS, build=add),
 )
 _WITH_MORE_BEFORE_IT = either(
     sequence(small_words.LOOK_FOR, NAMED, _AND, CHAIN, build=done_there),
@@ -220,7 +223,6 @@ _WITH_MORE_BEFORE_IT = either(
     ),
     _TOLD_BEHIND,
     sequence(_TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
-    sequence(CHAIN, COMMA, AS_IT_IS, build=add),
     sequence(plain(either(MAKING_ROOM, FREEING)), "by", CHAIN, build=add),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),

@@ -1,0 +1,37 @@
+"""Ways of speaking of the table's corners and sides, put into plain ones."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
+
+TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
+_SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
+CORNERS_AND_SIDES: tuple[tuple[str, str], ...] = (
+    (
+        r"\bthe (left|right) corner,? (?:at|on|in|to|towards) the (front|back|rear)"
+        r"(?: (?:side|end))?\b",
+        r"the \2 \1 corner",
+    ),
+    (
+        r"\bthe (front|back|rear) corner,? (?:at|on|in|to|towards) the (left|right)(?: side)?\b",
+        r"the \1 \2 corner",
+    ),
+    (
+        r"\b(in|at|to|into) the corner,? (?:at|on|in) the "
+        r"((?:front|back|rear)(?: (?:left|right))?)\b",
+        r"\1 the \2 corner",
+    ),
+    (
+        r"\bon the (left|right) side,? (?:at|in|towards) the (front|back|rear)\b(?! of the)",
+        r"in the \2 \1 part",
+    ),
+    # "From the right to the left" is about the sides of the table.
+    (
+        rf"\b(?:away )?from the {_SIDE}(?: of the {TABLE})?"
+        r"((?:,? and (?:then )?(?:put|place|bring|move|set|lay) (?:it|them))?) (?:over )?"
+        rf"(?:to|on|onto|at) the {_SIDE}(?: of the {TABLE})?"
+        r"(?=[.,;!?]|$| and\b| then\b)",
+        r"on the \1 side of the table\2 to the \3 side of the table",
+    ),
+)
+"""In order."""
