@@ -1651,3 +1651,90 @@ def sorting_corner() -> SceneState:
         item("blue_ball", "sphere", (0.30, -0.29), size=(0.05, 0.05, 0.05), color="blue"),
         item("bucket", "bowl", (0.63, 0.04), size=(0.16, 0.16, 0.1), color="white"),
     )  # fmt: skip
+
+def egg_table() -> SceneState:
+    """Mugs and bowls of two colours, an egg on a plate, fruit in a bowl."""
+    return scene(
+        item("tray", "box", (0.45, 0.00), size=(0.18, 0.34, 0.015), color="gray"),
+        cup("red_mug", (0.45, 0.10), size=(0.08, 0.08, 0.08), color="red", on="tray"),
+        cup("blue_mug", (0.32, 0.30), size=(0.1, 0.1, 0.11), color="blue"),
+        item("spoon", "pen", (0.32, 0.30), size=(0.14, 0.012, 0.012), color="gray",
+             on="blue_mug", inside="blue_mug"),
+        item("red_bowl", "bowl", (0.30, -0.29), size=(0.18, 0.18, 0.07), color="red"),
+        item("apple", "sphere", (0.30, -0.25), size=(0.065, 0.065, 0.065), color="green",
+             on="red_bowl", inside="red_bowl"),
+        item("lemon", "sphere", (0.30, -0.33), size=(0.05, 0.05, 0.05), color="yellow",
+             on="red_bowl", inside="red_bowl"),
+        item("blue_bowl", "bowl", (0.62, -0.22), size=(0.14, 0.14, 0.06), color="blue"),
+        item("plate", "box", (0.62, 0.25), size=(0.22, 0.22, 0.015), color="white"),
+        item("egg", "sphere", (0.62, 0.30), size=(0.045, 0.045, 0.045), color="white", on="plate"),
+        item("fork", "pen", (0.27, 0.05), size=(0.14, 0.012, 0.012), color="gray"),
+    )  # fmt: skip
+
+def two_towers() -> SceneState:
+    """Two towers, a box with things in it and an empty one."""
+    return scene(
+        item("red_box", "bowl", (0.60, 0.28), size=(0.2, 0.2, 0.08), color="red"),
+        item("green_block_2", "box", (0.60, 0.32), size=(0.04, 0.04, 0.04), color="green",
+             label="green block", on="red_box", inside="red_box"),
+        item("red_ball", "sphere", (0.60, 0.24), size=(0.05, 0.05, 0.05), color="red",
+             on="red_box", inside="red_box"),
+        item("blue_box", "bowl", (0.60, -0.28), size=(0.2, 0.2, 0.08), color="blue"),
+        item("board", "box", (0.42, 0.03), size=(0.2, 0.22, 0.015), color="brown"),
+        item("large_red_block", "box", (0.42, 0.07), size=(0.07, 0.07, 0.07), color="red",
+             on="board"),
+        item("yellow_block", "box", (0.42, 0.07), size=(0.045, 0.045, 0.045), color="yellow",
+             on="large_red_block"),
+        item("small_red_block", "box", (0.42, 0.07), size=(0.035, 0.035, 0.035), color="red",
+             on="yellow_block"),
+        item("mat", "box", (0.30, -0.24), size=(0.2, 0.22, 0.005), color="gray"),
+        item("blue_block", "box", (0.30, -0.20), size=(0.055, 0.055, 0.055), color="blue",
+             on="mat"),
+        item("green_block_1", "box", (0.30, -0.20), size=(0.04, 0.04, 0.04), color="green",
+             label="green block", on="blue_block"),
+    )  # fmt: skip
+
+def holder_desk() -> SceneState:
+    """Pens in one of two holders, a chest with its middle drawer open."""
+    return scene(
+        drawers("chest", (0.63, -0.34), {"top": 0.0, "middle": 0.9, "bottom": 0.0}, color="brown"),
+        item("tape", "cylinder", (0.52, -0.30), size=(0.05, 0.05, 0.025), color="yellow",
+             on="chest", inside="chest.middle"),
+        item("stapler", "box", (0.52, -0.37), size=(0.1, 0.035, 0.04), color="black", on="chest",
+             inside="chest.middle"),
+        cup("black_holder", (0.62, 0.08), size=(0.09, 0.09, 0.1), color="black",
+             label="black pen holder"),
+        item("red_pen", "pen", (0.62, 0.08), size=(0.14, 0.012, 0.012), color="red",
+             on="black_holder", inside="black_holder"),
+        item("blue_pen", "pen", (0.62, 0.08), size=(0.14, 0.012, 0.012), color="blue",
+             on="black_holder", inside="black_holder"),
+        cup("white_holder", (0.62, 0.30), size=(0.09, 0.09, 0.1), color="white",
+             label="white pen holder"),
+        item("notebook", "box", (0.40, -0.04), size=(0.2, 0.22, 0.02), color="blue",
+             label="blue notebook"),
+        item("green_pen", "pen", (0.40, 0.03), size=(0.14, 0.012, 0.012), color="green",
+             on="notebook"),
+        item("red_book", "box", (0.36, 0.28), size=(0.17, 0.13, 0.03), color="red"),
+        item("eraser", "box", (0.36, 0.28), size=(0.04, 0.02, 0.015), color="pink", on="red_book"),
+    )  # fmt: skip
+
+def jar_kitchen() -> SceneState:
+    """Jars on two boards and on the desk, fruit in a basket, a cutting board."""
+    return scene(
+        cabinet("microwave", (0.63, 0.34), 0.0, color="gray"),
+        item("shelf", "shelf", (0.63, -0.32), boards=("lower", "upper",), size=(0.25, 0.30,
+             0.40), color="brown"),
+        cup("jar_1", (0.63, -0.32), size=(0.1, 0.1, 0.12), label="glass jar", on="shelf.upper"),
+        cup("jar_2", (0.63, -0.32), size=(0.1, 0.1, 0.12), label="glass jar", on="shelf.lower"),
+        cup("jar_3", (0.52, 0.02), size=(0.1, 0.1, 0.12), label="glass jar"),
+        item("spatula", "pen", (0.52, 0.02), size=(0.17, 0.015, 0.012), color="red", on="jar_3",
+             inside="jar_3"),
+        item("basket", "bowl", (0.30, 0.28), size=(0.26, 0.24, 0.09), color="brown"),
+        item("orange", "sphere", (0.30, 0.33), size=(0.075, 0.075, 0.075), color="orange",
+             on="basket", inside="basket"),
+        item("onion", "sphere", (0.30, 0.22), size=(0.06, 0.06, 0.06), color="white",
+             on="basket", inside="basket"),
+        item("cutting_board", "box", (0.30, -0.12), size=(0.2, 0.28, 0.015), color="brown"),
+        item("tomato", "sphere", (0.30, -0.18), size=(0.055, 0.055, 0.055), color="red",
+             on="cutting_board"),
+    )  # fmt: skip

@@ -80,6 +80,22 @@ def there_by_now(
     return tuple(found)
 
 
+def is_empty_by_now(thing: Thing, discourse: Discourse) -> bool:
+    """Whether nothing is in a thing once all is where it has been put so far."""
+    states = discourse.scene.states
+    for name, state in states.items():
+        inside = {Thing(name): (None,), **discourse.placed}[Thing(name)]
+        for place in inside:
+            before = place is None and owner_of(state.inside or "") == thing.name
+            if before or (
+                place is not None
+                and place.relation is Relation.INSIDE
+                and any(_same(thing, at) for at in _surfaces(place, discourse))
+            ):
+                return False
+    return True
+
+
 def note_placed(discourse: Discourse, what: Sequence[int], places: tuple[Place, ...]) -> None:
     """Notes where things have been put; of a choice it is open whether they have been."""
     for index in what:

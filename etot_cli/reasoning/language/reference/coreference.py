@@ -109,6 +109,9 @@ def meant_by_it(
         acted_on, places, landmarks = mentioned_in(discourse, clause, role, excluded)
         if any(are_several(discourse, i) for i in acted_on if role in TARGETS):
             raise ReferenceProblem(text, UNCLEAR, 2)  # "take each cup off its saucer, and …"
+        below = [place.where for place in discourse.last_places]
+        if role in (Role.SURFACE, Role.PLACE) and {*below} & {*acted_on[:-1]}:
+            return acted_on[-1]  # "A on the tray, B on top of it, and C on top of that"
         around = discourse.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
         if around is not None and role is Role.SURFACE and around not in excluded:
             return around  # what is put on what lies in a vessel, goes on or into that

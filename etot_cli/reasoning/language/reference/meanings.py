@@ -2,77 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import (
     PERSONAL_PRONOUNS,
     PLURAL_PRONOUNS,
     antecedents,
-    is_like_people,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.landmarks import HOLDING
+from etot_cli.reasoning.language.reference.lent_nouns import LentNouns
 from etot_cli.reasoning.language.reference.narrowing import (
-    as_contrasted,
     as_rest,
-    check_count,
     check_one_left,
-    narrowed_to,
     of_last_choice,
     of_spoken_owner,
     one_of_several,
+    other_board,
     others,
-    singled_out_of,
     spared_one,
     spoken_part,
 )
-from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.spoken_of import candidates, openable
-from etot_cli.reasoning.language.reference.usual_form import GENERAL, leaves_noun_out, usual_form
+from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out, usual_form
 from etot_cli.reasoning.language.words.lexicon import (
-    SIDES,
-    SIZES,
+    ORDINALS,
     THING_NOUNS,
     head_of,
-    is_descriptive,
     matches_any,
-    same_noun,
     singular,
 )
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.state import SceneState
 
 _POSSESSORS = {"its": "it", "their": "them", "his": "him", "her": "her"}
 
 
-class Meanings:
-    """What phrases mean, given what was spoken of; nothing is spoken of by asking.
-
-    Args:
-        scene: what is spoken about.
-        resolver: of phrases with a noun.
-        discourse: what was spoken of before.
-    """
-
-    def __init__(self, scene: SceneState, resolver: Resolver, discourse: Discourse) -> None:
-        self.scene = scene
-        self.resolver = resolver
-        self.discourse = discourse
+class Meanings(LentNouns):
+    """What phrases mean, given what was spoken of; nothing is spoken of by asking."""
 
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""
+        if phrase.is_elliptic and {*phrase.words} & {*ORDINALS} and len(self.discourse.put) > 1:
+            why = "say which one: it may be counted as it was said, or as they stand"
+            raise ReferenceProblem(phrase.text, why, 3)
         bare = phrase.determiner == "the" and phrase.words in (("one",), ("ones",))
         if bare and not (phrase.modifiers or phrase.owner or phrase.without):
             # "The one on the board" is the one that is there.
@@ -129,6 +109,8 @@ class Meanings:
         elif phrase.owner is not None:
             phrase = self._possessed(replace(phrase, owner=None), phrase.owner, role, noun_before)
         phrase = self.told_by_themes(phrase)
+        if (board := other_board(phrase, role, self.discourse)) is not None:
+            return board
         named = phrase.words and not matches_any(phrase.words[-1], THING_NOUNS)
         if named and quantity_of(phrase.determiner).other and self.spoken_of(phrase, role) is None:
             with suppress(ReferenceProblem):
@@ -146,10 +128,10 @@ class Meanings:
             # "One cup … the other two": which they are depends on the one.
             with suppress(ReferenceProblem):
                 rest = replace(phrase, determiner="all other")
-                rest_of = others(self._with_noun(rest, role, noun_before), discourse)
+                rest_of = others(self.with_noun(rest, role, noun_before), discourse)
                 if all(len(option) == quantity.count for option in rest_of.options):
                     return rest_of
-        resolved = self._with_noun(phrase, role, noun_before)
+        resolved = self.with_noun(phrase, role, noun_before)
         if resolved.other and resolved.every:
             return others(resolved, discourse)
         if resolved.other and resolved.definite and quantity.count in (None, 1):
@@ -228,11 +210,11 @@ class Meanings:
         ]
         for way in ways:
             with suppress(ReferenceProblem):
-                self._with_noun(way, role, noun)
+                self.with_noun(way, role, noun)
                 return way
         named = None
         with suppress(ReferenceProblem):
-            things = self._with_noun(replace(phrase, determiner="all"), role, None).options[0]
+            things = self.with_noun(replace(phrase, determiner="all"), role, None).options[0]
             owners = {thing for things in self.pronoun_things(owner) for thing in things}
             named = self.resolver.called_after(things, owners, phrase.words)
         if named is None or owner.words or role is Role.THEME:
@@ -241,148 +223,3 @@ class Meanings:
         note = f"read {phrase.text!r} as {named}"
         self.discourse.notes += [note] if note not in self.discourse.notes else []
         return replace(phrase, determiner="the", words=(named,))
-
-    def _with_noun(self, phrase: NounPhrase, role: Role, noun: str | None) -> Resolved:
-        """A phrase that may leave its noun to an earlier one: to the latest, else to the only
-        other one that makes sense ("both cups on the tray, then the plum in the yellow one").
-        """
-        if phrase.determiner.isdigit() and not phrase.words:
-            why = "a number alone is a count or a name; say which thing"
-            raise ReferenceProblem(phrase.text, why, 3)
-        elliptic = phrase.is_elliptic
-        resolved: Resolved | None = None
-        problem: ReferenceProblem | None = None
-        try:
-            resolved = self.resolved_as(phrase, role, noun)
-            if not self._is_single(phrase, role, noun):
-                return resolved
-        except ReferenceProblem as error:
-            others = quantity_of(phrase.determiner).other
-            counted = isinstance(error, AmbiguousReference)  # what is left of them, or a number
-            if counted or (not elliptic and (phrase.words or not others)):
-                raise
-            problem = error
-            if others and noun is not None and self._are_several(noun, role):
-                raise  # both were spoken of, if only to tell something else by one of them
-        found: dict[tuple[tuple[Thing, ...], ...], Resolved] = {}
-        for other in self.discourse.nouns():
-            if noun is not None and not same_noun(other, noun):
-                with suppress(ReferenceProblem):
-                    way = self.resolved_as(phrase, role, other)
-                    if not self._is_single(phrase, role, other):
-                        found.setdefault(way.options, way)
-        # "The two wrenches on the vise and the nut on the big one": of those that were several;
-        # "the can from the fridge on the one on the desk" is about another can.
-        told = problem is not None or phrase.modifiers
-        sure = [way for way in found.values() if told or singular(way.noun) != way.noun]
-        if len(found) == len(sure) == 1:
-            return sure[0]
-        if problem is not None:
-            raise problem
-        if found or resolved is None:
-            said = (*found, *([resolved.options] if resolved else ()))
-            ways = [thing.name for options in said for thing in things_in(options)]
-            raise AmbiguousReference(phrase.text, ways)
-        if phrase.modifiers:
-            raise ReferenceProblem(phrase.text, UNCLEAR, 2)
-        return resolved
-
-    def _are_several(self, noun: str, role: Role) -> bool:
-        """Whether more than one thing is called so."""
-        every = NounPhrase("all", (noun,))
-        with suppress(ReferenceProblem):
-            return len(things_in(self.resolved_as(every, role, None).options)) > 1
-        return False
-
-    def _is_single(self, phrase: NounPhrase, role: Role, noun: str | None) -> bool:
-        """Whether "the big one" would tell one thing by its size or side of which there is one, or
-        "the red one" and "the one on the desk" what but told where something else is or was.
-        """
-        words = phrase.words
-        told = any(word in table for word in words[:-1] for table in (SIZES, SIDES))
-        by_more = bool(phrase.modifiers) or any(map(is_descriptive, words[:-1]))
-        told = told or (by_more and self.discourse.is_landmark(noun or ""))
-        if phrase.head != "one" or not told or noun is None:
-            return False
-        every = replace(phrase, determiner="all", words=("ones",), modifiers=())
-        with suppress(ReferenceProblem):
-            return [len(option) for option in self.resolved_as(every, role, noun).options] == [1]
-        return False
-
-    def resolved_as(
-        self, phrase: NounPhrase, role: Role, noun: str | None, *, parts_first: bool = False
-    ) -> Resolved:
-        """What a phrase means where ``noun`` is the noun that it may leave out."""
-        elliptic = phrase.is_elliptic
-        if noun is not None and elliptic:
-            check_count(phrase, noun, self.discourse)
-        own_name = phrase.words and self.resolver.is_called(phrase.words[-1])
-        leaves_out = leaves_noun_out(phrase) and not own_name
-        if noun is not None and not is_descriptive(noun) and leaves_out:
-            check_count(phrase, noun, self.discourse)
-            phrase = replace(phrase, words=(*phrase.words, singular(noun)))
-        quantity = quantity_of(phrase.determiner)
-        other = quantity.other
-        named = [w for w in phrase.words[-1:] if other and not matches_any(w, THING_NOUNS)]
-        own = named[0] if named else noun
-        elliptic = other or elliptic
-        resolve = partial(
-            self.resolver.resolve,
-            role=role,
-            noun=noun,
-            excluded=self.discourse.mentioned_like(own),
-            parts_first=parts_first or (elliptic and self.discourse.is_about_parts(own)),
-            pronoun=self.pronoun_things,
-        )
-        bare = elliptic or leaves_out or not phrase.words
-        single = not (quantity.definite or quantity.every or phrase.modifiers)  # "a cup"
-        known = own if bare else phrase.head if single else None
-        among = self.discourse.but_named(known or "")
-        if elliptic or leaves_out:
-            among = among or singled_out_of(phrase, noun, self.discourse)
-        alike = as_contrasted(phrase, noun, self.discourse) if elliptic or leaves_out else None
-        narrower: Resolved | None = None
-        with suppress(ReferenceProblem):
-            narrower = None if alike is None else resolve(alike)
-        try:
-            resolved = self._of_cleared(phrase, role, resolve) or resolve(phrase, among=among)
-        except ReferenceProblem:
-            if narrower is None or not phrase.words[:-1]:
-                raise  # "the one on the right" is no contrast
-            return narrower
-        return narrowed_to(narrower or resolved, resolved, phrase, self.discourse)
-
-    def _of_cleared(
-        self, phrase: NounPhrase, role: Role, resolve: Callable[..., Resolved]
-    ) -> Resolved | None:
-        """After "clear the shelf" "the box" and "everything" are what was on it, if any was."""
-        cleared, quantity = self.discourse.cleared, quantity_of(phrase.determiner)
-        general = phrase.head in GENERAL or matches_any(phrase.head, THING_NOUNS)
-        plural = general or singular(phrase.head) != phrase.head
-        known = quantity.definite and (general or phrase.determiner.split()[:1] != ["all"])
-        if role is not Role.THEME or phrase.modifiers or quantity.other or not known:
-            return None
-        with suppress(ReferenceProblem):
-            found = resolve(phrase, among=tuple(cleared))
-            things = things_in(found.options)
-            several = len(things) > 1
-            return found if {*things} <= cleared and (general or several is plural) else None
-        return None
-
-    def pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
-        """All that a pronoun in a modifier may mean, or "the other brush" there."""
-        if not phrase.pronoun:
-            return list(self.meaning(phrase, Role.ANY).options)
-        if phrase.pronoun not in PLURAL_PRONOUNS:
-            person = phrase.pronoun in PERSONAL_PRONOUNS
-            before = person or phrase.determiner == HERE_BEFORE
-            indices = candidates(self.discourse, everywhere=before)
-            if phrase.pronoun == "it" and not before:  # what tells the thing may tell which
-                indices = tuple(dict.fromkeys((*indices, *openable(self.discourse))))
-            indices = tuple(i for i in indices if not person or is_like_people(self.discourse, i))
-            found = [self.discourse.things(index) for index in indices]
-            if not found:
-                raise ReferenceProblem(phrase.text, UNCLEAR, 2)
-            return found
-        indices = antecedents(self.discourse, phrase.pronoun, Role.ANY, phrase.text)
-        return [self.discourse.things(*indices)]

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import (
+    BOARD_NOUNS,
     JOINT_NOUNS,
     LEVELS,
     ORDINALS,
@@ -104,11 +105,35 @@ def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Reso
     if phrase.determiner == "the other" and choice and len(chosen) == 2:
         return Resolved(chosen, definite=True, other=True, noun=noun, again=True)
     here = {item.referent for item in said if item.clause == discourse.clause} & known
+    if not here and said[-1].clause == discourse.clause - 1:
+        here = {said[-1].referent} & known  # "take the pens out and put one into the cup"
     things = dict.fromkeys(thing for index in sorted(here) for thing in discourse.things(index))
     if phrase.determiner not in ("one", "") or len(things) < 2:
         return None
     options = tuple((thing,) for thing in things)
     return Resolved(options, definite=False, other=choice, noun=noun, again=True)
+
+
+def other_board(phrase: NounPhrase, role: Role, discourse: Discourse) -> Resolved | None:
+    """After "off the upper board" "the other one", where something goes, is the other board of that
+    shelf; None where that is not said.
+    """
+    targets = (Role.SURFACE, Role.PLACE, Role.CONTAINER)
+    said = [m for m in discourse.mentions if m.role in (*targets, Role.ANY)]
+    said = [m for m in said if not discourse.is_desk(m.referent)]
+    alike = phrase.head in ("", "one") or matches_any(phrase.head, BOARD_NOUNS)
+    asked = alike and phrase.determiner == "the other" and not phrase.modifiers
+    if not asked or not said or role not in targets[:2]:
+        return None
+    things = discourse.things(said[-1].referent)
+    if not all(thing.board for thing in things):
+        return None
+    owner, *more = {thing.name for thing in things}
+    left = [b for b in discourse.scene.infos[owner].boards if Thing(owner, board=b) not in things]
+    if more or len(left) != 1:
+        return None
+    meant = ((Thing(owner, board=left[0]),),)
+    return Resolved(meant, definite=True, noun=said[-1].noun, again=True)
 
 
 def spared_one(phrase: NounPhrase, discourse: Discourse) -> Resolved | None:

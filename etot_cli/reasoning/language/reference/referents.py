@@ -13,16 +13,17 @@ from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
-from etot_cli.reasoning.language.reference.by_now import there_by_now
+from etot_cli.reasoning.language.reference.by_now import is_empty_by_now, there_by_now
 from etot_cli.reasoning.language.reference.coreference import antecedents
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.spoken_of import openable
 from etot_cli.reasoning.language.reference.usual_form import GENERAL, chooses, is_robot, usual_form
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 _BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my two")
@@ -109,6 +110,8 @@ class Referents(Meanings):
             NothingThere: it has all been moved away.
         """
         plain = usual_form(phrase)
+        if (changed := self._empty_by_now(plain, role)) is not None:
+            return changed
         held = [m for m in plain.modifiers if m.prep in (Prep.ON, Prep.IN, Prep.FROM)]
         item = held[0] if len(held) == 1 else None
         now = item is not None and not item.denied and HERE_BEFORE not in item.words
@@ -145,6 +148,34 @@ class Referents(Meanings):
         if not found and there:
             raise NothingThere(phrase.text, "it has been moved away by then", 2)
         return replace(resolved, options=tuple(found)) if found else self.meaning(phrase, role)
+
+    def _empty_by_now(self, phrase: NounPhrase, role: Role) -> Resolved | None:
+        """What is empty or full, where that is no more what it was at the start; else None.
+
+        Raises:
+            AmbiguousReference: several are, or none is.
+        """
+        said = [word for word in phrase.words if STATES.get(word) in ("empty", "full")]
+        if not said or not self.discourse.placed:
+            return None
+        rest = tuple(word for word in phrase.words if word not in said)
+        noun = self.discourse.last_noun(role) or "object"
+        rest = (noun,) if rest in ((), ("one",), ("ones",)) else rest
+        called: Resolved | None = None
+        with suppress(ReferenceProblem):
+            called = self.meaning(replace(phrase, words=rest, determiner="all"), role)
+        things = [t for t in things_in(called.options) if t == Thing(t.name)] if called else []
+        empty = [thing for thing in things if is_empty_by_now(thing, self.discourse)]
+        if called is None or {*empty} == {
+            thing for thing in things if state_holds("empty", thing, self.scene)
+        }:
+            return None
+        wanted = STATES[said[0]] == "empty"
+        fitting = [thing for thing in things if (thing in empty) == wanted]
+        if len(fitting) != 1:
+            raise AmbiguousReference(phrase.text, [thing.address for thing in things])
+        note = f"{phrase.text!r}: {fitting[0].address} by then"
+        return Resolved(((fitting[0],),), definite=True, noun=called.noun, notes=(note,))
 
     def _as_before(self, resolved: Resolved) -> Resolved:
         """After "take the pen from the mug" "the pen" is that one, even where another one is
