@@ -1652,6 +1652,7 @@ def sorting_corner() -> SceneState:
         item("bucket", "bowl", (0.63, 0.04), size=(0.16, 0.16, 0.1), color="white"),
     )  # fmt: skip
 
+
 def egg_table() -> SceneState:
     """Mugs and bowls of two colours, an egg on a plate, fruit in a bowl."""
     return scene(
@@ -1670,6 +1671,7 @@ def egg_table() -> SceneState:
         item("egg", "sphere", (0.62, 0.30), size=(0.045, 0.045, 0.045), color="white", on="plate"),
         item("fork", "pen", (0.27, 0.05), size=(0.14, 0.012, 0.012), color="gray"),
     )  # fmt: skip
+
 
 def two_towers() -> SceneState:
     """Two towers, a box with things in it and an empty one."""
@@ -1693,6 +1695,7 @@ def two_towers() -> SceneState:
         item("green_block_1", "box", (0.30, -0.20), size=(0.04, 0.04, 0.04), color="green",
              label="green block", on="blue_block"),
     )  # fmt: skip
+
 
 def holder_desk() -> SceneState:
     """Pens in one of two holders, a chest with its middle drawer open."""
@@ -1718,6 +1721,7 @@ def holder_desk() -> SceneState:
         item("eraser", "box", (0.36, 0.28), size=(0.04, 0.02, 0.015), color="pink", on="red_book"),
     )  # fmt: skip
 
+
 def jar_kitchen() -> SceneState:
     """Jars on two boards and on the desk, fruit in a basket, a cutting board."""
     return scene(
@@ -1737,4 +1741,42 @@ def jar_kitchen() -> SceneState:
         item("cutting_board", "box", (0.30, -0.12), size=(0.2, 0.28, 0.015), color="brown"),
         item("tomato", "sphere", (0.30, -0.18), size=(0.055, 0.055, 0.055), color="red",
              on="cutting_board"),
+    )  # fmt: skip
+
+def tube_lab() -> SceneState:
+    """Tubes in a rack, in an open drawer and on the desk, beakers, one of them on a tray."""
+    return scene(
+        drawers("drawer_unit", (0.63, -0.34), {"top": 0.0, "middle": 0.0, "bottom": 0.9},
+             color="gray"),
+        item("marker", "pen", (0.63, -0.34), size=(0.13, 0.014, 0.014), color="black",
+             on="drawer_unit", inside="drawer_unit.top"),
+        item("green_tube", "cylinder", (0.48, -0.34), size=(0.02, 0.02, 0.1), color="green",
+             on="drawer_unit", inside="drawer_unit.bottom"),
+        item("white_rack", "bowl", (0.57, 0.30), size=(0.09, 0.18, 0.05), color="white"),
+        item("blue_tube", "cylinder", (0.57, 0.30), size=(0.02, 0.02, 0.1), color="blue",
+             on="white_rack", inside="white_rack"),
+        item("black_rack", "bowl", (0.38, 0.30), size=(0.09, 0.18, 0.05), color="black"),
+        item("red_tube", "cylinder", (0.29, -0.20), size=(0.02, 0.02, 0.1), color="red"),
+        item("tray", "box", (0.44, 0.02), size=(0.2, 0.2, 0.015), color="gray"),
+        cup("small_beaker", (0.44, -0.03), size=(0.06, 0.06, 0.07), on="tray"),
+        cup("large_beaker", (0.60, 0.06), size=(0.08, 0.08, 0.11)),
+        item("waste_bin", "bowl", (0.62, -0.13), size=(0.13, 0.13, 0.08), color="red"),
+    )  # fmt: skip
+
+def remote_table() -> SceneState:
+    """Remotes, playing cards in an open cabinet, a candle on a tray."""
+    return scene(
+        cabinet("cabinet", (0.63, 0.34), 0.95, color="brown"),
+        item("cards", "box", (0.63, 0.34), size=(0.06, 0.09, 0.02), label="playing cards",
+             on="cabinet", inside="cabinet"),
+        item("basket", "bowl", (0.60, -0.30), size=(0.2, 0.2, 0.09), color="brown"),
+        item("white_remote", "box", (0.60, -0.30), size=(0.045, 0.15, 0.02), color="white",
+             on="basket", inside="basket"),
+        item("tray", "box", (0.43, 0.02), size=(0.16, 0.26, 0.015), color="brown"),
+        item("candle", "cylinder", (0.43, 0.02), size=(0.05, 0.05, 0.09), color="white", on="tray"),
+        cup("vase", (0.63, 0.06), size=(0.07, 0.07, 0.15), color="blue"),
+        item("coaster", "box", (0.30, 0.16), size=(0.09, 0.09, 0.01), color="green"),
+        cup("mug", (0.32, -0.16), size=(0.08, 0.08, 0.09), color="yellow"),
+        item("black_remote", "box", (0.29, -0.01), size=(0.045, 0.15, 0.02), color="black"),
+        item("magazine", "box", (0.60, -0.13), size=(0.14, 0.08, 0.015), color="red"),
     )  # fmt: skip

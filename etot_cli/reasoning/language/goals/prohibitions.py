@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Destination,
     EnsureClause,
+    MoveClause,
     NounPhrase,
     Things,
     Toward,
@@ -80,7 +81,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     )
     if role is Role.ANY and any(elliptic):
         # "Leave the red one" speaks of what was moved rather than of where to.
-        role = Role.PART if _moves_anyway(context, clause.things) else Role.THEME
+        turned = isinstance(context.last, MoveClause) or _moves_anyway(context, clause.things)
+        role = Role.PART if turned else Role.THEME
     before = len(context.discourse.mentions)
     if clause.avoid is Avoid.PUT:
         _rule_out_things(context, clause)
@@ -106,9 +108,9 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
             context.discourse.as_it_stands(index, is_open)
     for index in indices if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else ():
         leave_among_turned(context, index, opens=clause.avoid is Avoid.CLOSE)
-    turned = [s for s in context.done if isinstance(s, Open | Close) and s.what in indices]
-    if clause.avoid is Avoid.MOVE and turned:  # "open it and leave it as it is"
-        context.steps += [replace(step, final=True) for step in turned]
+    done = [s for s in context.done if isinstance(s, Open | Close) and s.what in indices]
+    if clause.avoid is Avoid.MOVE and done:  # "open it and leave it as it is"
+        context.steps += [replace(step, final=True) for step in done]
         return
     # "Without touching a cup" is about all of them.
     things = context.discourse.things(*indices)

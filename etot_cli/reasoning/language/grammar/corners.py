@@ -5,7 +5,7 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 
 TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
-_SIDE = r"(left|right|far|near)(?: (?:hand )?(?:side|edge|end|part|half))?"
+_SIDE = r"(left|right|far|near|front|back)(?: (?:hand )?(?:side|edge|end|part|half))?"
 CORNERS_AND_SIDES: tuple[tuple[str, str], ...] = (
     (
         r"\bthe (left|right) corner,? (?:at|on|in|to|towards) the (front|back|rear)"

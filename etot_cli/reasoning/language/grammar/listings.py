@@ -5,15 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, basic_color
 
 _WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
 _NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
-_BARE = re.compile(
-    r"(^|, |; |\b(?:and|then|put) )(\w+) (?=(?:in|on|into|onto|to|goe?s?|next to)\b)"
-)
+_BARE = re.compile(r"(^|, |; |\b(?:and|then|put) )(\w+) (?=(?:in|on|into|onto|to|goe?s?|stays?)\b)")
 _ALL_NAMED = re.compile(
     r"(^|[.;\n]\s*)([^:.;\n]+): "
     r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
@@ -25,7 +23,7 @@ _ALL_NAMED = re.compile(
 def _sorted(said: re.Match[str]) -> str:
     """Bare adjectives below what is to be sorted ("sort the blocks: red in the bin, blue …")."""
     return said[1] + _BARE.sub(
-        lambda bare: f"{bare[1]}{bare[2]} ones " if is_descriptive(bare[2]) else bare[0], said[2]
+        lambda bare: f"{bare[1]}{bare[2]} ones " if basic_color(bare[2]) else bare[0], said[2]
     )
 
 
@@ -50,8 +48,8 @@ LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str
     (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
     (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
     (
-        r"^((?:please )?(?:sort|separate|organi[sz]e|tidy|divide|split|group|put) [^:.,;]*[:,] "
-        r"|[^:.,;]+: )((?:put )?\w+ (?:in|on|into|onto|to|goe?s?|next to) .*)$",
+        r"^((?:please )?(?:sort|separate|organi[sz]e|divide|split|group) [^:.,;]*[:,] "
+        r"|[^:.,;]+: )((?:put )?\w+ (?:in|on|into|onto|to|goe?s?) .*)$",
         _sorted,
     ),
     (

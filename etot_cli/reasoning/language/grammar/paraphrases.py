@@ -107,6 +107,36 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"\b((?:on|in) {_NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(without \w+ing any other [^,.;]*), ([^.;]*)", r"\2 \1"),
     (_TAKES_PLACE, r"\1 go in place of"),
+    (r"\b(that|which) (?:has|have) been left (?=open\b)", r"\1 is "),
+    (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
+    (r"\bnext too (?=the|a|my|it\b)", "next to "),
+    (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
+    (
+        r"\bthere is (?:still |enough |some |plenty of )?(?:room|space) (on|in) "
+        rf"({_NAMED} [^.,;]*), so (?:please )?(put|place|set|lay|stand) ([^.,;]*?) (?:in )?there\b",
+        r"\3 \4 \1 \2",
+    ),
+    (
+        r"\bneither ((?:of the )?\w+) (?:should|must|may|is to) be (moved|touched)\b",
+        lambda said: f"do not {said[2][:-1] if said[2] == 'moved' else 'touch'} either {said[1]}",
+    ),
+    (r"\band, (?:once|when|after) (?:that|this) is done, ", "and then "),
+    (
+        r"\b((?:get|take|fetch|move) [^.;]*? (?:from|out of|off) [^.;]*?and (?:please )?"
+        r"(?:put|place) (?:it|them) (?:in|on|into|onto) [^.,;]*?) instead(?=[.;!?]|$)",
+        r"\1",
+    ),
+    (
+        r"\b(nothing (?:should|must) be left) (in|on) ([^.,;]*?) or (in|on) ",
+        r"\1 \2 \3 and \1 \4 ",
+    ),
+    (
+        rf"\b(?:bring|carry|take|move) ({_NAMED} [^.,;:]*?) (?:over |across )?"
+        rf"to ({_NAMED} (?:\w+ )?(?:tray|plate|board|mat|shelf)),? and "
+        r"(?:put|set|lay|place) it (?:down )?"
+        r"(?=(?:next to|beside|behind|in front of|to the (?:left|right) of)\b)",
+        r"put \1 on \2 ",
+    ),
     (r"\bleave no (?=\w)", "do not leave any "),
     (
         rf"\b(?:take|carry|move|bring|shift) ({_NAMED} [^.,;:]*?) (?:over |across )?"
@@ -290,7 +320,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         "",
     ),
     (
-        r"\b(?:to|in|on|at) (?:a|some) (?:spot|place|position|location) "
+        r"\b(?:to|in|on|at) (?:a|some|the) (?:spot|place|position|location) "
         r"(?=(?:between|next to|beside|near|behind|in front of|on|in|(?:to the )?(?:left|right) of)"
         r"\b)",
         "",

@@ -49,7 +49,7 @@ SHAPES = frozenset({"block", "cube", "ball", "sphere", "cylinder", "square", "tr
 PORTIONS = frozenset({"roll", "pack", "bundle", "stick", "bar", "sheet", "bag", "reel", "spool"})
 """Nouns for so much of what stands before them, which is what the thing is."""
 PIECES = word_set(
-    "piece slice loaf chunk lump wedge hunk block cube ball head bunch clove ear bulb"
+    "piece slice loaf chunk lump wedge hunk block cube ball head bunch clove ear bulb deck"
 )
 """Other nouns for one thing of what is told behind an "of" ("the loaf of bread")."""
 _VESSELS = frozenset(

@@ -94,7 +94,9 @@ class LentNouns(ABC):
                         found.setdefault(way.options, way)
         # "The two wrenches on the vise and the nut on the big one": of those that were several;
         # "the can from the fridge on the one on the desk" is about another can.
-        told = problem is not None or phrase.modifiers
+        # Beside the only tray "the small one" of two beakers is the smaller beaker.
+        sized = role is Role.ANY and any(word in SIZES for word in phrase.words[:-1])
+        told = problem is not None or phrase.modifiers or sized
         sure = [way for way in found.values() if told or singular(way.noun) != way.noun]
         if len(found) == len(sure) == 1:
             return sure[0]

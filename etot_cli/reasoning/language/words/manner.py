@@ -54,7 +54,9 @@ WIDEST_BELOW = """
     [in order] from [the] (biggest|largest|widest) to [the] (smallest|narrowest)
 """
 """As a stack is built anyway."""
-AT_BOTTOM = "[at|on] [the [very]] bottom, lowest, at the base, as (its|the|a) (base|bottom)"
+AT_BOTTOM = (
+    "[at|on] [the [very]] bottom, lowest, underneath, at the base, as (its|the|a) (base|bottom)"
+)
 AT_MIDDLE = "[in [the]] (middle|centre|center), in between"
 AT_TOP = "[at|on] [the [very]] top, uppermost, up top, highest, as (its|the) top"
 LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|release it|drop it)"

@@ -109,7 +109,7 @@ NOTHING_IS = """
     (i|we) (do not want anything|want nothing) [to be] [left|lying|standing|sitting] (in|on)
 """
 _BROUGHT = """
-    put|placed|moved|brought|taken|took|set|stored|dropped|inserted|transferred|laid|parked|left|kept|
+    put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down
 """
 BROUGHT = f"{_BROUGHT}, stood, positioned, returned"
