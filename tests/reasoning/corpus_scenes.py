@@ -1743,6 +1743,7 @@ def jar_kitchen() -> SceneState:
              on="cutting_board"),
     )  # fmt: skip
 
+
 def tube_lab() -> SceneState:
     """Tubes in a rack, in an open drawer and on the desk, beakers, one of them on a tray."""
     return scene(
@@ -1762,6 +1763,7 @@ def tube_lab() -> SceneState:
         cup("large_beaker", (0.60, 0.06), size=(0.08, 0.08, 0.11)),
         item("waste_bin", "bowl", (0.62, -0.13), size=(0.13, 0.13, 0.08), color="red"),
     )  # fmt: skip
+
 
 def remote_table() -> SceneState:
     """Remotes, playing cards in an open cabinet, a candle on a tray."""

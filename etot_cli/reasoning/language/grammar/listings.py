@@ -11,6 +11,8 @@ _WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 _NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
 _NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
+ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
+"""Before what somebody is asked for."""
 _BARE = re.compile(r"(^|, |; |\b(?:and|then|put) )(\w+) (?=(?:in|on|into|onto|to|goe?s?|stays?)\b)")
 _ALL_NAMED = re.compile(
     r"(^|[.;\n]\s*)([^:.;\n]+): "
@@ -48,7 +50,7 @@ LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str
     (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
     (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
     (
-        r"^((?:please )?(?:sort|separate|organi[sz]e|divide|split|group) [^:.,;]*[:,] "
+        rf"^({ASKED}(?:sort|separate|organi[sz]e|divide|split|group) [^:.,;]*[:,] "
         r"|[^:.,;]+: )((?:put )?\w+ (?:in|on|into|onto|to|goe?s?) .*)$",
         _sorted,
     ),

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
-from etot_cli.reasoning.language.grammar.listings import LISTINGS
+from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
@@ -87,7 +87,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\bi need (it|them|this|that) (?=(?:in a|later|soon|tomorrow|tonight|again)\b)",
         r"i will need \1 ",
     ),
-    (r"^((?:please )?leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
+    (rf"^({ASKED}leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
     (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={_NAMED}|(?:it|them)\b)", r"\1set "),
     (
         r"\byou (?:will|can|should) find (it|(?:the|my) \w+(?: \w+)?) "
@@ -158,7 +158,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\b((?:shift|move|put) [^.,;:]*?) a (?:little )?bit: (?=put (?:it|them)\b)",
         r"\1: ",
     ),
-    (r"^((?:let us |please |(?:can|could) you )?(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
+    (rf"^({ASKED}(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
     (
         r"\bpass ((?:the|my) [^.,;]*?) (?:down |over |up )?"
         r"(?=(?:from (?:the|my) [^.,;]*? )?(?:onto|into) )",
