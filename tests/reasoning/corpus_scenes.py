@@ -1782,3 +1782,48 @@ def remote_table() -> SceneState:
         item("black_remote", "box", (0.29, -0.01), size=(0.045, 0.15, 0.02), color="black"),
         item("magazine", "box", (0.60, -0.13), size=(0.14, 0.08, 0.015), color="red"),
     )  # fmt: skip
+
+
+def hammer_bench() -> SceneState:
+    """Tools on a bench and in the drawers of a chest, bins, a tin with a pencil in it."""
+    return scene(
+        drawers("tool_chest", (0.63, 0.33), {"top": 0.0, "middle": 0.9, "bottom": 0.0},
+             color="gray"),
+        item("wrench", "pen", (0.63, 0.33), size=(0.15, 0.03, 0.015), color="gray",
+             on="tool_chest", inside="tool_chest.top"),
+        item("yellow_screwdriver", "pen", (0.50, 0.33), size=(0.14, 0.025, 0.025),
+             color="yellow", on="tool_chest", inside="tool_chest.middle"),
+        item("red_bin", "bowl", (0.60, -0.36), size=(0.18, 0.16, 0.1), color="red"),
+        item("gray_bin", "bowl", (0.60, -0.08), size=(0.18, 0.16, 0.1), color="gray"),
+        item("tape_roll", "cylinder", (0.60, -0.08), size=(0.07, 0.07, 0.04), color="black",
+             label="roll of tape", on="gray_bin", inside="gray_bin"),
+        item("hammer", "pen", (0.27, 0.16), size=(0.17, 0.03, 0.03), color="brown"),
+        item("red_screwdriver", "pen", (0.42, -0.24), size=(0.14, 0.025, 0.025), color="red"),
+        item("glue_bottle", "cylinder", (0.42, 0.06), size=(0.05, 0.05, 0.13), color="white"),
+        cup("tin", (0.28, -0.12), size=(0.08, 0.08, 0.1)),
+        item("pencil", "pen", (0.28, -0.12), size=(0.14, 0.01, 0.01), color="orange", on="tin",
+             inside="tin"),
+    )  # fmt: skip
+
+
+def train_room() -> SceneState:
+    """Toys on two boards, a toy chest, a tower of two blocks, a basket."""
+    return scene(
+        item("toy_shelf", "shelf", (0.63, 0.34), boards=("lower", "upper",), size=(0.25, 0.30,
+             0.40), color="white"),
+        item("toy_car", "box", (0.63, 0.30), size=(0.09, 0.05, 0.05), color="red",
+             on="toy_shelf.upper"),
+        item("wooden_train", "box", (0.63, 0.38), size=(0.12, 0.04, 0.05), color="brown",
+             on="toy_shelf.lower"),
+        cabinet("toy_chest", (0.63, -0.34), 0.0, color="brown"),
+        item("green_ball", "sphere", (0.63, -0.34), size=(0.06, 0.06, 0.06), color="green",
+             on="toy_chest", inside="toy_chest"),
+        item("basket", "bowl", (0.62, 0.03), size=(0.2, 0.2, 0.1), color="white"),
+        item("rubber_duck", "box", (0.62, 0.03), size=(0.06, 0.05, 0.06), color="yellow",
+             on="basket", inside="basket"),
+        item("red_block", "box", (0.30, 0.02), size=(0.05, 0.05, 0.05), color="red"),
+        item("yellow_block", "box", (0.30, 0.02), size=(0.045, 0.045, 0.045), color="yellow",
+             on="red_block"),
+        item("big_blue_block", "box", (0.43, 0.16), size=(0.065, 0.065, 0.065), color="blue"),
+        item("small_blue_block", "box", (0.36, -0.17), size=(0.035, 0.035, 0.035), color="blue"),
+    )  # fmt: skip

@@ -119,13 +119,19 @@ def check_poured(
 
 
 def check_contrasted(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
-    """Whether "the cups on the plate, but not the red one" says of the plate which it is not."""
+    """Whether "the cups on the plate, but not the red one" says of the plate which it is not, and
+    "on the shelf instead of the car" of the car that it is there.
+    """
     discourse = context.discourse
     moved = {*discourse.things(*themes)}
     for index in (place.where for place in places if place.where is not None):
-        if moved & {*discourse.left_out.get(index, ())}:
-            text = discourse.referents[index].text
+        text, out = discourse.referents[index].text, discourse.left_out.get(index, ())
+        if moved & {*out}:
             raise ReferenceProblem(text, "what is no such place is to go there itself", 1)
+        for thing in out:
+            if any(touches(thing, at, context.scene) for at in discourse.things(index)):
+                why = f"{thing.name} is there; say where that is to go"
+                raise ReferenceProblem(text, why, 3)
 
 
 def check_describes(

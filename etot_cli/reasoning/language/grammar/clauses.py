@@ -75,7 +75,7 @@ from etot_cli.reasoning.language.grammar.taking import (
 from etot_cli.reasoning.language.grammar.towers import TOWER
 from etot_cli.reasoning.language.grammar.unstacking import REVERSED, SPREAD
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART, WANTED, WISHED
-from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words import nouns, small_words, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import LINKS
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
@@ -180,7 +180,7 @@ LEFT_OUT = either(
     sequence(
         "[but|and] leav(e|ing) [out], [but|and] keep[ing]",
         exceptions,
-        optional(f"{manner.AS_IT_IS}, out"),
+        optional("out"),
         build=excepting,
     ),
 )

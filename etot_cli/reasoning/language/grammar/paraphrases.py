@@ -109,6 +109,26 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (_TAKES_PLACE, r"\1 go in place of"),
     (r"\b(that|which) (?:has|have) been left (?=open\b)", r"\1 is "),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
+    (r",? followed by ", ", then "),
+    (
+        rf"\b(?:keep|leave) ({_NAMED} [^.,;]*?) stacked(?=[.,;]| and\b|$)(?! on)",
+        r"leave \1 as they are",
+    ),
+    (
+        rf"\breach (?:in|into|inside) ({_NAMED} [^.,;]*?) and (grab|take|get|pick up) "
+        r"([^.,;]*?)(?=[.,;!?]| and\b|$)",
+        r"\2 \3 from \1",
+    ),
+    (
+        rf"^({ASKED})(?:tidy|clean)(?: up)? (?:the|my) {TABLE}(?: up)?(?:: | by (?=putting ))",
+        r"\1tidy up: ",
+    ),
+    (rf"\band in (its|their) place (put|place) ({_NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
+    (
+        rf"^(next to|beside|behind|in front of|to the (?:left|right) of) ({_NAMED} [^.,;]*?),? "
+        rf"i (?:want|would like|need) ({_NAMED} [^.,;]*)",
+        r"put \3 \1 \2",
+    ),
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
     (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
     (
@@ -210,7 +230,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", ""),
     (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
     (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),
-    (r"\bnothing but\b", "only"),
+    (r"\bnothing (?:but|except(?: for)?|other than|besides)\b(?=(?: \w+){1,5})", "only"),
     (
         rf"[,.;]? \(?(?:(?:final|exact|target|its) )?(?:position|location|placement) ?: ?"
         rf"(?={_BESIDE})",

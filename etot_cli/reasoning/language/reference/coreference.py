@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.reference.spoken_of import (
 from etot_cli.reasoning.language.words import categories
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
+from etot_cli.world.state import owner_of
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
 PERSONAL_PRONOUNS = frozenset({"he", "him", "she", "her"})
@@ -154,6 +155,12 @@ def meant_by_it(
                     if not (role is Role.SURFACE and _bears_rather(discourse, acted_on[0], i))
                     and not (role is Role.CONTAINER and _stood_on(discourse, acted_on[0], i))
                 ]
+            plain = role is Role.CONTAINER and text == "it" and bool(rivals)
+            if plain and _came_out_of(discourse, acted_on[0], rivals):
+                discourse.notes.append(
+                    f"read '{text}' as {names_of_things(discourse.things(*acted_on))}"
+                )
+                rivals = []
             found = (*acted_on, *rivals)
         else:
             # One of several things that were acted on together is not "it".
@@ -186,6 +193,16 @@ def meant_by_it(
         if found:
             return found[0]
     raise ReferenceProblem(text, UNCLEAR, 2)
+
+
+def _came_out_of(discourse: Discourse, thing: int, rivals: Sequence[int]) -> bool:
+    """Whether all that "it" may mean besides a vessel is what that is taken out of: in "take the
+    bowl out of the oven and put the egg in it" it is rather the bowl.
+    """
+    states = discourse.scene.states
+    inside = {states[t.name].inside for t in discourse.things(thing) if t.name in states}
+    around = {owner_of(at) for at in inside if at is not None}
+    return bool(around) and {t.name for t in discourse.things(*rivals)} <= around
 
 
 def _earlier(

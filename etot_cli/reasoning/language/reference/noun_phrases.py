@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import product
@@ -75,6 +76,14 @@ Pronoun = Callable[[NounPhrase], Sequence[Sequence[Thing]]]
 """All that a pronoun may mean, each the things of one referent."""
 
 
+def _is_lent(modifier: Modifier) -> bool:
+    """Whether a thing is in or comes from "the top one", which takes up the noun of a drawer that
+    was spoken of rather than its own.
+    """
+    (only, *more) = modifier.phrases or (NounPhrase(),)
+    return modifier.prep in (Prep.FROM, Prep.IN) and only.head == "one" and not more
+
+
 def _sides_of(modifiers: Sequence[Modifier]) -> tuple[str, ...]:
     """Words for the sides of others that a thing is on ("the cup to the left of the plate")."""
     return tuple(m.prep.value for m in modifiers if m.prep.value in SIDES and m.phrases)
@@ -136,7 +145,7 @@ class Resolver:
             ReferenceProblem: nothing fits, or it is unclear what does.
         """
         key = (phrase, role, noun, tuple(excluded), tuple(among), parts_first)
-        if any(pronouns(phrase)):
+        if any(pronouns(phrase)) or any(map(_is_lent, phrase.modifiers)):
             return self._resolve(*key, pronoun)  # what that means is for the discourse to say
         if key not in self._known:
             try:
@@ -282,6 +291,10 @@ class Resolver:
         if only.pronoun and not more and modifier.prep is not Prep.BETWEEN:
             meant = [list(things) for things in pronoun(only)]
             return [[things] for things in meant]
+        if _is_lent(modifier):
+            with suppress(ReferenceProblem):
+                meant = [list(things) for things in pronoun(only)]
+                return [[things] for things in meant]
         if modifier.prep is Prep.BETWEEN and not more:
             both = self._landmarks(pronoun, only)
             if len(both) != 2:

@@ -308,7 +308,11 @@ class Referents(Meanings):
             if landmark.words and not is_robot(landmark) and not packed:
                 if quantity_of(landmark.determiner).other:
                     continue
-                resolved = self.resolver.resolve(
+                resolved: Resolved | None = None
+                if landmark.is_elliptic and prep in (Prep.FROM, Prep.IN):
+                    with suppress(ReferenceProblem):
+                        resolved = self.meaning(landmark, Role.ANY)
+                resolved = resolved or self.resolver.resolve(
                     landmark,
                     Role.ANY,
                     noun=noun if landmark.is_elliptic and noun else None,
