@@ -1827,3 +1827,48 @@ def train_room() -> SceneState:
         item("big_blue_block", "box", (0.43, 0.16), size=(0.065, 0.065, 0.065), color="blue"),
         item("small_blue_block", "box", (0.36, -0.17), size=(0.035, 0.035, 0.035), color="blue"),
     )  # fmt: skip
+
+def ball_room() -> SceneState:
+    """Balls in a basket and on the desk, blocks, a toy chest with its top drawer open."""
+    return scene(
+        drawers("toy_chest", (0.63, -0.36), {"top": 0.9, "middle": 0.0, "bottom": 0.0},
+             color="white"),
+        item("basket", "bowl", (0.58, 0.31), size=(0.18, 0.18, 0.08), color="brown"),
+        item("crate", "bowl", (0.62, 0.07), size=(0.16, 0.16, 0.08), color="blue"),
+        item("mat", "box", (0.42, -0.07), size=(0.2, 0.2, 0.008), color="gray"),
+        item("red_block", "box", (0.34, 0.12), size=(0.05, 0.05, 0.05), color="red"),
+        item("blue_block", "box", (0.34, 0.12), size=(0.04, 0.04, 0.04), color="blue",
+             on="red_block"),
+        item("yellow_block", "box", (0.28, -0.14), size=(0.05, 0.05, 0.05), color="yellow"),
+        item("green_block", "box", (0.49, -0.36), size=(0.04, 0.04, 0.04), color="green",
+             on="toy_chest", inside="toy_chest.top"),
+        item("blue_ball", "sphere", (0.56, 0.28), size=(0.05, 0.05, 0.05), color="blue",
+             on="basket", inside="basket"),
+        item("red_ball", "sphere", (0.60, 0.34), size=(0.05, 0.05, 0.05), color="red",
+             on="basket", inside="basket"),
+        item("yellow_ball", "sphere", (0.34, 0.27), size=(0.05, 0.05, 0.05), color="yellow"),
+    )  # fmt: skip
+
+def pen_nook() -> SceneState:
+    """Pens in a holder, on a notebook and on the desk, a bookshelf, a drawer."""
+    return scene(
+        item("bookshelf", "shelf", (0.63, -0.32), boards=("lower", "upper",), size=(0.25, 0.30,
+             0.40), color="brown"),
+        drawers("drawer", (0.63, 0.34), {"top": 0.0}, color="white"),
+        cup("black_holder", (0.60, 0.10), size=(0.08, 0.08, 0.1), color="black",
+             label="black pen holder"),
+        cup("white_holder", (0.60, -0.06), size=(0.08, 0.08, 0.1), color="white",
+             label="white pen holder"),
+        item("red_pen", "pen", (0.60, 0.10), size=(0.14, 0.012, 0.012), color="red",
+             on="black_holder", inside="black_holder"),
+        item("blue_pen", "pen", (0.30, -0.20), size=(0.14, 0.012, 0.012), color="blue"),
+        item("green_pen", "pen", (0.40, 0.08), size=(0.14, 0.012, 0.012), color="green",
+             on="notebook"),
+        item("notebook", "box", (0.40, 0.08), size=(0.15, 0.11, 0.02), color="blue"),
+        item("red_book", "box", (0.63, -0.32), size=(0.11, 0.06, 0.03), color="red",
+             on="bookshelf.lower"),
+        item("stapler", "box", (0.63, -0.32), size=(0.11, 0.04, 0.04), color="black",
+             on="bookshelf.upper"),
+        item("eraser", "box", (0.63, 0.34), size=(0.05, 0.025, 0.015), color="pink", on="drawer",
+             inside="drawer"),
+    )  # fmt: skip

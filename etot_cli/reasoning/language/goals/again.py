@@ -71,6 +71,8 @@ def again(context: Context, clause: AgainClause) -> None:
         return
     role = Role.THEME if isinstance(step, Pick) else Role.PART
     for index in context.phrases.things(clause.things, role):
+        if isinstance(step, Pick) and index == step.what:
+            raise ReferenceProblem(text, "say again what is to be done with it", 2)
         context.steps.append(replace(step, what=index))
 
 

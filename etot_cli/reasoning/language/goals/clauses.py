@@ -6,7 +6,7 @@ import re
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Put, Step, Thing
+from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Place, Put, Relation, Step, Thing
 from etot_cli.reasoning.builtin.relations import is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.again import again
@@ -99,6 +99,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                 context.steps.append(
                     Open(index) if clause.opens else Close(_all_of(context, index))
                 )
+                if clause.opens:  # "there" is rather in there than where something went before
+                    context.discourse.last_places = _into(context, index)
         case EnsureClause():
             for state in clause.states:
                 ensure(context, state)
@@ -149,6 +151,14 @@ def _note_placed(clause: Clause, context: Context) -> None:
     off = [step for step in puts if cleared or (only and step.removal)]
     taken = (index for step in off for index in step.what)
     context.discourse.cleared = frozenset(context.discourse.things(*taken))
+
+
+def _into(context: Context, index: int) -> tuple[Place, ...]:
+    """In what is opened, if that is one thing that holds others; else no place."""
+    (thing, *more) = context.discourse.things(index)
+    parts = parts_of(context.scene, thing)
+    holds = not more and len(parts) == 1 and parts[0].container
+    return (Place(Relation.INSIDE, index),) if holds else ()
 
 
 def _all_of(context: Context, index: int) -> int:

@@ -129,6 +129,16 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         rf"i (?:want|would like|need) ({_NAMED} [^.,;]*)",
         r"put \3 \1 \2",
     ),
+    (
+        r"(\b(?:and|then)\b[^.;]*?\b)a different "
+        r"(?=(?!colou?r|size|kind|way|place|spot|order|one from)\w)",
+        r"\1another ",
+    ),
+    (
+        r"\b(put|place|move|set) (the \w+(?: \w+)?)"
+        r"(?<!into)(?<!onto)(?<! in)(?<! on)(?<! by)(?<! to)(?<!beside) itself\b",
+        r"\1 \2",
+    ),
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
     (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
     (
@@ -198,7 +208,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     ),
     *CORNERS_AND_SIDES,
     (
-        r"\bwhere ((?:the|my) [^.,;]*?) (?:stood|lay|sat|used to be|has been|had been)\b",
+        r"\bwhere ((?:the|my) [^.,;]*?|it|they) (?:stood|lay|sat|used to be|has been|had been)\b",
         r"where \1 was",
     ),
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),

@@ -219,6 +219,9 @@ class LentNouns(ABC):
             person = phrase.pronoun in PERSONAL_PRONOUNS
             before = person or phrase.determiner == HERE_BEFORE
             indices = candidates(self.discourse, everywhere=before)
+            if phrase.determiner == HERE_BEFORE:
+                # "The shelf it was on" is where something is no more, if anything has been moved.
+                indices = tuple(i for i in indices if i in self.discourse.put) or indices
             if phrase.pronoun == "it" and not before:  # what tells the thing may tell which
                 indices = tuple(dict.fromkeys((*indices, *openable(self.discourse))))
             indices = tuple(i for i in indices if not person or is_like_people(self.discourse, i))
