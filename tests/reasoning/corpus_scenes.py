@@ -1828,6 +1828,7 @@ def train_room() -> SceneState:
         item("small_blue_block", "box", (0.36, -0.17), size=(0.035, 0.035, 0.035), color="blue"),
     )  # fmt: skip
 
+
 def ball_room() -> SceneState:
     """Balls in a basket and on the desk, blocks, a toy chest with its top drawer open."""
     return scene(
@@ -1848,6 +1849,7 @@ def ball_room() -> SceneState:
              on="basket", inside="basket"),
         item("yellow_ball", "sphere", (0.34, 0.27), size=(0.05, 0.05, 0.05), color="yellow"),
     )  # fmt: skip
+
 
 def pen_nook() -> SceneState:
     """Pens in a holder, on a notebook and on the desk, a bookshelf, a drawer."""

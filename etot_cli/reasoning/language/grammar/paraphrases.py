@@ -9,6 +9,7 @@ from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
+from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
@@ -50,7 +51,6 @@ _STEP = (
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 
-_TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
 _DID = re.compile(
     rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
     r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
@@ -77,6 +77,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     *CONTRACTIONS,
     *OBSTACLES,
     *LISTINGS,
+    *WHEREABOUTS,
     (_WISHED, _as_asked),
     (
         r",? (?:ok|okay|alright|all right|yeah|deal|understood|(?:would|will|could|can) you"
@@ -89,25 +90,9 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     ),
     (rf"^({ASKED}leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
     (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={_NAMED}|(?:it|them)\b)", r"\1set "),
-    (
-        r"\byou (?:will|can|should) find (it|(?:the|my) \w+(?: \w+)?) "
-        r"(?=(?:in|on|inside|next|beside|behind|near|at)\b)",
-        r"\1 is ",
-    ),
-    (
-        r"\bthere is nothing (?:left )?(?:in|on|inside) ((?:the|my) \w+(?: \w+)?) (?=and its\b)",
-        r"\1 is empty ",
-    ),
-    (
-        r"\bon the (?:\w+ )?(?:shelf|bookcase|rack|unit), "
-        r"(?=on the same (?:level|board|shelf) as\b)",
-        "",
-    ),
     (r"\b(set|put|place|lay) ([^.,;]*?) aside (?=(?:on|in|next to|beside) )", r"\1 \2 "),
     (rf"\b((?:on|in) {_NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(without \w+ing any other [^,.;]*), ([^.;]*)", r"\2 \1"),
-    (_TAKES_PLACE, r"\1 go in place of"),
-    (r"\b(that|which) (?:has|have) been left (?=open\b)", r"\1 is "),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
     (r",? followed by ", ", then "),
     (
@@ -115,24 +100,8 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"leave \1 as they are",
     ),
     (
-        rf"\breach (?:in|into|inside) ({_NAMED} [^.,;]*?) and (grab|take|get|pick up) "
-        r"([^.,;]*?)(?=[.,;!?]| and\b|$)",
-        r"\2 \3 from \1",
-    ),
-    (
         rf"^({ASKED})(?:tidy|clean)(?: up)? (?:the|my) {TABLE}(?: up)?(?:: | by (?=putting ))",
         r"\1tidy up: ",
-    ),
-    (rf"\band in (its|their) place (put|place) ({_NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
-    (
-        rf"^(next to|beside|behind|in front of|to the (?:left|right) of) ({_NAMED} [^.,;]*?),? "
-        rf"i (?:want|would like|need) ({_NAMED} [^.,;]*)",
-        r"put \3 \1 \2",
-    ),
-    (
-        r"(\b(?:and|then)\b[^.;]*?\b)a different "
-        r"(?=(?!colou?r|size|kind|way|place|spot|order|one from)\w)",
-        r"\1another ",
     ),
     (
         r"\b(put|place|move|set) (the \w+(?: \w+)?)"
@@ -140,12 +109,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\1 \2",
     ),
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
-    (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
-    (
-        r"\bthere is (?:still |enough |some |plenty of )?(?:room|space) (on|in) "
-        rf"({_NAMED} [^.,;]*), so (?:please )?(put|place|set|lay|stand) ([^.,;]*?) (?:in )?there\b",
-        r"\3 \4 \1 \2",
-    ),
     (
         r"\bneither ((?:of the )?\w+) (?:should|must|may|is to) be (moved|touched)\b",
         lambda said: f"do not {said[2][:-1] if said[2] == 'moved' else 'touch'} either {said[1]}",
@@ -156,24 +119,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"(?:put|place) (?:it|them) (?:in|on|into|onto) [^.,;]*?) instead(?=[.;!?]|$)",
         r"\1",
     ),
-    (
-        r"\b(nothing (?:should|must) be left) (in|on) ([^.,;]*?) or (in|on) ",
-        r"\1 \2 \3 and \1 \4 ",
-    ),
-    (
-        rf"\b(?:bring|carry|take|move) ({_NAMED} [^.,;:]*?) (?:over |across )?"
-        rf"to ({_NAMED} (?:\w+ )?(?:tray|plate|board|mat|shelf)),? and "
-        r"(?:put|set|lay|place) it (?:down )?"
-        r"(?=(?:next to|beside|behind|in front of|to the (?:left|right) of)\b)",
-        r"put \1 on \2 ",
-    ),
     (r"\bleave no (?=\w)", "do not leave any "),
-    (
-        rf"\b(?:take|carry|move|bring|shift) ({_NAMED} [^.,;:]*?) (?:over |across )?"
-        rf"to ({_NAMED} [^.,;:]*?), (?:right |just |close )?"
-        r"(next to|beside|behind|in front of|to the (?:left|right) of) it(?=[.,;!?]| and\b|$)",
-        r"put \1 \3 \2",
-    ),
     (
         r"\b((?:need|want|have|like|love|is|are) (?:[^.,;]* )?)out "
         rf"(?=on(?:to)? (?:the|my) {TABLE})",
@@ -207,10 +153,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\1 should be \2 in the end",
     ),
     *CORNERS_AND_SIDES,
-    (
-        r"\bwhere ((?:the|my) [^.,;]*?|it|they) (?:stood|lay|sat|used to be|has been|had been)\b",
-        r"where \1 was",
-    ),
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
     (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
     (r",? from now on\b", ""),

@@ -1,0 +1,72 @@
+"""Ways of saying where things are, come from and go."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+_NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
+_TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
+
+WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        r"\byou (?:will|can|should) find (it|(?:the|my) \w+(?: \w+)?) "
+        r"(?=(?:in|on|inside|next|beside|behind|near|at)\b)",
+        r"\1 is ",
+    ),
+    (
+        r"\bthere is nothing (?:left )?(?:in|on|inside) ((?:the|my) \w+(?: \w+)?) (?=and its\b)",
+        r"\1 is empty ",
+    ),
+    (
+        r"\bon the (?:\w+ )?(?:shelf|bookcase|rack|unit), "
+        r"(?=on the same (?:level|board|shelf) as\b)",
+        "",
+    ),
+    (_TAKES_PLACE, r"\1 go in place of"),
+    (r"\b(that|which) (?:has|have) been left (?=open\b)", r"\1 is "),
+    (
+        rf"\breach (?:in|into|inside) ({_NAMED} [^.,;]*?) and (grab|take|get|pick up) "
+        r"([^.,;]*?)(?=[.,;!?]| and\b|$)",
+        r"\2 \3 from \1",
+    ),
+    (rf"\band in (its|their) place (put|place) ({_NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
+    (
+        rf"^(next to|beside|behind|in front of|to the (?:left|right) of) ({_NAMED} [^.,;]*?),? "
+        rf"i (?:want|would like|need) ({_NAMED} [^.,;]*)",
+        r"put \3 \1 \2",
+    ),
+    (
+        r"(\b(?:and|then)\b[^.;]*?\b)a different "
+        r"(?=(?!colou?r|size|kind|way|place|spot|order|one from)\w)",
+        r"\1another ",
+    ),
+    (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
+    (
+        r"\bthere is (?:still |enough |some |plenty of )?(?:room|space) (on|in) "
+        rf"({_NAMED} [^.,;]*), so (?:please )?(put|place|set|lay|stand) ([^.,;]*?) (?:in )?there\b",
+        r"\3 \4 \1 \2",
+    ),
+    (
+        r"\b(nothing (?:should|must) be left) (in|on) ([^.,;]*?) or (in|on) ",
+        r"\1 \2 \3 and \1 \4 ",
+    ),
+    (
+        rf"\b(?:bring|carry|take|move) ({_NAMED} [^.,;:]*?) (?:over |across )?"
+        rf"to ({_NAMED} (?:\w+ )?(?:tray|plate|board|mat|shelf)),? and "
+        r"(?:put|set|lay|place) it (?:down )?"
+        r"(?=(?:next to|beside|behind|in front of|to the (?:left|right) of)\b)",
+        r"put \1 on \2 ",
+    ),
+    (
+        rf"\b(?:take|carry|move|bring|shift) ({_NAMED} [^.,;:]*?) (?:over |across )?"
+        rf"to ({_NAMED} [^.,;:]*?), (?:right |just |close )?"
+        r"(next to|beside|behind|in front of|to the (?:left|right) of) it(?=[.,;!?]| and\b|$)",
+        r"put \1 \3 \2",
+    ),
+    (
+        r"\bwhere ((?:the|my) [^.,;]*?|it|they) (?:stood|lay|sat|used to be|has been|had been)\b",
+        r"where \1 was",
+    ),
+)
+"""What they are put into, in order (see :mod:`etot_cli.reasoning.language.grammar.paraphrases`)."""
