@@ -132,7 +132,10 @@ def all_of_them(tell: Teller) -> Told | None:
          "Put all {s} other than {x} {p}.", "Put all the {s} {p}, and leave {x} where it is.")
     ).format(s=several(word), w=word, x=but, p=place[0])  # fmt: skip
     rest = [name for name in found if name != left_out]
-    return Told(text, " ".join(f"Put {tell.named(name)} {place[1]}." for name in rest))
+    plain = " ".join(f"Put {tell.named(name)} {place[1]}." for name in rest)
+    if text.endswith("where it is."):
+        plain += f" Do not move {tell.named(left_out)}."
+    return Told(text, plain)
 
 
 def the_other_one(tell: Teller) -> Told | None:
