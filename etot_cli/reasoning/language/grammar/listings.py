@@ -71,5 +71,14 @@ LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str
         r"\1 things, \2, ",
     ),
     (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
+    (
+        rf"^({ASKED}(?:sort|arrange|organi[sz]e) (?:the|my) [^.,;:]*?) by (?=\w+ing\b)",
+        r"\1: ",
+    ),
+    (
+        rf"(\beach (?:shelf|board|level)\b[^.;]*?)({_NAMED} [^.,;:]*?) below,? (?:and )?"
+        rf"({_NAMED} [^.,;:]*?) above\b",
+        r"\1\2 on the lower one, \3 on the upper one",
+    ),
 )
 """What they are put into, in order (see :mod:`etot_cli.reasoning.language.grammar.paraphrases`)."""

@@ -100,13 +100,29 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"leave \1 as they are",
     ),
     (
-        rf"^({ASKED})(?:tidy|clean)(?: up)? (?:the|my) {TABLE}(?: up)?(?:: | by (?=putting ))",
+        rf"^({ASKED})(?:tidy|clean)(?: up)? (?:the|my) {TABLE}(?: up)?(?:: | by (?=\w+ing ))",
         r"\1tidy up: ",
     ),
     (
         r"\b(put|place|move|set) (the \w+(?: \w+)?)"
         r"(?<!into)(?<!onto)(?<! in)(?<! on)(?<! by)(?<! to)(?<!beside) itself\b",
         r"\1 \2",
+    ),
+    (rf"\bbut none of (?={_NAMED})", "but not "),
+    (r"\bclear the top of (?=the\b)", "clear "),
+    (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
+    (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),
+    (
+        r"\b(take|grab|pick up|get) ([^.,;]*?) (?:in|into|with) your (?:gripper|hand|fingers)\b",
+        r"\1 \2",
+    ),
+    (
+        rf"\bi (?:want|would like) ({_NAMED} [^.,;]*?) to have nothing (?:in|on) it\b",
+        r"\1 should be empty",
+    ),
+    (
+        rf"\bmake ({_NAMED} [^.,;]*?) (?:stand|sit|lie|rest) (?={_BESIDE}|to\b)",
+        r"put \1 ",
     ),
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
     (

@@ -33,7 +33,7 @@ WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], 
     (rf"\band in (its|their) place (put|place) ({_NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
     (
         rf"^(next to|beside|behind|in front of|to the (?:left|right) of) ({_NAMED} [^.,;]*?),? "
-        rf"i (?:want|would like|need) ({_NAMED} [^.,;]*)",
+        rf"(?:i (?:want|would like|need)|there (?:should|must) be) ({_NAMED} [^.,;]*)",
         r"put \3 \1 \2",
     ),
     (
@@ -68,5 +68,8 @@ WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], 
         r"\bwhere ((?:the|my) [^.,;]*?|it|they) (?:stood|lay|sat|used to be|has been|had been)\b",
         r"where \1 was",
     ),
+    (r"\bfrom one (\w+) (?:in)?to the other(?=[.,;!?]|$| and\b)", r"to the other \1"),
+    (r"\b(what is (?:in|on) [^.,;]*?) now (?=(?:should|goes|must|is to)\b)", r"\1 "),
+    (r"\b(?:to )?somewhere (?=(?:behind|next to|beside|near|in front of|between)\b)", ""),
 )
 """What they are put into, in order (see :mod:`etot_cli.reasoning.language.grammar.paraphrases`)."""
