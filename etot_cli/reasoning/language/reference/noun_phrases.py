@@ -68,7 +68,7 @@ BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
 _INCOMPLETE = frozenset({*THE_WORDS, "", "a", "an"})
 """Determiners that do not stand without a noun."""
-_WHATEVER = re.compile(r"\b(?:that|which|still)\b")
+_WHATEVER = re.compile(r"\b(?:that|which|still|lying|standing|sitting)\b")
 """In "any cup that is red" and "any cup still on the desk" it makes "any" speak of all of them."""
 
 
