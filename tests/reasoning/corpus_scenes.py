@@ -1874,3 +1874,22 @@ def pen_nook() -> SceneState:
         item("eraser", "box", (0.63, 0.34), size=(0.05, 0.025, 0.015), color="pink", on="drawer",
              inside="drawer"),
     )  # fmt: skip
+
+def pot_galley() -> SceneState:
+    """A pot and its lid, apples, mugs, one of them in a microwave, a sideboard."""
+    return scene(
+        cabinet("microwave", (0.63, 0.36), 0.0, color="gray"),
+        drawers("sideboard", (0.63, -0.36), {"top": 0.0, "bottom": 0.9}, color="brown"),
+        cup("red_mug", (0.63, 0.36), size=(0.08, 0.08, 0.09), color="red", on="microwave",
+             inside="microwave"),
+        cup("blue_mug", (0.30, 0.30), size=(0.08, 0.08, 0.09), color="blue"),
+        item("white_plate", "box", (0.42, 0.10), size=(0.2, 0.2, 0.015), color="white"),
+        item("blue_plate", "box", (0.36, -0.12), size=(0.18, 0.18, 0.015), color="blue"),
+        item("red_apple", "sphere", (0.42, 0.15), size=(0.07, 0.07, 0.07), color="red",
+             on="white_plate"),
+        item("green_apple", "sphere", (0.27, 0.12), size=(0.07, 0.07, 0.07), color="green"),
+        item("spoon", "pen", (0.48, -0.36), size=(0.14, 0.012, 0.012), color="gray",
+             on="sideboard", inside="sideboard.bottom"),
+        item("pot", "bowl", (0.62, 0.07), size=(0.18, 0.18, 0.1), color="black"),
+        item("pot_lid", "box", (0.62, -0.12), size=(0.16, 0.16, 0.02), color="black"),
+    )  # fmt: skip

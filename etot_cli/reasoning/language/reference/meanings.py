@@ -217,7 +217,8 @@ class Meanings(LentNouns):
             things = self.with_noun(replace(phrase, determiner="all"), role, None).options[0]
             owners = {thing for things in self.pronoun_things(owner) for thing in things}
             named = self.resolver.called_after(things, owners, phrase.words)
-        if named is None or owner.words or role is Role.THEME:
+        theme = role is Role.THEME and phrase.head not in ("lid", "cover", "cap")
+        if named is None or owner.words or theme:
             person = owner.pronoun in PERSONAL_PRONOUNS  # "grandma wants her glasses": as "my"
             return phrase if person else ways[0]
         note = f"read {phrase.text!r} as {named}"
