@@ -143,7 +143,17 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
             keep = Keep.OPEN if way is True else Keep.CLOSED
             context.constraints.append(Constraint(keep, (f"{part.owner}.{part.name}",)))
         return
+    names += _what_is_there(context, names) if clause.as_it_is else ()
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
+
+
+def _what_is_there(context: Context, names: Sequence[str]) -> tuple[str, ...]:
+    """What is in or on furniture that is left as it is, which moves no more than that does anyway."""
+    infos, scene = context.scene.infos, context.scene
+    fixed = {name for name in names if name in infos and not infos[name].movable}
+    moved = {thing.name for thing in context.discourse.things(*context.discourse.put)}
+    inside = (name for name in infos if infos[name].movable and name in scene.states)
+    return tuple(n for n in inside if bearers(scene, n) & fixed and n not in moved)
 
 
 def _is_not_chosen(context: Context, index: int, *, which: bool = False) -> bool:

@@ -162,7 +162,7 @@ KEEP_STILL = either(
                 f"leav(e|ing), keep[ing], {verbs.IGNORE}, you can leave", THINGS, optional("out")
             ),
         ),
-        build=lambda things: AvoidClause(Avoid.MOVE, things, far_fetched=2),
+        build=lambda things: AvoidClause(Avoid.MOVE, things, as_it_is=True, far_fetched=2),
     ),
     sequence(
         "keep[ing], stay[ing]",

@@ -373,6 +373,8 @@ class AvoidClause:
     """Another clause follows by a mere "and", of which "do not" may be said as well."""
     needless: bool = False
     """It need not be done, but may be."""
+    as_it_is: bool = False
+    """They are left as they are, with what is in and on them."""
 
 
 Clause = (
