@@ -189,7 +189,10 @@ _contents = either(
                 (HERE_BEFORE,),
             ),
         ),
-        build=lambda np, words: Modifier(Prep.WITH, (np,), words),
+        # "The cups where they are" is no place that tells which.
+        build=lambda np, words: (
+            None if np.pronoun and not words else Modifier(Prep.WITH, (np,), words)
+        ),
     ),
     quiet(
         sequence(
