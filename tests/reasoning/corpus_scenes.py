@@ -1875,6 +1875,7 @@ def pen_nook() -> SceneState:
              inside="drawer"),
     )  # fmt: skip
 
+
 def pot_galley() -> SceneState:
     """A pot and its lid, apples, mugs, one of them in a microwave, a sideboard."""
     return scene(

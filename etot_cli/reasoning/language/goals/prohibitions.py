@@ -148,7 +148,7 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
 
 
 def _what_is_there(context: Context, names: Sequence[str]) -> tuple[str, ...]:
-    """What is in or on furniture that is left as it is, which moves no more than that does anyway."""
+    """What is in or on furniture that is left as it is."""
     infos, scene = context.scene.infos, context.scene
     fixed = {name for name in names if name in infos and not infos[name].movable}
     moved = {thing.name for thing in context.discourse.things(*context.discourse.put)}

@@ -122,7 +122,8 @@ def other_board(phrase: NounPhrase, role: Role, discourse: Discourse) -> Resolve
     said = [m for m in discourse.mentions if m.role in (*targets, Role.ANY)]
     said = [m for m in said if not discourse.is_desk(m.referent)]
     alike = phrase.head in ("", "one") or matches_any(phrase.head, BOARD_NOUNS)
-    asked = alike and phrase.determiner == "the other" and not phrase.modifiers
+    bare = len(phrase.words) < 2 and not (phrase.modifiers or phrase.without or phrase.owner)
+    asked = alike and bare and phrase.determiner == "the other"
     if not asked or not said or role not in targets[:2]:
         return None
     things = discourse.things(said[-1].referent)
