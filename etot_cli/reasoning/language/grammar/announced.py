@@ -27,15 +27,22 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 
 
-def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
-    """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
+def _named_in(rest: Reading) -> list[NounPhrase] | None:
+    """What is put somewhere, or said to be somewhere; None where something else is asked for."""
     match rest[0].clause:
         case PutClause(groups=groups):
-            named = [np for group in groups for np in group.things.phrases]
+            return [np for group in groups for np in group.things.phrases]
         case EnsureClause(states=states):
-            named = [np for state in states for np in state.subjects]
+            return [np for state in states for np in state.subjects]
         case _:
             return None
+
+
+def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
+    """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
+    named = _named_in(rest)
+    if named is None:
+        return None
     topics = topic[0].clause.things.phrases if isinstance(topic[0].clause, ReorientClause) else ()
     bare = [not np.determiner and all(map(is_descriptive, np.words or (".",))) for np in named]
     of_them = any(
@@ -121,12 +128,8 @@ def one_for_each(topics: Reading, rest: Reading) -> Reading | None:
 
 def all_put(topic: Reading, rest: Reading) -> Reading | None:
     """Where all that is to be tidied up goes ("tidy up the cars and put them …")."""
-    match rest[0].clause:
-        case PutClause(groups=groups):
-            named = [np for group in groups for np in group.things.phrases]
-        case EnsureClause(states=states):
-            named = [np for state in states for np in state.subjects]
-        case _:
-            return None
+    named = _named_in(rest)
+    if named is None:
+        return None
     spoken = all(np.pronoun in ("them", "they") or np.text.endswith(" of them") for np in named)
     return (*topic, *rest) if spoken else None

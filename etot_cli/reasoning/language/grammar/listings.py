@@ -6,14 +6,13 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, basic_color
+from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
-_WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
-_NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
 _NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
 ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
 """Before what somebody is asked for."""
-_BARE = re.compile(r"(^|, |; |\b(?:and|then|put) )(\w+) (?=(?:in|on|into|onto|to|goe?s?|stays?)\b)")
+_BARE = re.compile(r"(^|, |; |\b(?:and|then|put) )(\w+) (?=(?:in|on|into|onto|to|go(?:es)?)\b)")
 _ALL_NAMED = re.compile(
     r"(^|[.;\n]\s*)([^:.;\n]+): "
     r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
@@ -32,7 +31,7 @@ def _sorted(said: re.Match[str]) -> str:
 def _one_by_one(said: re.Match[str]) -> str:
     """A list whose order was announced ("these in this order: the cup, the plate")."""
     asked, where, items = said.groups()
-    parts = re.split(rf"(?:, | and |, and )(?:then )?(?={_NAMED}|\w+$|\w+,)", items)
+    parts = re.split(rf"(?:, | and |, and )(?:then )?(?={NAMED}|\w+$|\w+,)", items)
     return f"{asked} these{where}: {', then '.join(parts)}"
 
 
@@ -67,7 +66,7 @@ LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str
     # "All three, the cup, the mug and the plate, in the box"
     (
         rf"\b({_SO_MANY})(?: of them)?(?:,| -|:) ({_NAMES}(?:, {_NAMES})*,? and {_NAMES})"
-        rf"(?:(?:,| -) (?={_WHERE})|(?=[.;!]|$))",
+        rf"(?:(?:,| -) (?={WHERE})|(?=[.;!]|$))",
         r"\1 things, \2, ",
     ),
     (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
@@ -76,8 +75,8 @@ LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str
         r"\1: ",
     ),
     (
-        rf"(\beach (?:shelf|board|level)\b[^.;]*?)({_NAMED} [^.,;:]*?) below,? (?:and )?"
-        rf"({_NAMED} [^.,;:]*?) above\b",
+        rf"(\beach (?:shelf|board|level)\b[^.;]*?)({NAMED} [^.,;:]*?) below,? (?:and )?"
+        rf"({NAMED} [^.,;:]*?) above\b",
         r"\1\2 on the lower one, \3 on the upper one",
     ),
 )

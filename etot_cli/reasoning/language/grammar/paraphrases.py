@@ -12,13 +12,13 @@ from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
+from etot_cli.reasoning.language.words.lexicon import LIDS, NUMBERS, SIZES
+from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 from etot_cli.reasoning.language.words.verbs import PAST
 
 HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
-_WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 _NOTHING_ELSE = re.compile(
-    rf"((?:^|[.;\n])(?:(?!\b{_WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({_WHERE}[^,.;\n]*)"
+    rf"((?:^|[.;\n])(?:(?!\b{WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({WHERE}[^,.;\n]*)"
 )
 """Behind the things it stands for what is said of them behind their place."""
 _MAY_GO = re.compile(
@@ -35,11 +35,10 @@ _BESIDE = (
     r"(?:next to|beside|near|behind|in front of|between|(?:to the )?(?:left|right) of|on|in)\b"
 )
 _DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
-_NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
 _NO_MORE_SAID = (
-    rf"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b| {_WHERE}|$)"
+    rf"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b| {WHERE}|$)"
 )
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
 
@@ -67,7 +66,7 @@ def _as_asked(wish: re.Match[str]) -> str:
 def _in_turn(said: re.Match[str]) -> str:
     """What goes "on" where something else went "off" of, or "in" where it went "out of"."""
     away, where, joint, other, back = said.groups()
-    if {"lid", "cover", "cap"} & {*other.split()}:
+    if LIDS & {*other.split()}:
         return said[0]  # it goes on what was taken
     place = {("off", "on"): f"on {where}", ("out of", "in"): f"in {where}"}.get((away, back), back)
     return f"{away} {where}{joint} {other} {place}"
@@ -89,14 +88,14 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"i will need \1 ",
     ),
     (rf"^({ASKED}leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
-    (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={_NAMED}|(?:it|them)\b)", r"\1set "),
+    (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={NAMED}|(?:it|them)\b)", r"\1set "),
     (r"\b(set|put|place|lay) ([^.,;]*?) aside (?=(?:on|in|next to|beside) )", r"\1 \2 "),
-    (rf"\b((?:on|in) {_NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
+    (rf"\b((?:on|in) {NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(without \w+ing any other [^,.;]*), ([^.;]*)", r"\2 \1"),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
     (r",? followed by ", ", then "),
     (
-        rf"\b(?:keep|leave) ({_NAMED} [^.,;]*?) stacked(?=[.,;]| and\b|$)(?! on)",
+        rf"\b(?:keep|leave) ({NAMED} [^.,;]*?) stacked(?=[.,;]| and\b|$)(?! on)",
         r"leave \1 as they are",
     ),
     (
@@ -108,7 +107,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"(?<!into)(?<!onto)(?<! in)(?<! on)(?<! by)(?<! to)(?<!beside) itself\b",
         r"\1 \2",
     ),
-    (rf"\bbut none of (?={_NAMED})", "but not "),
+    (rf"\bbut none of (?={NAMED})", "but not "),
     (r"\bclear the top of (?=the\b)", "clear "),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
     (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),
@@ -117,11 +116,11 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\1 \2",
     ),
     (
-        rf"\bi (?:want|would like) ({_NAMED} [^.,;]*?) to have nothing (?:in|on) it\b",
+        rf"\bi (?:want|would like) ({NAMED} [^.,;]*?) to have nothing (?:in|on) it\b",
         r"\1 should be empty",
     ),
     (
-        rf"\bmake ({_NAMED} [^.,;]*?) (?:stand|sit|lie|rest) (?={_BESIDE}|to\b)",
+        rf"\bmake ({NAMED} [^.,;]*?) (?:stand|sit|lie|rest) (?={_BESIDE}|to\b)",
         r"put \1 ",
     ),
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
@@ -215,11 +214,11 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
     (r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already))?\b", r"\1 it"),
     (
-        rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {_WHERE}|[,.;!?]|$)",
+        rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {WHERE}|[,.;!?]|$)",
         r"\1 in it",
     ),
     (r"\bback (?=(?:(?:in|on) )?there\b)", ""),
-    (rf"(^|[.!?;,]\s*|\band )({_DOING}) (?:also|please) (?={_NAMED})", r"\1\2 "),
+    (rf"(^|[.!?;,]\s*|\band )({_DOING}) (?:also|please) (?={NAMED})", r"\1\2 "),
     (r"\b(left|right) from (?=(?:the|my|that|this|it)\b)", r"\1 of "),
     (r"(^|[.!?;]\s*)would be (?=(?:good|nice|great|lovely) to have\b)", r"\1it would be "),
     (r"\bwith the (\w+s) still in it\b", r"with the \1 that are in it in it"),
@@ -336,7 +335,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     ),
     (rf"\bthe (?:piece|item) of (?=(?:{'|'.join(CATEGORIES)})\b)", "the 1 "),
     (r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", ""),
-    (rf"\b(over|down|up) (?:here|there) (?={_WHERE})", r"\1 "),
+    (rf"\b(over|down|up) (?:here|there) (?={WHERE})", r"\1 "),
     (r"\bback down (?=(?:on|onto)\b)", "down "),
     (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
     (r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", ""),

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-_NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
+from etot_cli.reasoning.language.words.small_words import NAMED
+
 _TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
 
 WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
@@ -26,14 +27,14 @@ WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], 
     (_TAKES_PLACE, r"\1 go in place of"),
     (r"\b(that|which) (?:has|have) been left (?=open\b)", r"\1 is "),
     (
-        rf"\breach (?:in|into|inside) ({_NAMED} [^.,;]*?) and (grab|take|get|pick up) "
+        rf"\breach (?:in|into|inside) ({NAMED} [^.,;]*?) and (grab|take|get|pick up) "
         r"([^.,;]*?)(?=[.,;!?]| and\b|$)",
         r"\2 \3 from \1",
     ),
-    (rf"\band in (its|their) place (put|place) ({_NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
+    (rf"\band in (its|their) place (put|place) ({NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
     (
-        rf"^(next to|beside|behind|in front of|to the (?:left|right) of) ({_NAMED} [^.,;]*?),? "
-        rf"(?:i (?:want|would like|need)|there (?:should|must) be) ({_NAMED} [^.,;]*)",
+        rf"^(next to|beside|behind|in front of|to the (?:left|right) of) ({NAMED} [^.,;]*?),? "
+        rf"(?:i (?:want|would like|need)|there (?:should|must) be) ({NAMED} [^.,;]*)",
         r"put \3 \1 \2",
     ),
     (
@@ -44,7 +45,7 @@ WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], 
     (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
     (
         r"\bthere is (?:still |enough |some |plenty of )?(?:room|space) (on|in) "
-        rf"({_NAMED} [^.,;]*), so (?:please )?(put|place|set|lay|stand) ([^.,;]*?) (?:in )?there\b",
+        rf"({NAMED} [^.,;]*), so (?:please )?(put|place|set|lay|stand) ([^.,;]*?) (?:in )?there\b",
         r"\3 \4 \1 \2",
     ),
     (
@@ -52,15 +53,15 @@ WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], 
         r"\1 \2 \3 and \1 \4 ",
     ),
     (
-        rf"\b(?:bring|carry|take|move) ({_NAMED} [^.,;:]*?) (?:over |across )?"
-        rf"to ({_NAMED} (?:\w+ )?(?:tray|plate|board|mat|shelf)),? and "
+        rf"\b(?:bring|carry|take|move) ({NAMED} [^.,;:]*?) (?:over |across )?"
+        rf"to ({NAMED} (?:\w+ )?(?:tray|plate|board|mat|shelf)),? and "
         r"(?:put|set|lay|place) it (?:down )?"
         r"(?=(?:next to|beside|behind|in front of|to the (?:left|right) of)\b)",
         r"put \1 on \2 ",
     ),
     (
-        rf"\b(?:take|carry|move|bring|shift) ({_NAMED} [^.,;:]*?) (?:over |across )?"
-        rf"to ({_NAMED} [^.,;:]*?), (?:right |just |close )?"
+        rf"\b(?:take|carry|move|bring|shift) ({NAMED} [^.,;:]*?) (?:over |across )?"
+        rf"to ({NAMED} [^.,;:]*?), (?:right |just |close )?"
         r"(next to|beside|behind|in front of|to the (?:left|right) of) it(?=[.,;!?]| and\b|$)",
         r"put \1 \3 \2",
     ),

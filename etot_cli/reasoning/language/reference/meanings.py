@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out, usual_form
 from etot_cli.reasoning.language.words.lexicon import (
+    LIDS,
     ORDINALS,
     THING_NOUNS,
     head_of,
@@ -217,7 +218,7 @@ class Meanings(LentNouns):
             things = self.with_noun(replace(phrase, determiner="all"), role, None).options[0]
             owners = {thing for things in self.pronoun_things(owner) for thing in things}
             named = self.resolver.called_after(things, owners, phrase.words)
-        theme = role is Role.THEME and phrase.head not in ("lid", "cover", "cap")
+        theme = role is Role.THEME and phrase.head not in LIDS
         if named is None or owner.words or theme:
             person = owner.pronoun in PERSONAL_PRONOUNS  # "grandma wants her glasses": as "my"
             return phrase if person else ways[0]

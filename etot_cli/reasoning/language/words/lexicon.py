@@ -149,6 +149,8 @@ JOINT_NOUNS: dict[str, tuple[str, ...]] = {
     "hinge": ("door", "lid", "flap", "cover"),
 }
 """Nouns that name a movable part by the way it moves."""
+LIDS = word_set("lid cover cap")
+"""What lies loose on what it closes."""
 LIDDED = word_set("chest box trunk case crate bin coffer cooler hamper container basket")
 """Names of furniture whose door people call its lid."""
 CONTAINER_NOUNS = ("container", "receptacle", "vessel")

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from etot_cli.reasoning.language.words.verbs import RELATIONS
 
+NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
+"""What a named thing begins with, as a regular expression."""
+WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
+"""What a place begins with, as a regular expression."""
 _WHICH = "which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]"
 _WILL_DO = "(is|are|would be) (fine|ok|okay|good)|will do|would do|works|work"
 ANY_WILL_DO = f"({_WILL_DO}) [for me]"
