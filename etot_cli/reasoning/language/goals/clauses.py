@@ -34,7 +34,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
     TowerClause,
 )
 from etot_cli.reasoning.language.grammar.taking import is_emptying
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.by_now import note_placed
+from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
@@ -96,9 +98,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
         case MoveClause():
             context.tell_so(clause.things, opens=clause.opens)
             for index in in_turns(context, clause.things, clause.turns, Role.PART):
-                context.steps.append(
-                    Open(index) if clause.opens else Close(_all_of(context, index))
-                )
+                index = _moved(context, clause, index)
+                context.steps.append(Open(index) if clause.opens else Close(index))
                 if clause.opens:  # "there" is rather in there than where something went before
                     context.discourse.last_places = _into(context, index)
         case EnsureClause():
@@ -161,24 +162,31 @@ def _into(context: Context, index: int) -> tuple[Place, ...]:
     return (Place(Relation.INSIDE, index),) if holds else ()
 
 
-def _all_of(context: Context, index: int) -> int:
-    """Who closes a chest closes all its drawers; "the drawer" of a chest is one that is open."""
+def _moved(context: Context, clause: MoveClause, index: int) -> int:
+    """Who closes a chest closes all its drawers; "the drawer" of a chest is the one that can be
+    opened, or closed, as it stands.
+    """
     discourse, infos = context.discourse, context.scene.infos
     noun = next(item.noun for item in reversed(discourse.mentions) if item.referent == index)
     whole = [infos[thing.name] for thing in discourse.things(index) if thing.part is None]
-    joints = {part.joint_type for info in whole for part in info.parts}
-    by_part = any(matches_any(noun, JOINT_NOUNS.get(joint, ())) for joint in joints)
     if all(len(info.parts) < 2 for info in whole):
         return index
-    if by_part:
-        moved = [part for info in whole for part in info.parts if is_open(context.scene, part)]
-        named = [mention.referent for mention in discourse.mentions].count(index)
-        if len(moved) != 1 or singular(noun) != noun or len(whole) != 1 or named > 1:
+    parts = [part for info in whole for part in info.parts]
+    nouns = {word for part in parts for word in JOINT_NOUNS.get(part.joint_type, ())}
+    own = any(noun in info.label.split() for info in whole)  # a chest called "tool drawer"
+    if matches_any(noun, nouns) and not own:
+        moved = [part for part in parts if is_open(context.scene, part) != clause.opens]
+        either = any(not quantity_of(np.determiner).definite for np in clause.things.phrases)
+        if singular(noun) != noun or either or discourse.is_spoken(index) or not moved:
             return index
+        text = discourse.referents[index].text
+        if len(moved) > 1:
+            raise AmbiguousReference(text, [f"{part.owner}.{part.name}" for part in moved])
         meant = ((Thing(moved[0].owner, moved[0].name),),)
         discourse.mentions = [item for item in discourse.mentions if item.referent != index]
-        text = discourse.referents[index].text
         return discourse.add(Resolved(meant, definite=True, noun=noun), text, Role.PART)
+    if clause.opens:
+        return index
     options = tuple(
         tuple(
             Thing(thing.name, part.name)
