@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.grammar.text import QUESTION, sentences_of, wor
 from etot_cli.reasoning.language.languages import other_language
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
+from etot_cli.reasoning.language.viewpoint import without_viewpoint
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import OPENING_WORDS, OTHER_VERBS, VERB_WORDS
@@ -70,6 +71,10 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         InstructionError: what could not be understood and what can be done about it.
     """
     vocabulary = Vocabulary(scene)
+    try:
+        instruction = without_viewpoint(instruction, scene)
+    except ReferenceProblem as error:
+        raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
     text = normalized(instruction)
     try:
         return _read(text, scene, vocabulary)

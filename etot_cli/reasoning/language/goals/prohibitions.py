@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.space import addresses, touches
 from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 
@@ -50,7 +50,7 @@ _KEEPS = {
     Avoid.CLOSE: Keep.OPEN,
 }
 
-_THE_REST = (("the rest",), ("all the rest",))
+_THE_REST = (("the rest",), ("all the rest",), ("the others",))
 _TARGETS = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 
 
@@ -73,8 +73,12 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         return
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
     if any(np.words in _THE_REST and not np.modifiers for np in clause.things.phrases):
-        _avoid_others(context, clause)
-        return
+        turned = _others_like_what_turns(context, clause)
+        if turned is None:
+            _avoid_others(context, clause)
+            return
+        clause = replace(clause, things=turned)
+        assert clause.things is not None
     elliptic = (
         np.is_elliptic or leaves_noun_out(np) or not (np.words or np.pronoun)
         for np in clause.things.phrases
@@ -296,6 +300,20 @@ def _whatever(context: Context, clause: AvoidClause) -> list[int]:
     )
     every = Resolved((things,), noun="object", every=True)
     return [context.discourse.add(every, "anything", Role.THEME, several=True)]
+
+
+def _others_like_what_turns(context: Context, clause: AvoidClause) -> Things | None:
+    """Behind "close the top drawer", "the others" are the other drawers, where there are any."""
+    others = clause.things is not None and clause.things.phrases[0].words == ("the others",)
+    if not isinstance(context.last, MoveClause) or not others:
+        return None
+    noun = singular(context.last.things.phrases[-1].head)
+    phrase = NounPhrase("all the other", (f"{noun}s",), text="the others")
+    try:
+        found = context.phrases.meaning(phrase, Role.PART)
+    except ReferenceProblem:
+        return None
+    return Things((phrase,)) if found.options[0] else None
 
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:

@@ -17,7 +17,7 @@ CONTRACTIONS = (
     (r"\b(can|won)t\b", r"\1't"),
     (r"\b(i)(m|ve)\b", r"\1'\2"),
     (r"\b(you|they)(re|ve|ll)\b", r"\1'\2"),
-    (r"\bu\b", "you"),
+    (r"\bu\b|\bya\b", "you"),
     (r"\bw/?(?= (?:the|a|my|it|that|this|all|both)\b)", "with"),
     (
         r"\b((?:the|my|all|both)(?: (?!and\b|or\b)\w+){1,2}|everything|all|anything)"

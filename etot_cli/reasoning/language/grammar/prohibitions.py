@@ -119,25 +119,29 @@ KEEP_OUT = sequence(
         Avoid.PUT, things, (Destination(toward, nps),), negated=True
     ),
 )
-_EVERYTHING_ELSE = "everything else, all else, the (rest|others) [of it|of them]"
+_EVERYTHING_ELSE = "everything else, all else, the rest [of it|of them]"
+_OTHERS = "the others [of them]"
 _STAYS = sequence(
     verbs.LEFT_THERE,
     optional(f"{manner.AS_IT_IS}, put, there, here, out"),
 )
 _THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
+_THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))
+_ALL_ELSE = either(phrase(_EVERYTHING_ELSE, _THE_REST), phrase(_OTHERS, _THE_OTHERS))
 OTHERS_STILL = sequence(
     either(
-        sequence(_EVERYTHING_ELSE, _STAYS),
-        sequence(
-            "nothing else",
-            "(should|must|shall|may|can|is to) (be (moved|touched|changed)|move|change)",
+        sequence(_ALL_ELSE, _STAYS),
+        phrase(
+            "nothing else (should|must|shall|may|can|is to) "
+            "(be (moved|touched|changed)|move|change)",
+            _THE_REST,
         ),
-        sequence("leav(e|ing), keep[ing]", _EVERYTHING_ELSE, optional(manner.AS_IT_IS)),
+        sequence("leav(e|ing), keep[ing]", _ALL_ELSE, optional(manner.AS_IT_IS)),
     ),
-    build=partial(AvoidClause, Avoid.MOVE, _THE_REST),
+    build=partial(AvoidClause, Avoid.MOVE),
 )
 UNTOUCHED = either(
-    sequence(_EVERYTHING_ELSE, manner.UNTOUCHED, build=lambda: AvoidClause(Avoid.MOVE, None)),
+    sequence(_ALL_ELSE, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
     sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
 )
 """The same without a verb ("bolts untouched")."""

@@ -330,6 +330,12 @@ PUT = either(
         EXTRAS,
         build=put_of,
     ),
+    sequence(
+        # "Clear it all off the tray and onto the shelf"
+        f"{verbs.REMOVE}, clear[ing], unload[ing]",
+        sequence(THINGS, sequence(SOURCE, optional(LIST)), DIRECTED, build=brought),
+        build=lambda group: PutClause((group,)),
+    ),
     *(
         sequence(verb, THINGS, particle, build=partial(_down_or_back, where=where))
         for verb, particle, where in (

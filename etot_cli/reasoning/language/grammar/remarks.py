@@ -124,7 +124,7 @@ _IN_GENERAL = re.compile(
 _YONDER = re.compile(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
 _REFERRING = word_set(
     "it they them this that these those one ones two three other others another rest everything "
-    "anything all both each every any same here there first last which"
+    "anything all both each every any same here there first last which whichever whatever whoever"
 )
 """They may speak of what was asked for ("one of them is enough")."""
 BEFORE_NAMES = word_set("the a an my your our his her their this that these those both all")

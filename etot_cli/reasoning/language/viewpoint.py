@@ -1,0 +1,41 @@
+"""From where sides are told: the robot's place, which goes without saying, or somebody else's."""
+
+from __future__ import annotations
+
+import re
+
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.world.state import SceneState
+
+_VIEW = r"(?:point of view|viewpoint|perspective|vantage point|view|angle|standpoint|position)"
+_SEEN = r"(?:(?:as )?(?:seen|viewed|looked at)|when (?:seen|viewed)|looking|facing (?:it|them))"
+_YOURS = (
+    rf"(?:{_SEEN} )?from (?:your|the (?:robot|arm)(?:'s|s'|s)?) (?:own )?{_VIEW}"
+    rf"|{_SEEN} (?:from|by) (?:you|the (?:robot|arm))(?:'s (?:side|base|place))?"
+    rf"|(?:{_SEEN} )?from where (?:you|the (?:robot|arm)) (?:are|is|stands?|looks?|sits?)"
+    r"|(?:the way|as) (?:you|the (?:robot|arm)) sees? (?:it|them|things)"
+)
+_OTHERS = (
+    rf"(?:{_SEEN} )?from (?:my|our|his|her|their|the (?:user|operator|camera)(?:'s)?) {_VIEW}"
+    rf"|{_SEEN} (?:from|by) (?:me|us|him|her|them|(?:my|the (?!robot|arm))[\w ]+?(?=[,.;!?]|$))"
+    rf"|(?:{_SEEN} )?from where (?:i|we|he|she|they) (?:am|are|is|stand|look|sit)s?"
+    r"|(?:the way|as) (?:i|we|he|she|they) (?:sees?|looks? at) (?:it|them|things)"
+)
+_TOLD = re.compile(rf",? ?\b(?P<said>(?P<yours>{_YOURS})|{_OTHERS})\b", re.IGNORECASE)
+
+
+def without_viewpoint(instruction: str, scene: SceneState) -> str:
+    """An instruction without the words that tell its sides as the robot sees them.
+
+    Raises:
+        ReferenceProblem: they are told as somebody else sees them, or the scene's sides are a
+            camera's.
+    """
+    for told in _TOLD.finditer(instruction):
+        if not told["yours"]:
+            why = "sides are told as the scene's 'viewpoint' has it; say it as the robot sees it"
+            raise ReferenceProblem(told["said"], why, 3)
+        if scene.forward != (1.0, 0.0):
+            why = "the scene is looked at through a camera; say it as that sees it"
+            raise ReferenceProblem(told["said"], why, 3)
+    return _TOLD.sub("", instruction)
