@@ -73,12 +73,12 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         return
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
     if any(np.words in _THE_REST and not np.modifiers for np in clause.things.phrases):
-        turned = _others_like_what_turns(context, clause)
-        if turned is None:
+        others = _others_like_what_turns(context, clause.things)
+        if others is None:
             _avoid_others(context, clause)
-            return
-        clause = replace(clause, things=turned)
-        assert clause.things is not None
+        else:
+            _forbid(context, replace(clause, things=others))
+        return
     elliptic = (
         np.is_elliptic or leaves_noun_out(np) or not (np.words or np.pronoun)
         for np in clause.things.phrases
@@ -302,9 +302,9 @@ def _whatever(context: Context, clause: AvoidClause) -> list[int]:
     return [context.discourse.add(every, "anything", Role.THEME, several=True)]
 
 
-def _others_like_what_turns(context: Context, clause: AvoidClause) -> Things | None:
+def _others_like_what_turns(context: Context, said: Things) -> Things | None:
     """Behind "close the top drawer", "the others" are the other drawers, where there are any."""
-    others = clause.things is not None and clause.things.phrases[0].words == ("the others",)
+    others = said.phrases[0].words == ("the others",)
     if not isinstance(context.last, MoveClause) or not others:
         return None
     noun = singular(context.last.things.phrases[-1].head)
