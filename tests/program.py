@@ -2,7 +2,7 @@
 
 Loading them takes longer than most commands do. Arguments, environment, streams and exit code are
 those of a program that a shell has started. Where start-up itself matters (Ctrl-C, memory, which
-OpenGL is loaded) a test asks for a ``fresh`` one or starts ``python -m etot_cli.cli.app`` itself.
+OpenGL is loaded) a test asks for a ``fresh`` one or starts ``python -m etot_cli`` itself.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def etot(
     if not fresh:
         return start(*arguments, env=env).end()
     return subprocess.run(
-        [sys.executable, "-m", "etot_cli.cli.app", *map(str, arguments)], cwd=ROOT,
+        [sys.executable, "-m", "etot_cli", *map(str, arguments)], cwd=ROOT,
         env={**os.environ, **(env or {})}, text=True, capture_output=True, timeout=TIME_LIMIT_S,
         check=False,
     )  # fmt: skip

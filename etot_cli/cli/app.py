@@ -179,7 +179,3 @@ def _confess(error: Exception, *, detailed: bool) -> int:
         "it with the command and its input" + ("" if detailed else " (-v shows the details)")
     )
     return INTERNAL
-
-
-if __name__ == "__main__":
-    main()

@@ -109,7 +109,7 @@ def test_videos_as_the_world_model(server: Server, tmp_path: Path) -> None:
     small = {"ETOT_VLM_IMAGE_WIDTH": "96", "ETOT_VLM_CACHE": "off"}
     with FakeServer(Player(rules)) as model:
         done = subprocess.run(
-            [sys.executable, "-m", "etot_cli.cli.app", "bench", str(write(tmp_path, "one")),
+            [sys.executable, "-m", "etot_cli", "bench", str(write(tmp_path, "one")),
              "--trials", "1", "--methods", "etot_kinematic", "--reasoner", "vlm",
              "--vlm-url", model.url, "--video-url", server.url, "--out", str(out), "-q"],
             env={**os.environ, **small, "PYTHONPATH": str(ROOT)}, cwd=ROOT, text=True,

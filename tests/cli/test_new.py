@@ -134,7 +134,7 @@ def test_existing_file_is_kept(tmp_path: Path) -> None:
 def test_questions_are_asked_where_somebody_answers(tmp_path: Path) -> None:
     ours, theirs = pty.openpty()
     process = subprocess.Popen(
-        [sys.executable, "-m", "etot_cli.cli.app", "new", "mine.yaml"],
+        [sys.executable, "-m", "etot_cli", "new", "mine.yaml"],
         stdin=theirs, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip

@@ -14,7 +14,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 TOY = [sys.executable, str(Path(__file__).with_name("toy_etot.py"))]
-REAL = [sys.executable, "-m", "etot_cli.cli.app"]
+REAL = [sys.executable, "-m", "etot_cli"]
 HEAVY = {"mujoco", "numpy", "scipy", "pydantic", "lark", "rich", "yaml", "cv2"}
 HELP_LIMIT_S = 0.4
 

@@ -191,7 +191,7 @@ def test_an_unknown_opengl_library_is_no_defect(
 @pytest.mark.slow
 def test_interrupt_leaves_a_valid_report(tmp_path: Path) -> None:
     process = subprocess.Popen(
-        [sys.executable, "-m", "etot_cli.cli.app", "plan", "tasks/task7.yaml", "--jobs", "2",
+        [sys.executable, "-m", "etot_cli", "plan", "tasks/task7.yaml", "--jobs", "2",
          "--worlds", "6", "--out", str(tmp_path)],
         cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
     )  # fmt: skip

@@ -137,7 +137,7 @@ def test_what_cannot_be(
 def test_a_signal_leaves_a_report(tmp_path: Path) -> None:
     task = write(tmp_path)
     process = subprocess.Popen(
-        [sys.executable, "-m", "etot_cli.cli.app", "execute", task, "--trials", "500", "-v",
+        [sys.executable, "-m", "etot_cli", "execute", task, "--trials", "500", "-v",
          "--out", str(tmp_path / "out")],
         cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)},
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

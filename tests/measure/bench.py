@@ -296,7 +296,7 @@ def processes(tasks: list[str]) -> tuple[str, bool]:
     for task in tasks:
         begun = time.perf_counter()
         subprocess.run(
-            [sys.executable, "-m", "etot_cli.cli.app", "plan", str(task_file(task)), "-q",
+            [sys.executable, "-m", "etot_cli", "plan", str(task_file(task)), "-q",
              "--jobs", "2", "--force", "--out", str(ROOT / "results" / "bench" / task)],
             check=True, stdout=subprocess.DEVNULL,
         )  # fmt: skip

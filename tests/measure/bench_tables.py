@@ -69,7 +69,7 @@ def main() -> int:
         words += ["--out" if whole else "--resume", str(folder)]
         words += ["--trials", str(options.trials)] if options.trials else []
         begun = time.monotonic()
-        etot = [sys.executable, "-m", "etot_cli.cli.app", *words]
+        etot = [sys.executable, "-m", "etot_cli", *words]
         done = subprocess.run(etot, cwd=ROOT, check=False)
         spent_s = time.monotonic() - begun
         if done.returncode != 0:

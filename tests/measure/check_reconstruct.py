@@ -305,7 +305,7 @@ def plan_row(auto: bool, work: Path, material: str | None = None) -> Row:
     materials = {"pen": material} if material else {}
     options = Options(capture=REAL, auto=auto, instruction=words, materials=materials)
     reconstruct_capture(options, out)
-    command = [sys.executable, "-m", "etot_cli.cli.app"]
+    command = [sys.executable, "-m", "etot_cli"]
     plan = subprocess.run(
         [*command, "plan", str(out / "task.yaml"), "--out", str(out / "plan"), "--json"],
         capture_output=True,
@@ -376,7 +376,7 @@ def process_rows(work: Path) -> list[Row]:
 
 def _timed(folder: Path, out: Path, *flags: str) -> tuple[float, float]:
     """Wall time [s] and peak memory [GiB] of one process with an empty cache."""
-    command = [sys.executable, "-m", "etot_cli.cli.app", "reconstruct", str(folder), *flags,
+    command = [sys.executable, "-m", "etot_cli", "reconstruct", str(folder), *flags,
                "-q", "--out", str(out)]  # fmt: skip
     environment = {**os.environ, "ETOT_CACHE": str(out / "cache")}
     environment.pop("OMP_NUM_THREADS", None)

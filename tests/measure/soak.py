@@ -68,7 +68,7 @@ def rendered_capture(folder: Path) -> Path | None:
     return folder if done.returncode == 0 else None
 
 
-ETOT = (sys.executable, "-m", "etot_cli.cli.app")
+ETOT = (sys.executable, "-m", "etot_cli")
 
 
 def kill_one(job: Job, number: str, after_s: float, folder: Path) -> list[str]:
