@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
+from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State, Things, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches

@@ -26,9 +26,9 @@ from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState

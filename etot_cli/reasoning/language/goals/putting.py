@@ -79,8 +79,8 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
-from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK

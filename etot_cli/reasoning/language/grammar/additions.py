@@ -9,7 +9,10 @@ from typing import Any
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.common import NOUN_WORD, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.coordination import all_of
-from etot_cli.reasoning.language.grammar.modifiers import PLAIN_MODIFIER, quality_alone
+from etot_cli.reasoning.language.grammar.modifiers import (
+    PLAIN_MODIFIER,
+    quality_alone,
+)
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     at_end,

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.clauses import LEFT_OUT, Reading, changed
-from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, denied
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import Parser, either, optional, sequence, valued
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,

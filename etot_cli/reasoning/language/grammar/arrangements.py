@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.common import noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import INTO, ONTO
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,

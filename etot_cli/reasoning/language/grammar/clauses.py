@@ -8,7 +8,12 @@ from itertools import takewhile
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.arrangements import REORIENT, SWAP
-from etot_cli.reasoning.language.grammar.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
+    EMPTY_WORDS,
+    OPTIONAL_COMMA,
+    exceptions,
+)
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doubles import (
     BOTH_WAYS,
@@ -25,7 +30,6 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     LEFT,
     ONLY_THOSE,
     excepting,
-    exceptions,
 )
 from etot_cli.reasoning.language.grammar.moves import MOVE
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS

@@ -22,6 +22,9 @@ from etot_cli.reasoning.language.words import known, small_words
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import PURPOSES
 
+noun_phrase = Rule()
+exceptions = Rule()
+"""Defined in ``noun_phrases``; what those contain contains them."""
 COMMA = text.COMMA
 COLON = text.COLON
 EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))

@@ -12,10 +12,11 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     after,
     alternatives,
+    noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.levels import AT_LEVEL, NEXT_LEVEL
-from etot_cli.reasoning.language.grammar.modifiers import BETWEEN, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import BETWEEN
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.common import LIST
+from etot_cli.reasoning.language.grammar.common import LIST, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import destination
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,

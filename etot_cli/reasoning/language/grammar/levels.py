@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.common import noun_phrase
 from etot_cli.reasoning.language.grammar.naming import LEVEL
 from etot_cli.reasoning.language.grammar.parsing import either, one_of, sequence, spanned, word
 from etot_cli.reasoning.language.grammar.syntax import Destination, Modifier, NounPhrase, Toward

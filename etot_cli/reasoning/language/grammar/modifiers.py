@@ -1,7 +1,7 @@
-"""Rules for what follows a noun and singles an instance out: where it is, what it holds, how it is.
+"""Rules for what follows a noun and singles an instance out: where and how it is, what it is not.
 
 Noun phrases and their modifiers contain each other: the two rules of ``noun_phrases`` that
-modifiers need stand here, and are defined there.
+modifiers need stand in ``common``, and are defined there.
 """
 
 from __future__ import annotations
@@ -16,7 +16,10 @@ from etot_cli.reasoning.language.grammar.common import (
     LIST_COMMA,
     OPTIONAL_COMMA,
     after,
+    exceptions,
+    noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.contents import CONTENTS
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -49,8 +52,6 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
-noun_phrase = Rule()
-exceptions = Rule()
 LEFT = optional(manner.IS_LEFT)
 """Behind what is left out: that it stays so."""
 ADJECTIVE = either(
@@ -127,98 +128,6 @@ PLAIN_MODIFIER = either(
         build=lambda ordinal, side: Modifier(Prep.SIDE, words=(ordinal, *side)),
     ),
 )
-_INSIDE_IT = "[still] inside, [still] in there, in, [still] (inside|in) (it|them|which)"
-_UPON_IT = "on [top of] (it|them), on top"
-_POSED = "currently|now|standing|lying|sitting|resting"
-_HAVING = f"with, {nouns.CONTAINING}"
-
-
-def _contents_with(having: str, denied: bool) -> Parser:
-    return sequence(
-        having,
-        noun_phrase,
-        optional(sequence("and", noun_phrase), None),
-        optional(one_of({Prep.CONTAINING: _INSIDE_IT, Prep.BEARING: _UPON_IT}), Prep.WITH),
-        # "Without" before a bare noun may stand before anything.
-        build=lambda np, other, prep: (
-            None
-            if denied and (other or (prep is Prep.WITH and not np.determiner))
-            else Modifier(prep, (np, other) if other else (np,), denied=denied)
-        ),
-    )
-
-
-HERE_BEFORE = "before"
-"""The word of a modifier that tells by what was in or on a thing before anything was moved."""
-_CAME_FROM = """
-    (it|they) came (from|out of), (it|they) (was|were) [taken|removed] (from|in|on|out of),
-    [you] (took|got|removed) (it|them) (from|out of|off)
-"""
-_contents = either(
-    sequence(
-        optional("that, which"),
-        phrase(_CAME_FROM),
-        build=lambda said: Modifier(
-            Prep.WITH,
-            (NounPhrase(HERE_BEFORE, pronoun="it" if "it" in said.split() else "them", text=said),),
-            (HERE_BEFORE,),
-        ),
-    ),
-    _contents_with(_HAVING, denied=False),
-    _contents_with(nouns.LACKING, denied=True),
-    sequence(
-        _HAVING,
-        noun_phrase,
-        EXACTLY,
-        spanned(one_of(places.IT_HAS), lambda said, prep: (prep, tuple(said.split()))),
-        build=lambda np, found: Modifier(found[0], (np,), found[1]),
-    ),
-    sequence(
-        _HAVING,
-        "nothing",
-        either(_INSIDE_IT, _UPON_IT),
-        build=lambda: Modifier(Prep.QUALITY, words=("empty",)),
-    ),
-    sequence(
-        "where",
-        noun_phrase,
-        either(
-            phrase("is, are, stands, stand, lies, lie, sits, sit, belongs", ()),
-            phrase(
-                "(is|are|stands|stand|lies|lie|sits|sit) (now|currently), (was|were) [before]",
-                (HERE_BEFORE,),
-            ),
-        ),
-        # "The cups where they are" is no place that tells which.
-        build=lambda np, words: (
-            None if np.pronoun and not words else Modifier(Prep.WITH, (np,), words)
-        ),
-    ),
-    quiet(
-        sequence(
-            optional("that, which"),
-            noun_phrase,
-            either(
-                phrase(f"(is|are) [{_POSED}], stands, stand, lies, lie, sits, sit", ()),
-                phrase(f"(was|were) [{_POSED}], stood, lay, sat", (HERE_BEFORE,)),
-            ),
-            optional(phrase("not", True), False),
-            spanned(one_of(places.STANDS_AT), lambda said, prep: (prep, tuple(said.split()[1:]))),
-            # "The cup that is not on" is one that nothing is said of.
-            build=lambda np, words, denied, at: (
-                None if np.text == "that" else Modifier(at[0], (np,), words + at[1], denied)
-            ),
-        )
-    ),
-    quiet(
-        sequence(
-            one_of({Prep.CONTAINING: "in which", Prep.BEARING: "on which"}),
-            noun_phrase,
-            "is, are, stands, stand, lies, lie, sits, sit",
-            build=lambda prep, np: Modifier(prep, (np,)),
-        )
-    ),
-)
 _matching = sequence(
     nouns.MATCHING,
     optional("as (it|them|its own|their own)"),
@@ -282,7 +191,7 @@ def _without_place(given: Input, at: int) -> list[Result]:
 quality_alone = Parser(_without_place, lambda: QUALITY.first)
 """Qualities, but no "closest" that says "to" what."""
 
-DESCRIBED = either(PLAIN_MODIFIER, _contents, quality_alone)
+DESCRIBED = either(PLAIN_MODIFIER, CONTENTS, quality_alone)
 MODIFIER = Rule()
 MODIFIERS = some(MODIFIER, most=4)
 
@@ -323,7 +232,7 @@ APPOSED = either(
 )
 _modifier = either(
     PLAIN_MODIFIER,
-    _contents,
+    CONTENTS,
     _matching,
     sequence(nouns.RELATIVE, DESCRIBED),
     sequence(

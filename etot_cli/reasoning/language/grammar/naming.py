@@ -10,14 +10,14 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.common import (
     COMMA,
     NOUN_WORD,
+    noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.modifiers import (
-    HERE_BEFORE,
     MODIFIERS,
     NOT_BUT,
     PLAIN_MODIFIER,
     QUALITY,
-    noun_phrase,
     quality_alone,
 )
 from etot_cli.reasoning.language.grammar.parsing import (

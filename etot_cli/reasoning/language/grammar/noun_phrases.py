@@ -10,12 +10,10 @@ from etot_cli.reasoning.language.grammar.common import (
     LIST_COMMA,
     OPTIONAL_COMMA,
     alternatives,
-)
-from etot_cli.reasoning.language.grammar.coordination import coordinated, told_together
-from etot_cli.reasoning.language.grammar.modifiers import (
     exceptions,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.coordination import coordinated, told_together
 from etot_cli.reasoning.language.grammar.naming import DESCRIPTIVE, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.destinations import FILLED, WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (

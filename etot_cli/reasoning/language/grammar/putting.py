@@ -13,7 +13,13 @@ from etot_cli.reasoning.language.grammar.additions import (
     left,
     put_of,
 )
-from etot_cli.reasoning.language.grammar.common import COLON, COMMA, LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import (
+    COLON,
+    COMMA,
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.coordination import all_of, coordinated
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
@@ -25,7 +31,6 @@ from etot_cli.reasoning.language.grammar.destinations import (
     ONWARD,
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, CHOICE, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,

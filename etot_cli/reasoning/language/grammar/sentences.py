@@ -40,11 +40,12 @@ from etot_cli.reasoning.language.grammar.common import (
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
+    noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.headlines import HEADLINE, PLACED, lacks_verb, taken_out
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (

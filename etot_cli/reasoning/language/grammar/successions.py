@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA, THEN
+from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
+    LIST,
+    OPTIONAL_COMMA,
+    THEN,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.coordination import coordinated
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,

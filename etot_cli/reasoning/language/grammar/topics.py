@@ -7,12 +7,12 @@ from functools import partial
 
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import Reading, plain
+from etot_cli.reasoning.language.grammar.common import noun_phrase
 from etot_cli.reasoning.language.grammar.levels import THAT
 from etot_cli.reasoning.language.grammar.modifiers import (
     ADJECTIVES,
     DESCRIBED,
     MODIFIERS,
-    noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.naming import ALREADY_THERE, WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.common import COMMA, LIST, LIST_COMMA, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
+    LIST,
+    LIST_COMMA,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (

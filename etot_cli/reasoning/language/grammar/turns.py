@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, THEN
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, THEN, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,

@@ -12,11 +12,10 @@ from etot_cli.reasoning.language.grammar.additions import (
     GROUPING,
     put_of,
 )
-from etot_cli.reasoning.language.grammar.common import COLON, COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COLON, COMMA, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
 )
-from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.language.grammar.normalizing import normalized
 from etot_cli.reasoning.language.grammar.spelling import is_english
+from etot_cli.reasoning.language.reference.labels import (
+    LINKS,
+    as_word,
+    head_of,
+    is_odd,
+    twins_of,
+    words_of,
+)
 from etot_cli.reasoning.language.words.categories import (
     CATEGORIES,
     OF_A_SORT,
@@ -19,7 +24,6 @@ from etot_cli.reasoning.language.words.categories import (
     SERVED,
     SERVING,
 )
-from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
     COMMON_NOUNS,
@@ -30,7 +34,6 @@ from etot_cli.reasoning.language.words.lexicon import (
     KIND_GROUPS,
     LIDDED,
     SORTS,
-    TWINS,
     basic_color,
     is_plural_of,
     matches_any,
@@ -257,70 +260,23 @@ def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
     return tuple(noun for group in fitting for noun in group)
 
 
-_LINKS = ("of", "with", "for", "in", "and", "on", "the", "a")
-"""Words inside a label after which no noun of its own stands ("carton of milk" is a carton)."""
-
-
-def is_odd(words: Sequence[str]) -> bool:
-    """Whether one of several words of a name is no noun or adjective."""
-    odd = (word in GRAMMAR_WORDS or re.fullmatch(r"\D", word) for word in words)
-    return len(words) > 1 and any(odd)
-
-
-def cut_of(words: Sequence[str]) -> int | None:
-    """Where what a thing is of, with or for begins."""
-    return next((i for i, word in enumerate(words) if i and word in ("of", "with", "for")), None)
-
-
-def _head_of(words: Sequence[str]) -> str | None:
-    """The noun of a label's words."""
-    nouns = words[: cut_of(words)]
-    return nouns[-1] if nouns else None
-
-
-@lru_cache(maxsize=1024)  # every sentence about a scene needs the words of all its names
-def _words_of(text: str) -> tuple[str, ...]:
-    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])|_|(?<=[A-Za-z])(?=\d)", " ", text)
-    return tuple(re.findall(r"\w+", normalized(spaced)))
-
-
-@lru_cache(maxsize=1024)
-def _twins_of(words: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
-    """Other names of what is called so, one that is written as one word among them."""
-    nouns = tuple(word for word in words if not word.isdigit())
-    groups = [tuple(tuple(name.split()) for name in group) for group in TWINS]
-    written = [("".join(nouns),)] if len(nouns) == 2 else []
-    own = [
-        name
-        for group in groups
-        if any(nouns[-len(t) :] == t or t in written for t in group)
-        for name in group
-    ]
-    return tuple(name for name in (*own, *written) if name != nouns[-len(name) :])
-
-
-def as_word(name: str) -> str:
-    """A letter that is all that something is called, as a word: "a_" is no article."""
-    return f"{name}_" if len(name) == 1 and name.isalpha() else name
-
-
 def object_entry(info: ObjectInfo) -> Entry:
     """The words of an object."""
-    found = (_words_of(info.label), _words_of(info.name))
+    found = (words_of(info.label), words_of(info.name))
     called = [(as_word(words[0]),) if len(words) == 1 else words for words in found]
     own: dict[str, None] = {}
     heads: dict[str, None] = {}
     numbers: dict[str, None] = {}
     for words in called:
         nouns = [word for word in words if not word.isdigit() and len(word) > 1]
-        own.update(dict.fromkeys(word for word in nouns if word not in _LINKS))
-        head = _head_of(nouns)
+        own.update(dict.fromkeys(word for word in nouns if word not in LINKS))
+        head = head_of(nouns)
         # The name "tea_2" of a tea mug is no noun for it.
         short = heads and len(nouns) == 1 and head in called[0][:-1] and head not in heads
         heads.update({} if head is None or short else {head: None})
         numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
     whole = dict.fromkeys("_".join(words) for words in called if is_odd(words))
-    twins = [twin for words in called for twin in _twins_of(words)]
+    twins = [twin for words in called for twin in twins_of(words)]
     generic = (*_kind_nouns(info.kind, heads), *dict.fromkeys(words[-1] for words in twins))
     generic = (*generic, *(SORTS[word] for word in map(singular, heads) if word in SORTS))
     if info.container or any(part.container for part in info.parts):
@@ -364,7 +320,7 @@ def board_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
 
 
 def _level_entry(info: ObjectInfo, owner: Entry, thing: Thing, nouns: tuple[str, ...]) -> Entry:
-    words = _words_of(thing.part or thing.board or "")
+    words = words_of(thing.part or thing.board or "")
     # A board is called by its number as by a noun.
     numbers = tuple(word for word in words if word.isdigit() and thing.part)
     own = tuple(word for word in words if word not in numbers)

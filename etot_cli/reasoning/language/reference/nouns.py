@@ -12,7 +12,8 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.instances import usable_ones
 from etot_cli.reasoning.language.reference.matching import Match, match_words
-from etot_cli.reasoning.language.reference.selection import in_state, select
+from etot_cli.reasoning.language.reference.selection import select
+from etot_cli.reasoning.language.reference.states import in_state
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,

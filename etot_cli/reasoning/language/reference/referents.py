@@ -9,7 +9,7 @@ from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.modifiers import HERE_BEFORE
+from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
@@ -20,8 +20,8 @@ from etot_cli.reasoning.language.reference.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.meanings import Meanings
 from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.selection import state_holds
 from etot_cli.reasoning.language.reference.spoken_of import openable
+from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.reference.usual_form import GENERAL, chooses, is_robot, usual_form
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep

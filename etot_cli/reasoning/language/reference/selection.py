@@ -6,15 +6,15 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.relations import contents, is_closed, is_inside, is_on, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.areas import in_area
+from etot_cli.reasoning.language.reference.states import in_state
 from etot_cli.reasoning.language.words.lexicon import LEVELS, ORDINALS, SIDES, SIZES, STATES
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
+from etot_cli.world.state import DESK, SceneState
 
 ELONGATED = 2.0
 """What is so many times longer than wide is called long, among things of other shapes."""
@@ -116,66 +116,6 @@ def select(
     if set(ways[0]) != set(ways[1]):
         raise AmbiguousReference(phrase, [thing.name for left in ways for thing in left])
     return ways[0]
-
-
-def in_state(
-    word: str, things: Sequence[Thing], scene: SceneState, *, every: bool = False
-) -> list[Thing]:
-    """The things that an adjective of state is true of; one that is "open" is rather one that is
-    fully so.
-    """
-    found = [thing for thing in things if state_holds(word, thing, scene)]
-    wide = [
-        thing
-        for thing in found
-        if any(scene.openness(part) >= OPEN_AT for part in parts_of(scene, thing))
-    ]
-    return wide if wide and STATES[word] == "open" and not every else found
-
-
-def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
-    """Whether an adjective of state ("open", "empty", …) is true of a thing.
-
-    Raises:
-        ReferenceProblem: of what lies on something else it is open whether it is "loose".
-    """
-    if thing.name == DESK:
-        return False
-    info, state = scene.infos[thing.name], scene.states[thing.name]
-    parts = parts_of(scene, thing)
-    match STATES[word]:
-        case "open":
-            return any(scene.openness(part) > CLOSED_AT for part in parts)
-        case "ajar":
-            return any(CLOSED_AT < scene.openness(part) < OPEN_AT for part in parts)
-        case "closed":
-            return bool(parts) and all(is_closed(scene, part) for part in parts)
-        case "empty" | "full":
-            places = [part.address for part in parts] if thing.part else [thing.name]
-            places += [part.address for part in parts]
-            filled = any(contents(scene, place) for place in places)
-            if thing.board is not None:
-                places = [f"{thing.name}.{thing.board}"]
-            if thing.board is not None or (not info.container and not parts):
-                filled = any(is_on(scene, name, places[0]) for name in scene.states)
-            return filled == (STATES[word] == "full")
-        case "stacked":
-            upon = [Thing(name) for name, other in scene.infos.items() if other.movable]
-            return any(
-                space.rests_on(one, below, scene) and not is_inside(scene, one.name, below.name)
-                for other in upon
-                for one, below in ((thing, other), (other, thing))
-            )
-        case "loose":
-            if state.inside is None and state.on and DESK not in state.on and info.movable:
-                why = f"say whether {thing.name} is meant, too: it lies on {state.on[0]}"
-                raise ReferenceProblem(word, why, 3)
-            bears = bool(contents(scene, thing.name)) or any(
-                is_on(scene, name, thing.name) for name in scene.states
-            )  # what holds other things is put away itself
-            return state.inside is None and DESK in state.on and not bears
-        case _:
-            return state.toppled
 
 
 def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) -> list[Thing]:

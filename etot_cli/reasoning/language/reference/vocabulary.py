@@ -18,11 +18,10 @@ from etot_cli.reasoning.language.reference.entries import (
     PORTIONS,
     Entry,
     board_entries,
-    cut_of,
-    is_odd,
     object_entry,
     part_entries,
 )
+from etot_cli.reasoning.language.reference.labels import cut_of, is_odd
 from etot_cli.reasoning.language.words.categories import (
     CALLED,
     NO_PARTS,

@@ -1,0 +1,111 @@
+"""Rules that single an instance out by what it holds or bears, and by what stands somewhere."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.grammar.common import EXACTLY, noun_phrase
+from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
+    either,
+    one_of,
+    optional,
+    phrase,
+    quiet,
+    sequence,
+    spanned,
+)
+from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.words import nouns, places
+from etot_cli.reasoning.language.words.places import Prep
+
+_INSIDE_IT = "[still] inside, [still] in there, in, [still] (inside|in) (it|them|which)"
+_UPON_IT = "on [top of] (it|them), on top"
+_POSED = "currently|now|standing|lying|sitting|resting"
+_HAVING = f"with, {nouns.CONTAINING}"
+
+
+def _contents_with(having: str, denied: bool) -> Parser:
+    return sequence(
+        having,
+        noun_phrase,
+        optional(sequence("and", noun_phrase), None),
+        optional(one_of({Prep.CONTAINING: _INSIDE_IT, Prep.BEARING: _UPON_IT}), Prep.WITH),
+        # "Without" before a bare noun may stand before anything.
+        build=lambda np, other, prep: (
+            None
+            if denied and (other or (prep is Prep.WITH and not np.determiner))
+            else Modifier(prep, (np, other) if other else (np,), denied=denied)
+        ),
+    )
+
+
+HERE_BEFORE = "before"
+"""The word of a modifier that tells by what was in or on a thing before anything was moved."""
+_CAME_FROM = """
+    (it|they) came (from|out of), (it|they) (was|were) [taken|removed] (from|in|on|out of),
+    [you] (took|got|removed) (it|them) (from|out of|off)
+"""
+CONTENTS = either(
+    sequence(
+        optional("that, which"),
+        phrase(_CAME_FROM),
+        build=lambda said: Modifier(
+            Prep.WITH,
+            (NounPhrase(HERE_BEFORE, pronoun="it" if "it" in said.split() else "them", text=said),),
+            (HERE_BEFORE,),
+        ),
+    ),
+    _contents_with(_HAVING, denied=False),
+    _contents_with(nouns.LACKING, denied=True),
+    sequence(
+        _HAVING,
+        noun_phrase,
+        EXACTLY,
+        spanned(one_of(places.IT_HAS), lambda said, prep: (prep, tuple(said.split()))),
+        build=lambda np, found: Modifier(found[0], (np,), found[1]),
+    ),
+    sequence(
+        _HAVING,
+        "nothing",
+        either(_INSIDE_IT, _UPON_IT),
+        build=lambda: Modifier(Prep.QUALITY, words=("empty",)),
+    ),
+    sequence(
+        "where",
+        noun_phrase,
+        either(
+            phrase("is, are, stands, stand, lies, lie, sits, sit, belongs", ()),
+            phrase(
+                "(is|are|stands|stand|lies|lie|sits|sit) (now|currently), (was|were) [before]",
+                (HERE_BEFORE,),
+            ),
+        ),
+        # "The cups where they are" is no place that tells which.
+        build=lambda np, words: (
+            None if np.pronoun and not words else Modifier(Prep.WITH, (np,), words)
+        ),
+    ),
+    quiet(
+        sequence(
+            optional("that, which"),
+            noun_phrase,
+            either(
+                phrase(f"(is|are) [{_POSED}], stands, stand, lies, lie, sits, sit", ()),
+                phrase(f"(was|were) [{_POSED}], stood, lay, sat", (HERE_BEFORE,)),
+            ),
+            optional(phrase("not", True), False),
+            spanned(one_of(places.STANDS_AT), lambda said, prep: (prep, tuple(said.split()[1:]))),
+            # "The cup that is not on" is one that nothing is said of.
+            build=lambda np, words, denied, at: (
+                None if np.text == "that" else Modifier(at[0], (np,), words + at[1], denied)
+            ),
+        )
+    ),
+    quiet(
+        sequence(
+            one_of({Prep.CONTAINING: "in which", Prep.BEARING: "on which"}),
+            noun_phrase,
+            "is, are, stands, stand, lies, lie, sits, sit",
+            build=lambda prep, np: Modifier(prep, (np,)),
+        )
+    ),
+)
