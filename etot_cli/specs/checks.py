@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import product
 
 from etot_cli.specs.dimensions import dimension_problems
 from etot_cli.specs.document import Node
@@ -26,18 +25,17 @@ from etot_cli.specs.footprint import (
 from etot_cli.specs.objects import Cup, DrawerUnit, ObjectBase, Sphere, is_fastened
 from etot_cli.specs.placement import (
     Placed,
-    Solid,
     compartment,
     drawer_of,
     hollow_beneath,
     inner_diameter,
-    open_parts,
     place_all,
     size_of,
     stands_in,
     yaw_of,
 )
 from etot_cli.specs.problems import Problem, first_error
+from etot_cli.specs.protrusions import Solid, protrusions
 from etot_cli.specs.references import DESK, scene_problems, support_of
 from etot_cli.specs.scene import Scene
 
@@ -208,11 +206,11 @@ def _overlaps(scene: Scene, placed: dict[str, Placed]) -> Iterator[Problem]:
         for first in names[:index]:
             if _related(scene, first, second) or not _comparable(scene, first, second):
                 continue
-            depth = _depth(scene, first, second, placed)
+            depth, part = _depth(scene, first, second, placed)
             if depth > TOUCHING:
                 yield Problem(
                     ("objects", second, "at" if scene.objects[second].at else "on"),
-                    f"overlaps {first!r} by {depth * 1000:.0f} mm; {second!r} is centred at "
+                    f"overlaps {first!r} by {depth * 1000:.0f} mm{part}; {second!r} is centred at "
                     f"{_xy(placed[second])}, {first!r} at {_xy(placed[first])}",
                 )
 
@@ -248,26 +246,29 @@ def _comparable(scene: Scene, first: str, second: str) -> bool:
     return vessels[0] == vessels[1]
 
 
-def _depth(scene: Scene, first: str, second: str, placed: dict[str, Placed]) -> float:
-    """How deep two objects overlap seen from above [m], 0 when they are at different heights."""
+def _depth(scene: Scene, first: str, second: str, placed: dict[str, Placed]) -> tuple[float, str]:
+    """How deep two objects overlap seen from above [m], 0 when they are at different heights, and
+    at which part if not with their bodies.
+    """
     one, two = scene.objects[first], scene.objects[second]
     here, there = placed[first], placed[second]
     if here.footprint is None or there.footprint is None:
-        return 0.0
+        return 0.0, ""
     if _covers(one, here, there) or _covers(two, there, here):
-        return 0.0
+        return 0.0, ""
     level = (one.on or one.inside or DESK) == (two.on or two.inside or DESK)
     planar = all(item.at is None or len(item.at) == 2 for item in (one, two))
-    depth = 0.0
+    found = [(0.0, "")]
     if (level and planar) or _meet(here, there):
-        depth = overlap(here.footprint, there.footprint)
-    mine, theirs = open_parts(one, here), open_parts(two, there)
-    pairs: list[tuple[Solid, Placed | Solid]] = [(part, there) for part in mine]
-    pairs += product(theirs, (here, *mine))
-    for part, other in pairs:
-        if other.footprint is not None and _meet(part, other):
-            depth = max(depth, overlap(part.footprint, other.footprint))
-    return depth
+        found.append((overlap(here.footprint, there.footprint), ""))
+    mine, theirs = [*protrusions(one, here)], [*protrusions(two, there)]
+    pairs: list[tuple[str, Solid, Placed | Solid]] = [(first, part, there) for part in mine]
+    for part in theirs:
+        pairs += [(second, part, here), *((second, part, other) for other in mine)]
+    for owner, part, met in pairs:
+        if met.footprint is not None and _meet(part, met):
+            found.append((overlap(part.footprint, met.footprint), f" at {part.name} of {owner!r}"))
+    return max(found, key=lambda item: item[0])
 
 
 def _covers(item: ObjectBase, place: Placed, other: Placed) -> bool:

@@ -14,11 +14,9 @@ from etot_cli.specs.base import heading_of
 from etot_cli.specs.footprint import (
     Disc,
     Footprint,
-    Polygon,
     Vector,
     box_corners,
     hull,
-    rectangle,
     rotated,
     shifted,
     turned,
@@ -213,36 +211,3 @@ def hollow_beneath(item: ObjectBase, placed: Placed) -> tuple[Disc, float] | Non
         return None
     narrowest = min(item.diameter, item.foot_diameter or item.diameter)
     return Disc(placed.x, placed.y, narrowest / 2 - item.wall), placed.top - item.floor
-
-
-@dataclass(frozen=True, slots=True)
-class Solid:
-    """A part of an object that stands out of its body: outline and heights."""
-
-    footprint: Polygon
-    base: float
-    top: float
-
-
-def open_parts(item: ObjectBase, placed: Placed) -> list[Solid]:
-    """The drawers and doors of an object that are open at the start."""
-    yaw = yaw_of(item)
-    solids = []
-    if isinstance(item, DrawerUnit):
-        depth, width, _ = item.size
-        for drawer in item.drawers:
-            if drawer.open > 0.0:
-                low, high = compartment(item, drawer)
-                middle = shifted(placed.x, placed.y, turned((depth / 2 + drawer.open / 2, 0), yaw))
-                outline = rectangle(*middle, yaw, drawer.open, width)
-                solids.append(Solid(outline, placed.base + low, placed.base + high))
-    elif isinstance(item, Cabinet) and item.door.open_deg > 0.0:
-        depth, width, _ = item.size
-        # Seen from the front, left is the object's own −y.
-        side = -1.0 if item.door.hinge == "left" else 1.0
-        hinge = shifted(placed.x, placed.y, turned((depth / 2, side * width / 2), yaw))
-        heading = yaw - side * (90.0 - item.door.open_deg)
-        middle = shifted(*hinge, turned((width / 2, 0.0), heading))
-        outline = rectangle(*middle, heading, width, item.door.thickness)
-        solids.append(Solid(outline, placed.base, placed.top))
-    return solids

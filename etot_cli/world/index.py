@@ -13,7 +13,8 @@ class Region:
 
     ``address``: object or part address; ``body``: body name whose frame holds it; ``center`` (3,)
     and ``half`` (3,) in that frame [m]; ``round``: a cylinder of radius ``half[0]``; ``opening``:
-    unit vector (3,) in that frame, out of the container.
+    unit vector (3,) in that frame, out of the container; ``rim``: z relative to the centre at which
+    its walls end, where they are lower than it is [m].
     """
 
     address: str
@@ -22,6 +23,7 @@ class Region:
     half: tuple[float, float, float]
     round: bool = False
     opening: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    rim: float | None = None
 
 
 @dataclass(frozen=True)

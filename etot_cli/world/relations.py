@@ -214,7 +214,10 @@ def _container(
         ):
             continue
         margin = INSIDE_MARGIN if address == last else 0.0
-        if _within(world, data, entry, region, margin):
+        # What rests on other contents may rise above a drawer's walls, what rests on it may not.
+        rests_on_it = region.body in supports.get(entry.info.name, ())
+        top = region.rim if rests_on_it and region.rim is not None else region.half[2]
+        if _within(world, data, entry, region, margin, top):
             found.append((region.half[0] * region.half[1] * region.half[2], address))
     return min(found)[1] if found else None
 
@@ -229,11 +232,25 @@ def _bears(supports: dict[str, set[str]], one: str, other: str) -> bool:
 
 
 def _within(
-    world: World, data: mujoco.MjData, entry: ObjectEntry, region: Region, margin: float
+    world: World,
+    data: mujoco.MjData,
+    entry: ObjectEntry,
+    region: Region,
+    margin: float,
+    top: float,
 ) -> bool:
+    """Whether an object lies in a region, taken to end at ``top`` [m, relative to its centre]."""
     if data.body(region.body).xmat[8] < UPRIGHT_COSINE:
         return False
     shallow = END_DEPTH if margin == 0.0 else END_DEPTH / 2
+    bottom = -region.half[2]
+
+    def is_level(local: NDArray[np.float64]) -> bool:
+        return bool(bottom - margin <= local[2] <= top + margin)
+
+    def is_deep(local: NDArray[np.float64]) -> bool:
+        return bool(shallow <= (top - local[2]) / (top - bottom) <= 1.1)
+
     if entry.axis is None:
         middle = data.body(entry.body).xpos.copy()
         if not _in_bounds(to_region(data, region, middle), region, margin):
@@ -241,19 +258,16 @@ def _within(
         # Models from files have their origin wherever their maker put it.
         low, high = object_bounds(world, data, entry.info.name)
         middle[2], lowest = (low[2] + high[2]) / 2, np.array([*middle[:2], low[2]])
-        height = abs(to_region(data, region, middle)[2])
         # What stands in a container may be taller than that is deep.
-        depth = (region.half[2] - to_region(data, region, lowest)[2]) / (2 * region.half[2])
-        return bool(height <= region.half[2] + margin or shallow <= depth <= 1.1)
+        return is_level(to_region(data, region, middle)) or is_deep(to_region(data, region, lowest))
     center = to_region(data, region, data.body(entry.body).xpos)
-    if _in_bounds(center, region, margin) and abs(center[2]) <= region.half[2] + margin:
+    if _in_bounds(center, region, margin) and is_level(center):
         return True
     axis = data.body(entry.body).xmat.reshape(3, 3) @ np.array(entry.axis)
     for sign in (-1.0, 1.0):
         end = data.body(entry.body).xpos + sign * axis * entry.info.size[0] / 2
         local = to_region(data, region, end)
-        depth = (region.half[2] - local[2]) / (2 * region.half[2])
-        if _in_bounds(local, region, 0.002 + margin) and shallow <= depth <= 1.1:
+        if _in_bounds(local, region, 0.002 + margin) and is_deep(local):
             return True
     return False
 

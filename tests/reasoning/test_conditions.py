@@ -163,6 +163,15 @@ def test_two_objects_cannot_be_in_the_hand() -> None:
         plans(scenes.apple_and_holder(), {"in_hand": "apple"}, {"in_hand": "holder"})
 
 
+def test_a_stack_may_be_turned_over() -> None:
+    blue, red = scenes.item("blue"), scenes.item("red", on="blue")
+    assert plans(scenes.scene(blue, red), {"on": ["blue", "red"]}) == [
+        "[PICK UP, blue] [PUT ON, red]"
+    ]
+    with pytest.raises(InstructionError, match="on or in itself"):
+        plans(scenes.scene(blue, red), {"on": ["blue", "red"]}, {"on": ["red", "blue"]})
+
+
 def test_from_drawer_to_drawer_by_way_of_the_desk() -> None:
     """Of two drawers that stand open, the upper one covers the lower one."""
     state = scenes.scene(

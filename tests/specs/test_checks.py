@@ -11,7 +11,8 @@ from etot_cli.errors import SpecError
 from etot_cli.specs.checks import check_scene
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.objects import DrawerUnit, Sphere
-from etot_cli.specs.placement import open_parts, place_all
+from etot_cli.specs.placement import place_all
+from etot_cli.specs.protrusions import protrusions
 from etot_cli.specs.scene import Scene
 from tests.specs.helpers import objects, scene_error, write
 
@@ -100,6 +101,24 @@ def test_open_drawers_and_doors_take_room(tmp_path: Path) -> None:
     )
 
 
+def test_handles_take_room(tmp_path: Path) -> None:
+    chest = CHEST.format(0.0).replace("open: 0.0", "handle: {depth: 0.04}")
+    tall = "{{kind: box, size: [0.04, 0.04, 0.14], at: [0.45, {}]}}"
+    ok(tmp_path, chest=chest, tall=tall.format(-0.185))
+    ok(tmp_path, chest=CHEST.format(0.0), tall=tall.format(-0.145))
+    error = scene_error(tmp_path, objects(chest=chest, tall=tall.format(-0.145)))
+    assert "objects.tall.at: overlaps 'chest'" in error and "a handle of 'chest'" in error
+    low = "{kind: box, size: [0.04, 0.04, 0.06], at: [0.45, -0.145]}"
+    ok(tmp_path, chest=chest, low=low)  # below it
+    # A door's handle is near its free edge, and turns with it.
+    handled = OVEN.replace("hinge: {}", "hinge: {}, handle: {{depth: 0.05, vertical: true}}")
+    small = "{{kind: box, size: [0.03, 0.03, 0.2], at: [{}, 0.165]}}"
+    ok(tmp_path, oven=handled.format(0, "left"), box=small.format(0.24))
+    error = scene_error(tmp_path, objects(oven=handled.format(0, "right"), box=small.format(0.24)))
+    assert "a handle of 'oven'" in error
+    ok(tmp_path, oven=handled.format(60, "right"), box=small.format(0.24))
+
+
 def test_an_open_door_and_an_open_drawer_overlap(tmp_path: Path) -> None:
     oven, facing = OVEN.format(90, "right"), CHEST.replace("-90", "90")
     apart = facing.replace("at: [0.45, 0.0]", "at: [0.55, -0.35]")
@@ -116,7 +135,7 @@ def test_the_door_is_where_its_hinge_says() -> None:
         "door": {"open_deg": 90, "hinge": "left"},
     }
     scene = Scene.model_validate({"objects": {"oven": text}})
-    (door,) = open_parts(scene.objects["oven"], place_all(scene)["oven"])
+    (door,) = protrusions(scene.objects["oven"], place_all(scene)["oven"])
     # Facing +x from the front at x = 0.55, left is −y; fully open, the door points along +x.
     assert min(corner[0] for corner in door.footprint.corners) == pytest.approx(0.55)
     assert max(corner[0] for corner in door.footprint.corners) == pytest.approx(0.95)

@@ -170,6 +170,37 @@ def test_inside_is_left_later_than_it_is_entered() -> None:
     assert stage.see("ball").inside is None, "has left"
 
 
+@pytest.mark.parametrize(("length", "inside"), [(0.145, "unit"), (0.20, None)])
+def test_what_hangs_on_a_drawers_sides_is_not_in_it(length: float, inside: str | None) -> None:
+    drawers = [{"name": "top", "travel": 0.14, "open": 0.14}, {"name": "bottom", "travel": 0.0}]
+    stage = set_up_stage(
+        make_scene(
+            unit=UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers},
+            bar=BOX | {"size": [length, 0.03, 0.02], "at": [0.3, 0.3]},
+        )
+    )
+    stage.move("bar", [0.45, -0.17, stage.data.body("unit").xpos[2] + 0.11], [1.0, 0.0, 0.0, 0.0])
+    stage.step(0.8)
+    bar = stage.look().states["bar"]
+    assert bar.on == ("unit.top",)
+    assert bar.inside == inside
+
+
+def test_what_lies_on_a_drawers_contents_is_in_it_too() -> None:
+    drawers = [{"name": "top", "travel": 0.14, "open": 0.14}, {"name": "bottom", "travel": 0.0}]
+    box = BOX | {"size": [0.04, 0.04, 0.028]}
+    stage = set_up_stage(
+        make_scene(
+            unit=UNIT | {"at": [0.45, 0.0], "yaw_deg": -90, "drawers": drawers},
+            low=box | {"inside": "unit"},
+            high=box | {"on": "low"},
+        ),
+        settle=0.5,
+    )
+    assert stage.look().states["high"].on == ("low",)
+    assert stage.look().states["high"].inside == "unit"
+
+
 @pytest.mark.parametrize("opening", [0.0, 0.10])
 def test_content_of_a_drawer_open_or_closed(opening: float) -> None:
     drawers = [{"name": "top", "travel": 0.14, "open": 0.10}, {"name": "bottom", "travel": 0.0}]

@@ -96,7 +96,8 @@ def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
     places = {a.names[0]: [b for b in wanted if b.names[0] == a.names[0]] for a in wanted}
     implied: list[_Atom] = []
     for name in places:
-        if name in map(owner_of, _around(name, places, scene)):
+        # What bears it now and goes nowhere itself is freed of it before.
+        if name in map(owner_of, _around(name, places)):
             raise ReferenceProblem(name, "it would be on or in itself by way of others")
     for name, own in places.items():
         for atom in dict.fromkeys(own) if len({*own}) > 1 else ():
@@ -126,13 +127,17 @@ def _ends_up(name: str, places: Mapping[str, Sequence[_Atom]], scene: SceneState
     return frozenset().union(at, *around)
 
 
-def _around(name: str, places: Mapping[str, Sequence[_Atom]], scene: SceneState) -> frozenset[str]:
-    """All that an object is to be on or in, directly or not."""
+def _around(
+    name: str, places: Mapping[str, Sequence[_Atom]], scene: SceneState | None = None
+) -> frozenset[str]:
+    """All that an object is to be on or in, directly or not; in a ``scene`` also by way of what
+    stays where it is.
+    """
     found: dict[str, None] = {}
     waiting = [name]
     while waiting:
         thing = waiting.pop()
-        state = scene.states.get(thing)
+        state = scene.states.get(thing) if scene is not None else None
         if thing in places:
             at = [atom.names[1] for atom in places[thing]]
         else:

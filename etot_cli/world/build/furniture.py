@@ -12,6 +12,7 @@ from typing import Any
 import mujoco
 
 from etot_cli.specs import objects as specs
+from etot_cli.specs.protrusions import HANDLE_FROM_EDGE
 from etot_cli.world.build.material import Look, add_geom
 from etot_cli.world.index import Face, Graspable, Part, Region, Surface
 from etot_cli.world.state import PartInfo
@@ -175,6 +176,7 @@ def _drawer(
         part_name,
         ((back + p + front) / 2, 0.0, (floor + p + top) / 2),
         ((front - back - p) / 2, half_width - p, (top - floor - p) / 2),
+        rim=side_top - (floor + p + top) / 2,
     )
     part = Part(info, part_name, part_name, 0.0, drawer.travel, outer, inner, tuple(grasps))
     return part, region
@@ -248,7 +250,7 @@ def add_cabinet(
     inner = Face((0, reach * span / 2, 0), (-1, 0, 0), half_u, half_v)
     grasps: list[Graspable] = []
     if door.handle is not None:
-        mount = (door.thickness - 0.001, reach * (span - 0.04), 0.0)
+        mount = (door.thickness - 0.001, reach * (span - HANDLE_FROM_EDGE), 0.0)
         grasps.append(_add_handle(moving, door.handle, look, mount))
     grasps += [
         Graspable(
