@@ -20,6 +20,10 @@ LIMIT_S = 60.0
 
 PLANS = {
     "cupboard": ["[PICK UP, vase]", "[PUT ON, *]", "[OPEN, cupboard]"],
+    "drawer_to_cabinet": [
+        "[OPEN, chest]", "[PICK UP, tin]", "[PUT ON, *]", "[CLOSE, chest]",
+        "[OPEN, locker]", "[PICK UP, tin] (horizontal)", "[PUT INTO, locker]", "[CLOSE, locker]",
+    ],
     "marker_and_mugs": ["[PICK UP, marker]", "[PUT INTO, pink_mug]"],
     "mugs_in_cupboard": [
         *("[PICK UP, red_mug] (horizontal)", "[PUT INTO, cupboard]"),

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from etot_cli.reasoning.builtin.fetching import fetched_first
 from etot_cli.reasoning.builtin.regrasping import regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
@@ -334,6 +335,7 @@ class _Case:
                     if owner_of(self.actions[opening].target) == name:
                         yield from self._earlier(opening, name)
                 yield from shut_meanwhile(self.failed, name)
+                yield from fetched_first(self.failed, name)
                 if owner in self.scene.infos:
                     yield from self._brought_out(name, [owner])
         if self.action.safe and not self.is_full:
@@ -379,4 +381,5 @@ class _Case:
             elif not within or self.scene.openness(part) >= STAYS_OPEN_AT:
                 yield from self._out_of_the_way(name)
                 yield from shut_meanwhile(self.failed, name)
+                yield from fetched_first(self.failed, name)
         yield from shut_meanwhile(self.failed, part.owner)

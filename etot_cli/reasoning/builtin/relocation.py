@@ -180,8 +180,12 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
         shut, again = (Action(verb, part.address) for verb in (Verb.CLOSE, Verb.OPEN))
         cleared = (*actions[:start], *waiting, shut, *actions[start : cycle.end])
         change = f"{part.address} is closed meanwhile"
-        yield Correction((*cleared, *actions[cycle.end :]), change)
         needed_at = _needed_at(actions, cycle.end, part, scene)
+        if needed_at is not None and actions[needed_at].verb is Verb.CLOSE:
+            rest = (*actions[cycle.end : needed_at], *actions[needed_at + 1 :])
+            yield Correction((*cleared, *rest), f"{part.address} is closed before")
+            continue
+        yield Correction((*cleared, *actions[cycle.end :]), change)
         if needed_at is not None:
             place = hand_free_at(actions, needed_at, failed.start)
             if place is not None and place > cycle.end:
