@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.arrangements import REPLACING
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.common import (
     COMMA,
@@ -114,7 +113,7 @@ JOINED = either(
     joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     joint("after", OPTIONAL_COMMA, EARLIER),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
-    joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
+    joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     joint("emptied", LIST, PLACED),
     joint("passive", timed(THEN_PLACED, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),

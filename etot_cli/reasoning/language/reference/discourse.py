@@ -33,6 +33,8 @@ class Discourse:
     last_places: tuple[Place, ...] = ()
     placed: dict[Thing, tuple[Place | None, ...]] = field(default_factory=dict)
     """Where things have been put, one of several places; None is where one was at the start."""
+    moved_on: frozenset[Thing] = frozenset()
+    """What has been put somewhere and then somewhere else, so that "where it was" may be either."""
     put_into: dict[int, int] = field(default_factory=dict)
     """Referent → the referent that it was to be put into last."""
     notes: list[str] = field(default_factory=list)

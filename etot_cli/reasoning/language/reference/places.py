@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREI
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
+_BY_A_THING = (Toward.WITH, Toward.STEAD, Toward.HOME)
 _DESK = Resolved(((Thing(DESK),),), noun=DESK)
 """Anywhere on the desk, nobody having said so."""
 
@@ -94,7 +95,7 @@ class Places:
         """Alternative places; ``stays``: of several drawers the one that things are in already."""
         places: dict[Place, None] = {}
         for destination in destinations:
-            if destination.toward in (Toward.WITH, Toward.HOME):  # only where one thing is put
+            if destination.toward in _BY_A_THING:  # only where one thing is put
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
             if destination.toward is Toward.BESIDE:
                 destination = self._surroundings.across_the_desk(destination, themes)
