@@ -284,6 +284,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
         if all(any(touches(up, at, context.scene) for at in under) for up in things_in(above)):
             return  # the cake is put away without the plate that it stands on
     things = clause.things.taken_from(clause.source)
+    if is_emptying(clause):
+        context.discourse.emptied = context.discourse.clause
     # What stands on the desk is taken out or off of nothing: "put the key in the box, then take it
     # out".
     discourse, states = context.discourse, context.scene.states

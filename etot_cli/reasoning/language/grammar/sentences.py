@@ -42,7 +42,13 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.headlines import HEADLINE, PLACED, lacks_verb, taken_out
+from etot_cli.reasoning.language.grammar.headlines import (
+    HEADLINE,
+    PLACED,
+    STARTING,
+    lacks_verb,
+    taken_out,
+)
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
@@ -347,6 +353,12 @@ def _in_the_end(reading: Reading) -> Reading | None:
     return reading if all(isinstance(said.clause, EnsureClause) for said in reading) else None
 
 
+def _aside(joined: tuple[str, Reading]) -> tuple[str, Reading]:
+    """What goes somewhere without a verb; "the tray should have A and B on it" rather has both."""
+    said, (placed, *rest) = joined
+    return said, (replace(placed, far_fetched=1), *rest)
+
+
 _GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
 WHOLE = either(
     sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
@@ -357,7 +369,7 @@ WHOLE = either(
             sequence(ORDER_WORDS, COMMA, build=lambda order: (order, 0)),
             optional(sequence(ORDER_WORDS, build=lambda order: (order, 1)), (Order.SAID, 0)),
         ),
-        HEADLINE,
+        STARTING,
         GOES_ON,
         EMPTY_WORDS,
         _BUT_NO_MORE,
@@ -371,7 +383,7 @@ WHOLE = either(
         joint("and", LIST, PLACED),
         some(JOINED, most=6),
         _END,
-        build=lambda first, more, placed, rest: chained(first, (*more, placed, *rest)),
+        build=lambda first, more, placed, rest: chained(first, (*more, _aside(placed), *rest)),
     ),
 )
 

@@ -62,6 +62,8 @@ class Discourse:
     """Referents of everything that is to be taken off the desk, which needs another place."""
     replaced: frozenset[int] = frozenset()
     """Referents that the clause that is being read puts something else in the place of."""
+    emptied: int = -1
+    """Number of the latest clause after which something is to be empty."""
     cleared: frozenset[Thing] = frozenset()
     """What the clause before took out of what it empties."""
     roomy: int | None = None
