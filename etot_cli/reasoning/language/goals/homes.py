@@ -171,6 +171,8 @@ def in_stead(
     surely = (i for i in discourse.put if len(discourse.referents[i].options) == 1)
     if not {*things} <= {*discourse.things(*surely)}:
         off = Put(tuple(replaced), (context.places.on_the_desk(),), removal=True)
-        context.in_the_way.append(InTheWay(where.word, frozenset(things), off=off))
-        context.steps.append(off)
+        owned = "'s" in where.word  # "in the cup's place" does not say that the cup goes away
+        off_if = None if owned else off
+        context.in_the_way.append(InTheWay(where.word, frozenset(things), off=off_if))
+        context.steps += () if owned else (off,)
     return place

@@ -220,6 +220,7 @@ def chained(first: Reading, more: Joined) -> Reading | None:
     done = first
     for said, clause in more:
         put = done[-1].clause if said == "listed" else None
+        put = None if isinstance(clause[0].clause, RemoveClause) else put
         if isinstance(put, PutClause) and not any(sources(item.things) for item in put.groups):
             return None  # several things with their places are one clause
         if said == "emptied" and not is_emptying(done[-1].clause):

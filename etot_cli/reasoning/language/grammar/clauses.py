@@ -116,7 +116,8 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
     some = left_out.prep is Prep.EXCEPT and not left_out.denied
 
     def without(np: NounPhrase) -> NounPhrase | None:
-        return None if some and _is_one(np) else np.told_by(left_out)
+        # "Any cup, put it there, but not the red one" is said of what "it" was chosen from.
+        return None if np.pronoun == "it" or (some and _is_one(np)) else np.told_by(left_out)
 
     return changed(clause, without, at)
 

@@ -5,7 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from operator import add
 
-from etot_cli.reasoning.language.grammar.afterthoughts import out_of_the_way, told_behind
+from etot_cli.reasoning.language.grammar.afterthoughts import (
+    any_such,
+    but_not,
+    out_of_the_way,
+    told_behind,
+)
 from etot_cli.reasoning.language.grammar.ahead import not_so
 from etot_cli.reasoning.language.grammar.announced import (
     ONE_FOR_EACH,
@@ -30,6 +35,7 @@ from etot_cli.reasoning.language.grammar.chains import (
 from etot_cli.reasoning.language.grammar.clauses import (
     LEAD,
     LED_CLAUSE,
+    LEFT_OUT,
     ORDER_WORDS,
     Reading,
     plain,
@@ -50,7 +56,7 @@ from etot_cli.reasoning.language.grammar.headlines import (
     taken_out,
 )
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED, noun_phrase
+from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED, DESCRIBED, noun_phrase
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -173,6 +179,8 @@ _TOLD_BEHIND = either(
         lambda found: told_behind(found[0], found[1].split()[0], found[2]),
     ),
     sequence(CHAIN, COMMA, AS_IT_IS, build=add),
+    sequence(CHAIN, COMMA, noun_phrase, small_words.ANY_WILL_DO, build=any_such),
+    sequence(CHAIN, OPTIONAL_COMMA, either(LEFT_OUT, CONTRASTED), build=but_not),
 )
 _WITH_MORE_BEFORE_IT = either(
     sequence(small_words.LOOK_FOR, NAMED, _AND, CHAIN, build=done_there),
