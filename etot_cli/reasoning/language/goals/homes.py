@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Place, Put, Thing
+from etot_cli.reasoning.builtin.goal import Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
 from etot_cli.reasoning.language.grammar.spoken import Order
@@ -19,12 +19,32 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.space import carries
+from etot_cli.reasoning.language.reference.space import carries, touches
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.places import WAS_THERE
 
 _ITS_PLACE = "back to its place"
 _WAS_THERE = "where it was"
+
+
+def never_there(context: Context, group: PutGroup) -> list[int]:
+    """What "it" does not mean that is put back somewhere where another thing was that has been
+    moved: what was not ("take the bowl out, put the egg in it and put it back in the oven").
+    """
+    discourse = context.discourse
+    at: list[Thing] = []
+    for np in (np for item in group.destinations for np in item.targets if np.words):
+        with suppress(ReferenceProblem):
+            at += things_in(context.phrases.meaning(np, Role.PLACE).options)
+
+    def was_there(index: int) -> bool:
+        things = discourse.things(index)
+        return any(touches(thing, place, context.scene) for thing in things for place in at)
+
+    moved = discourse.put | discourse.lifted
+    if not group.back or not any(map(was_there, moved)):
+        return []
+    return [index for index in range(len(discourse.referents)) if not was_there(index)]
 
 
 def put_back(

@@ -34,7 +34,13 @@ from etot_cli.reasoning.language.goals.choosing import (
 )
 from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.homes import in_stead, put_back, replaced_by, where_is
+from etot_cli.reasoning.language.goals.homes import (
+    in_stead,
+    never_there,
+    put_back,
+    replaced_by,
+    where_is,
+)
 from etot_cli.reasoning.language.goals.pairing import (
     add_pairs,
     check_enough,
@@ -110,7 +116,7 @@ def put(
             if phrase.words == ("anything",) and said == {Prep.EXCEPT}:
                 raise AmbiguousReference(phrase.text, ["one thing", "everything"])
         context.tell_others(group.things, group.destinations)
-        away = context.places.no_themes(group.destinations)
+        away = [*context.places.no_themes(group.destinations), *never_there(context, group)]
         replaced = replaced_by(context, group)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
         themes = without_riders(context, themes)

@@ -60,7 +60,11 @@ def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> P
     """
     home = how == "back" and any(item.toward is Toward.STEAD for item in where)
     sweeping = any(np.words == ("everything",) and not np.modifiers for np in things.phrases)
-    return None if (how == "back" and sweeping) or home else PutGroup(things, where, how is True)
+    return (
+        None
+        if (how == "back" and sweeping) or home
+        else PutGroup(things, where, how is True, back=how == "back")
+    )
 
 
 def _per_place(np: NounPhrase, words: tuple[str, ...]) -> PutGroup | None:

@@ -6,8 +6,11 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA, THEN
 from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.modifiers import noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
+    Parser,
     either,
     optional,
     phrase,
@@ -47,6 +50,12 @@ def put_in_turn(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return PutClause(tuple(PutGroup(Things((np,)), where) for np in things.phrases))
 
 
+def _no_place(given: Input, at: int) -> list[Result]:
+    return [] if (given.words[at - 1], given.ahead[at]) == ("next", "to") else [(at, NOTHING)]
+
+
+_NO_PLACE = Parser(_no_place)
+"""Behind a word for what comes next: "the cup next to it" is none."""
 FIRST_THEN = sequence(
     optional(phrase("first", True), False),
     noun_phrase,
@@ -55,7 +64,9 @@ FIRST_THEN = sequence(
         either(
             sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
             sequence(OPTIONAL_COMMA, THEN, noun_phrase, build=lambda np: (True, np)),
-            sequence(LIST, noun_phrase, small_words.COUNTED, build=lambda np: (True, np)),
+            sequence(
+                LIST, noun_phrase, small_words.COUNTED, _NO_PLACE, build=lambda np: (True, np)
+            ),
         ),
         least=1,
         most=4,

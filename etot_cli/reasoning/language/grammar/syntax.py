@@ -199,6 +199,8 @@ class PutGroup:
     destinations: tuple[Destination, ...]
     upright: bool = False
     """They are to stand there."""
+    back: bool = False
+    """They are put back there."""
 
     @property
     def not_denied(self) -> PutGroup:

@@ -108,6 +108,12 @@ def note_placed(discourse: Discourse, put: Put) -> None:
             discourse.placed[thing] = put.places if chosen else (*put.places, *before)
 
 
+def is_off(thing: Thing, discourse: Discourse) -> bool:
+    """Whether a thing has been taken from somewhere and waits on the desk."""
+    places = discourse.placed.get(thing, (None,))
+    return all(place is not None and _is_anywhere(place, discourse) for place in places)
+
+
 def _is_anywhere(place: Place, discourse: Discourse) -> bool:
     """Whether a place is but the desk, such as where what is taken away waits."""
     return place.where is not None and discourse.is_desk(place.where) and not place.beside

@@ -296,7 +296,15 @@ def told_by_them(discourse: Discourse, pronoun: str, text: str) -> list[tuple[in
     found = _acted_on(discourse, said, Role.ANY)
     if found and (emptied := _emptied(discourse, latest, Role.ANY)):
         return [found, emptied]
-    return [antecedents(discourse, pronoun, Role.ANY, text)]
+    try:
+        return [antecedents(discourse, pronoun, Role.ANY, text)]
+    except AmbiguousReference:
+        # "Without moving the plates, take the cup off them": what was spoken of before that
+        before = {m.referent for m in discourse.mentions if m.clause < discourse.clause}
+        several = [index for index in before if len(discourse.things(index)) > 1]
+        if len(several) != 1:
+            raise
+        return [(several[0],)]
 
 
 def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
