@@ -257,41 +257,21 @@ def _at(context: Context, place: Place) -> tuple[Thing, ...]:
 
 
 def swap(context: Context, clause: SwapClause) -> None:
-    """Each of two things to the other's place, while the first one waits on the desk; what is
-    replaced stays there.
-    """
+    """Each of two things to the other's place, while the first one waits on the desk."""
     gone = context.discourse.put
-    place_of_it = gone and any(np.text == "its" for np in clause.things.phrases)
-    still = [i for i in range(len(context.discourse.referents)) if place_of_it and i not in gone]
-    themes = context.phrases.things(clause.things, Role.THEME, still)
+    themes = context.phrases.things(clause.things, Role.THEME)
     things = [thing for index in themes for thing in context.only(index, "say which two")]
     text = clause.things.text
     if len(things) != 2:
         raise ReferenceProblem(text, "two things can be swapped, no more and no less", 2)
-    stay = themes[1:] if clause.replaces else themes  # it may have been taken away before
-    if any(index in gone for index in stay):
+    if any(index in gone for index in themes):
         raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
     homes = [context.home(thing) for thing in things]
     if clause.placed:
         _placed(context, clause.placed, dict(zip(things, homes[::-1], strict=True)), text)
         return
-    for place in context.places.of(clause.where, themes[1:]) if clause.where else ():
-        named = place.where is not None and {*context.discourse.things(place.where)}
-        at = homes[0].where
-        if (
-            place.relation is not homes[0].relation
-            or at is None
-            or place.beside
-            or (named != {*context.discourse.things(at)})
-        ):
-            raise ReferenceProblem(text, "that is not where it was", 3)
     if carries(things[0], things[1], context.scene):
         raise ReferenceProblem(text, "one of them is in or on the other", 2)
-    if clause.replaces:
-        away = Put((themes[0],), (context.places.on_the_desk(),), removal=True)
-        before = [] if themes[0] in gone else [away]
-        context.steps += [*before, Put((themes[1],), (homes[0],))]
-        return
     if homes[0] == homes[1]:
         if homes[0].relation is not Relation.ON:
             raise ReferenceProblem(text, "they are in the same place", 2)

@@ -6,10 +6,12 @@ Each raises a ReferenceProblem that names the words.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, things_in
 from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.goals.context import InTheWay
 from etot_cli.reasoning.language.goals.turns import Timed
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -64,12 +66,28 @@ def check_kept(goal: Goal, scene: SceneState) -> None:
                 raise ReferenceProblem(referent.text, why, 4)
 
 
-def check_replaced(goal: Goal, in_the_way: Sequence[tuple[str, frozenset[Thing]]]) -> None:
-    """Whether what is where something is to go "instead of it" goes elsewhere."""
-    moved = {thing for index in _moved(goal) for thing in things_in(goal.referents[index].options)}
-    for text, things in in_the_way:
-        if not things <= moved:
-            raise ReferenceProblem(text, "it is there; say where that is to go", 3)
+def with_room_made(goal: Goal, in_the_way: Sequence[InTheWay]) -> Goal:
+    """The goal, where what is in the way goes to the desk only if nothing else takes it away.
+
+    Raises:
+        ReferenceProblem: nothing takes it away.
+    """
+    for item in in_the_way:
+        off = item.off and replace(item.off, run=0)
+        others = tuple(
+            step for step in goal.steps if not isinstance(step, Put) or replace(step, run=0) != off
+        )
+        without = replace(goal, steps=others)
+        moved = {
+            thing
+            for index in _moved(without)
+            for thing in set.intersection(*map(set, goal.referents[index].options))
+        }
+        if item.things <= moved:
+            goal = without
+        elif item.off is None:
+            raise ReferenceProblem(item.text, item.why, 3)
+    return goal
 
 
 def _moved(goal: Goal) -> Iterator[int]:

@@ -10,8 +10,10 @@ from itertools import product
 from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
+from etot_cli.reasoning.language.goals.context import Context, InTheWay
+from etot_cli.reasoning.language.grammar.contents import (
+    HERE_BEFORE,
+)
 from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State, Things, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
@@ -44,7 +46,7 @@ def check_taken(
                 raise ReferenceProblem(phrase.text, "it would be taken from where it goes", 3)
             there = {o for o in told if any(touches(o, at, context.scene) for at in reached)}
             if prep is Prep.CONTRAST and there:
-                context.in_the_way.append((np.text, frozenset(there)))
+                context.in_the_way.append(InTheWay(np.text, frozenset(there)))
     for phrase in (np for item in group.destinations for np in item.targets):
         described = any(HERE_BEFORE in item.words for item in phrase.modifiers)
         if not taken or described or not phrase.is_elliptic:

@@ -145,7 +145,7 @@ def _note_placed(clause: Clause, context: Context) -> None:
     puts = [step for step in context.steps if isinstance(step, Put)]
     cleared = is_emptying(clause)
     for step in (*context.cleared, *(() if cleared else puts)):
-        note_placed(context.discourse, step.what, step.places)
+        note_placed(context.discourse, step)
     context.cleared = puts if cleared else []
     # "Only the jar should be left on the shelf", "nothing but the jar"
     only = isinstance(clause, EnsureClause | AvoidClause)

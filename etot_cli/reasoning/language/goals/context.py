@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 from etot_cli.reasoning.builtin.goal import (
@@ -34,6 +34,20 @@ from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
 
+@dataclass(frozen=True, slots=True)
+class InTheWay:
+    """What is where something is to go instead of it, so that it has to go elsewhere.
+
+    ``text``: the words, and ``why`` they are not read where it goes nowhere. ``off``: the step that
+    takes it away where nothing else that is asked for does.
+    """
+
+    text: str
+    things: frozenset[Thing]
+    why: str = "it is there; say where that is to go"
+    off: Put | None = None
+
+
 class Context:
     """What clauses have in common: the scene, what was spoken of, steps and constraints.
 
@@ -55,8 +69,7 @@ class Context:
         """Of the clause that is being read."""
         self.done: tuple[Step, ...] = ()
         """Of the last clause that asked for something."""
-        self.in_the_way: list[tuple[str, frozenset[Thing]]] = []
-        """What is where something is to go instead of it: it has to go elsewhere."""
+        self.in_the_way: list[InTheWay] = []
         self.cleared: list[Put] = []
         """What the clause before took out of what it empties."""
         self.last: Clause | None = None

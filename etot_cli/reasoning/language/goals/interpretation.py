@@ -18,11 +18,11 @@ from etot_cli.reasoning.language.goals.checks import (
     check_everything,
     check_held,
     check_kept,
-    check_replaced,
     check_run,
     check_shut,
     check_swept_away,
     check_turns,
+    with_room_made,
 )
 from etot_cli.reasoning.language.goals.left_out import (
     without_needless,
@@ -58,8 +58,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     state = Understanding(scene, discourse, Resolver(scene, vocabulary))
     for sentence in sentences:
         state = best_reading(state, sentence)
-    goal = state.goal()
-    check_replaced(goal, state.context.in_the_way)
+    goal = with_room_made(state.goal(), state.context.in_the_way)
     check_kept(goal, scene)
     check_shut(goal, scene)
     check_everything(goal)

@@ -12,22 +12,16 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.destinations import EACH_OTHER
-from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax import (
     CoverClause,
-    Destination,
-    EnsureClause,
     NounPhrase,
-    PutClause,
     PutGroup,
     ReorientClause,
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.space import is_flat
-from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -40,44 +34,6 @@ _NO_PLACES = (
     Prep.EXCEPT,
     Prep.COLORED,
 )
-_ITS_PLACE = "back to its place"
-_WAS_THERE = "where it was"
-
-
-def put_back(
-    context: Context, themes: Sequence[int], group: PutGroup, ruled_out: Sequence[Destination] = ()
-) -> None:
-    """Puts things back to where they are at the start, or were just said to belong."""
-    if len(group.destinations) > 1 or ruled_out:
-        raise ReferenceProblem(group.destinations[0].word or "back", "say one place only", 4)
-    (where,) = group.destinations
-    told = isinstance(context.last, EnsureClause) and context.order is Order.SAID
-    told = told and where.word in ("", "back", _ITS_PLACE)
-    lifted = context.discourse.lifted
-    for index in themes:
-        if told and any(isinstance(s, Put) and index in s.what for s in context.done):
-            text = context.discourse.referents[index].text
-            context.discourse.notes.append(f"{text!r}: back to where it is said to belong")
-            continue
-        things = context.only(index, "say which one goes back")
-        moved = {*things} & {*context.discourse.things(*context.discourse.put, *lifted)}
-        for thing, before in zip(
-            things, things if moved else _gone(context, index, where), strict=True
-        ):
-            place = context.home(before)
-            context.steps.append(Put((context.single(thing, thing.name),), (place,)))
-
-
-def _gone(context: Context, theme: int, where: Destination) -> tuple[Thing, ...]:
-    """For "put the cup where it was", which has not been moved: the one thing that has gone from
-    there.
-    """
-    gone = tuple(dict.fromkeys(context.discourse.things(*context.discourse.put)))
-    if _WAS_THERE not in where.word or len(context.discourse.things(theme)) != len(gone) != 1:
-        text = context.discourse.referents[theme].text
-        raise ReferenceProblem(text, "not moved before; say where that is to go", 3)
-    context.discourse.notes.append(f"{where.word!r}: where {gone[0].address} was")
-    return gone
 
 
 def spread(context: Context, place: Place) -> Place:
@@ -208,63 +164,6 @@ def put_side_by_side(context: Context, places_of: dict[int, tuple[Place, ...]]) 
         elif places:
             add_put(context, (index,), places, Grouping.ANY)
         before = index
-
-
-def where_is(
-    context: Context, clause: PutClause, group: PutGroup, themes: Sequence[int]
-) -> tuple[Place, ...]:
-    """In or on what something is, or will be by then.
-
-    Raises:
-        ReferenceProblem: it is on the desk, where no other thing fits; where is not known; or more
-            is said of the place than that.
-    """
-    (where, *more) = group.destinations
-    # "Drop it not in the bowl where the apple is" says nothing of which it is.
-    denied = any(item.denied for np in group.things.phrases for item in np.modifiers)
-    if more or clause.conditions or denied:
-        raise ReferenceProblem(where.word, REASONS["where"], 3)
-    pronoun = any(np.pronoun for np in where.targets)
-    steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
-    moved = {index: step.places for step in steps for index in step.what}
-    said = range(len(context.discourse.referents)) if pronoun else ()
-    still = [index for index in said if index not in moved]
-    when = where.word.split()[-1]
-
-    gone = {*context.discourse.things(*context.discourse.put)}
-
-    def is_moved(index: int) -> bool:
-        return index in context.discourse.put or {*context.discourse.things(index)} <= gone
-
-    def was(index: int) -> bool:
-        # "The cup in the box and the pen where the cup is now" is where it was by then.
-        moved_on = when == "now" and is_moved(index)
-        return when in ("was", "were", "before") or moved_on
-
-    def at(index: int) -> tuple[Place, ...]:
-        if pronoun:
-            return moved.get(index, ())
-        if was(index) is not is_moved(index):
-            return ()  # where something was is free only once it has gone
-        if was(index):
-            things = context.only(index, REASONS["where"])
-            homes = (context.home(thing, exact=True) for thing in things)
-            return tuple(dict.fromkeys(homes))
-        return context.source((index,))
-
-    away = [*themes, *still]
-    named = (
-        # "With the other boxes on the shelf": what it is not one of, wherever that is
-        replace(np, determiner="all") if np.modifiers and quantity_of(np.determiner).other else np
-        for np in where.targets
-    )
-    marks = [index for np in named for index in context.phrases.refer(np, Role.ANY, away)]
-    (places, *others) = {*map(at, marks)}
-    held = [place.where for place in places if place.where is not None]
-    occupied = any(place.beside for place in places) or any(map(context.discourse.is_desk, held))
-    if others or len(held) != 1 or (occupied and not all(map(was, marks))):
-        raise ReferenceProblem(where.word, REASONS["where"], 3)
-    return places
 
 
 def _tell_where(context: Context, things: Things, named: Sequence[int]) -> None:

@@ -277,8 +277,31 @@ def _rule_out_things(context: Context, clause: AvoidClause) -> None:
         there = [t for t in things if any(touches(t, m, context.scene) for m in marks)]
         known = len(context.discourse.referents[at].options) == 1
         whole = known and [*context.discourse.things(at)] == there
-        for index in (at,) if whole else (context.single(thing, thing.name) for thing in there):
+        taken = (at,) if whole else tuple(context.single(thing, thing.name) for thing in there)
+        for index in taken:
             add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+        if known and not whole and at not in context.discourse.put:
+            _speak_of_those_there(context, at, taken, where)
+
+
+def _speak_of_those_there(
+    context: Context, index: int, taken: Sequence[int], where: Sequence[Thing]
+) -> None:
+    """In "there should be no blocks on the tray; put them in the box" they are those on the tray,
+    where any are.
+    """
+    discourse, scene = context.discourse, context.scene
+    things = discourse.things(index)
+    below = {t.name for t in things if any(touches(t, at, scene) for at in where)}
+    below |= {at.name for at in where} - {DESK}  # on the desk is not in what stands there
+    there = tuple(t for t in things if {t.name, *bearers(scene, t.name)} & below)
+    if not there:
+        return
+    each = {*there} == {*discourse.things(*taken)}
+    if not each:
+        discourse.referents[index] = replace(discourse.referents[index], options=(there,))
+    unsaid = (index,) if each else taken
+    discourse.mentions = [m for m in discourse.mentions if m.referent not in unsaid]
 
 
 def _whatever(context: Context, clause: AvoidClause) -> list[int]:

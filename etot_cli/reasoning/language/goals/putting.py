@@ -34,6 +34,13 @@ from etot_cli.reasoning.language.goals.choosing import (
 )
 from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.homes import (
+    in_stead,
+    never_there,
+    put_back,
+    replaced_by,
+    where_is,
+)
 from etot_cli.reasoning.language.goals.pairing import (
     add_pairs,
     check_enough,
@@ -45,12 +52,10 @@ from etot_cli.reasoning.language.goals.pairing import (
 from etot_cli.reasoning.language.goals.placing import (
     add_put,
     add_puts,
-    put_back,
     put_side_by_side,
     side_by_side,
     spread,
     upright,
-    where_is,
 )
 from etot_cli.reasoning.language.goals.prohibitions import (
     avoid,
@@ -111,7 +116,8 @@ def put(
             if phrase.words == ("anything",) and said == {Prep.EXCEPT}:
                 raise AmbiguousReference(phrase.text, ["one thing", "everything"])
         context.tell_others(group.things, group.destinations)
-        away = context.places.no_themes(group.destinations)
+        away = [*context.places.no_themes(group.destinations), *never_there(context, group)]
+        replaced = replaced_by(context, group)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
         themes = without_riders(context, themes)
         tell_apart(context, group, before, themes)
@@ -125,6 +131,10 @@ def put(
             continue
         if not ruled_out and any(w.toward is Toward.WITH for w in group.destinations):
             context.discourse.last_places = where_is(context, clause, group, themes)
+            add_put(context, themes, context.discourse.last_places, clause.grouping)
+            continue
+        if replaced and not (ruled_out or clause.conditions):
+            context.discourse.last_places = (in_stead(context, group, themes, replaced),)
             add_put(context, themes, context.discourse.last_places, clause.grouping)
             continue
         group, grouping = _shared(context, group, themes, clause.grouping)
@@ -280,6 +290,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
         if all(any(touches(up, at, context.scene) for at in under) for up in things_in(above)):
             return  # the cake is put away without the plate that it stands on
     things = clause.things.taken_from(clause.source)
+    if is_emptying(clause):
+        context.discourse.emptied = context.discourse.clause
     # What stands on the desk is taken out or off of nothing: "put the key in the box, then take it
     # out".
     discourse, states = context.discourse, context.scene.states

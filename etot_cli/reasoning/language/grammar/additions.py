@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     phrase,
     sequence,
+    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUPS
@@ -44,7 +45,13 @@ GROUPING = either(
     phrase(manner.SEPARATELY, Grouping.SEPARATELY),
 )
 BY_COLOR = phrase(manner.BY_COLOR, ("color", ()))
-CONDITION = sequence("with", NP_LIST, optional("still"), SO, build=state_of)
+CONDITION = sequence(
+    "with",
+    NP_LIST,
+    silent(optional("still, [still] (standing|lying|sitting|resting)")),
+    SO,
+    build=state_of,
+)
 _CONDITIONS = sequence(
     "with",
     PUT_GROUPS,

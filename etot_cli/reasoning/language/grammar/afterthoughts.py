@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.chains import then_done
-from etot_cli.reasoning.language.grammar.clauses import Reading
+from etot_cli.reasoning.language.grammar.clauses import Reading, changed, excluding
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
@@ -104,4 +104,44 @@ def out_of_the_way(things: Things, rest: Reading) -> Reading | None:
             away = Beside(Nearby.AWAY, (np,), f"out of the way of {np.text}")
             put = put_to(things, (Destination(Toward.BESIDE, beside=(away,)),))
             return (Spoken(put, -1), *then_done(rest))
+    return None
+
+
+_CHOICE = frozenset({"a", "an", "any", "one", "any one", "some"})
+"""Before one of several things, whichever it is."""
+
+
+def any_such(rest: Reading, said: NounPhrase) -> Reading | None:
+    """A request about one of some things, with which of them will do ("…, any small one will do");
+    where it is about a choice of places as well, that may be meant.
+    """
+    clause = rest[-1].clause
+    marks = _marks(clause.groups[0]) if isinstance(clause, PutClause) else []
+    if said.determiner != "any" or any(np.determiner in _CHOICE for np in marks):
+        return None
+
+    def told(np: NounPhrase) -> NounPhrase | None:
+        fits = np.determiner in _CHOICE and np.words and (said.is_elliptic or np.head == said.head)
+        more = tuple(word for word in said.words[:-1] if word not in np.words)
+        return replace(np.told_by(*said.modifiers), words=(*more, *np.words)) if fits else None
+
+    new = changed(clause, told)
+    return None if new is None else (*rest[:-1], replace(rest[-1], clause=new))
+
+
+def but_not(rest: Reading, out: Modifier) -> Reading | None:
+    """What is left out behind "it", of a choice before ("pick any cup and put it there, but not the
+    red one"); where it is about a choice of places as well, that may be meant.
+    """
+    if len(rest) < 2:
+        return None
+    match rest[-2].clause, rest[-1].clause:
+        case (
+            PickClause(things=Things(phrases=(np,))),
+            PutClause(groups=(PutGroup(things=Things(phrases=(NounPhrase(pronoun="it"),))) as to,)),
+        ) if np.determiner in _CHOICE:
+            if any(mark.determiner in _CHOICE for mark in _marks(to)):
+                return None
+            new = excluding(rest[-2].clause, out)
+            return None if new is None else (*rest[:-2], replace(rest[-2], clause=new), rest[-1])
     return None

@@ -5,8 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.clauses import LEFT_OUT, Reading, changed
-from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA, noun_phrase
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, denied
+from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, denied, rather
 from etot_cli.reasoning.language.grammar.parsing import Parser, either, optional, sequence, valued
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
@@ -28,10 +32,10 @@ def _elsewhere(out: tuple[Destination, ...], rest: Reading) -> Reading | None:
     """A sentence that begins with where something is not to be."""
     match rest[0].clause:
         case PutClause(groups=(group,)) as clause:
-            group = replace(group, destinations=(*group.destinations, *out))
+            group = replace(group, destinations=rather(out, group.destinations))
             return (replace(rest[0], clause=replace(clause, groups=(group,))), *rest[1:])
         case EnsureClause(states=(State(destinations=(_, *_)) as state,)) as clause:
-            state = replace(state, destinations=(*state.destinations, *out))
+            state = replace(state, destinations=rather(out, state.destinations))
             return (replace(rest[0], clause=replace(clause, states=(state,))), *rest[1:])
     return None
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.arrangements import REPLACING
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.common import (
     COMMA,
@@ -114,7 +113,7 @@ JOINED = either(
     joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     joint("after", OPTIONAL_COMMA, EARLIER),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
-    joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(either(PLACE_AHEAD, REPLACING))),
+    joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     joint("emptied", LIST, PLACED),
     joint("passive", timed(THEN_PLACED, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
@@ -221,6 +220,7 @@ def chained(first: Reading, more: Joined) -> Reading | None:
     done = first
     for said, clause in more:
         put = done[-1].clause if said == "listed" else None
+        put = None if isinstance(clause[0].clause, RemoveClause) else put
         if isinstance(put, PutClause) and not any(sources(item.things) for item in put.groups):
             return None  # several things with their places are one clause
         if said == "emptied" and not is_emptying(done[-1].clause):

@@ -57,6 +57,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Clause,
+    Destination,
     EnsureClause,
     Modifier,
     MoveClause,
@@ -66,6 +67,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     RemoveClause,
     Things,
+    Toward,
     TowerClause,
 )
 from etot_cli.reasoning.language.grammar.taking import (
@@ -118,7 +120,8 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
     some = left_out.prep is Prep.EXCEPT and not left_out.denied
 
     def without(np: NounPhrase) -> NounPhrase | None:
-        return None if some and _is_one(np) else np.told_by(left_out)
+        # "Any cup, put it there, but not the red one" is said of what "it" was chosen from.
+        return None if np.pronoun == "it" or (some and _is_one(np)) else np.told_by(left_out)
 
     return changed(clause, without, at)
 
@@ -203,15 +206,23 @@ def _but_some(clause: PutClause, group: PutGroup) -> Clause | None:
     return replace(found, groups=(*found.groups, group)) if isinstance(found, PutClause) else None
 
 
+_WHICH_GOES = sequence("~comma which", verbs.MODAL, DESTINATIONS)
 _ELSEWHERE = sequence(
     nouns.EXCEPT,
     exceptions,
-    "~comma which",
-    verbs.MODAL,
-    DESTINATIONS,
+    _WHICH_GOES,
     build=lambda nps, where: PutGroup(Things(nps), where),
 )
 """What goes to another place ("…, except the blue one, which goes on the mat")."""
+
+
+def _making_room(clause: PutClause, where: tuple[Destination, ...]) -> PutClause | None:
+    """What makes room for something else goes to another place ("…, which goes on the mat")."""
+    at = [item for item in clause.groups[-1].destinations if item.toward is Toward.STEAD]
+    away = (PutGroup(Things(item.targets), where) for item in at)
+    return replace(clause, groups=(*clause.groups, *away)) if len(at) == 1 else None
+
+
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
@@ -235,6 +246,7 @@ CLAUSE = located(
             sequence(
                 PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=_but_some
             ),
+            sequence(PUT, _WHICH_GOES, build=_making_room),
             SIDE_BY_SIDE,
         ),
         EMPTY_WORDS,

@@ -16,7 +16,9 @@ from etot_cli.reasoning.language.grammar.common import (
 )
 from etot_cli.reasoning.language.grammar.coordination import coordinated
 from etot_cli.reasoning.language.grammar.levels import AT_LEVEL, NEXT_LEVEL
-from etot_cli.reasoning.language.grammar.modifiers import BETWEEN
+from etot_cli.reasoning.language.grammar.modifiers import (
+    BETWEEN,
+)
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
@@ -29,6 +31,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     spanned,
     valued,
 )
+from etot_cli.reasoning.language.grammar.steads import STEAD, WITH, told_by_it
 from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
@@ -169,22 +172,6 @@ _top_of = sequence(
     "top, surface",
     build=lambda np: Destination(Toward.ON, (np,), TOP),
 )
-_with = spanned(
-    either(
-        sequence(
-            "with, together with",
-            phrase("it, them"),
-            build=lambda text: NounPhrase(pronoun=text, text=text),
-        ),
-        sequence(
-            "[to] where",
-            noun_phrase,
-            "(is|are) [now|standing|lying], (was|were) [before]",
-            build=lambda np: None if np.pronoun else np,
-        ),
-    ),
-    lambda text, np: Destination(Toward.WITH, (np,), text),
-)
 _beside_something = valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found))
 _BESIDE_IT = sequence(
     EXACTLY,
@@ -201,7 +188,18 @@ _place = either(
     _top_of,
     AT_LEVEL,
     NEXT_LEVEL,
-    _with,
+    WITH,
+    sequence(WITH, OPTIONAL_COMMA, either(INTO, ONTO), build=told_by_it),
+    STEAD,
+    sequence(
+        STEAD,
+        OPTIONAL_COMMA,
+        either(INTO, ONTO),
+        build=lambda stead, around: replace(stead, around=(around,)),
+    ),
+    sequence(
+        either(INTO, ONTO), STEAD, build=lambda around, stead: replace(stead, around=(around,))
+    ),
     valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
     valued(phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")),
     valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
@@ -263,7 +261,7 @@ def denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
     return tuple(replace(item, denied=True) for item in out)
 
 
-def _rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
+def rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
     """A place in place of others ("not in the red box but in the blue one", which is a box)."""
     (*_, noun) = ("", *(np.head for item in out for np in item.targets))
 
@@ -274,7 +272,7 @@ def _rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any
 
 
 _BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")
-INSTEAD = sequence(DESTINATIONS, _BUT, DESTINATIONS, build=_rather)
+INSTEAD = sequence(DESTINATIONS, _BUT, DESTINATIONS, build=rather)
 """Behind "not": where things are not to go, and where they are."""
 WHERE = Rule(
     either(
@@ -291,9 +289,7 @@ WHERE = Rule(
         ),
         sequence("not", INSTEAD),
         quiet(
-            sequence(
-                "neither", separated(destination, "nor, or"), _BUT, DESTINATIONS, build=_rather
-            )
+            sequence("neither", separated(destination, "nor, or"), _BUT, DESTINATIONS, build=rather)
         ),
     )
 )

@@ -11,8 +11,11 @@ from etot_cli.reasoning.language.grammar.clauses import (
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doors import STATE_NAMED
-from etot_cli.reasoning.language.grammar.modifiers import CONTRASTED
+from etot_cli.reasoning.language.grammar.modifiers import (
+    CONTRASTED,
+)
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
@@ -26,7 +29,7 @@ from etot_cli.reasoning.language.grammar.predicates import BOTH_LEFT_SO
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     Destination,
@@ -107,6 +110,14 @@ def timed(*clauses: Parser) -> Parser:
     )
 
 
+def _none_there(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> EnsureClause | None:
+    """What is to be nowhere there, without a verb ("no cups on the tray, …"); alone, it may be a
+    correction.
+    """
+    state = state_of(nps, where) if all(np.determiner in NONE for np in nps) else None
+    return None if state is None else EnsureClause((state,), 1)
+
+
 LEFT_SO = Rule(
     timed(
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
@@ -131,3 +142,5 @@ PLACED = Rule(
 )
 """Where things go, or are taken from."""
 HEADLINE = either(PLACED, LEFT_SO)
+STARTING = either(HEADLINE, plain(sequence(NP_LIST, DESTINATIONS, build=_none_there)))
+"""What a sentence without a verb begins with."""

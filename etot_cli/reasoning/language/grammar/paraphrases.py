@@ -91,7 +91,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={NAMED}|(?:it|them)\b)", r"\1set "),
     (r"\b(set|put|place|lay) ([^.,;]*?) aside (?=(?:on|in|next to|beside) )", r"\1 \2 "),
     (rf"\b((?:on|in) {NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
-    (r"^(without \w+ing any other [^,.;]*), ([^.;]*)", r"\2 \1"),
+    (r"^(please |(?:could|can) you )?(without \w+ing any other [^,.;]*), ([^.;]*)", r"\1\3 \2"),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
     (r",? followed by ", ", then "),
     (

@@ -54,9 +54,16 @@ def _quantified(things: Things, said: str) -> Things | None:
 
 
 def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> PutGroup | None:
-    """Things and where they go; "everything back" is what has been there, which nobody knows."""
+    """Things and where they go; "everything back" is what has been there, which nobody knows, and
+    "back in its place" is its own.
+    """
+    home = how == "back" and any(item.toward is Toward.STEAD for item in where)
     sweeping = any(np.words == ("everything",) and not np.modifiers for np in things.phrases)
-    return None if how == "back" and sweeping else PutGroup(things, where, how is True)
+    return (
+        None
+        if (how == "back" and sweeping) or home
+        else PutGroup(things, where, how is True, back=how == "back")
+    )
 
 
 def _per_place(np: NounPhrase, words: tuple[str, ...]) -> PutGroup | None:

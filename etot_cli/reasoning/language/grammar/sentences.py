@@ -5,7 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from operator import add
 
-from etot_cli.reasoning.language.grammar.afterthoughts import out_of_the_way, told_behind
+from etot_cli.reasoning.language.grammar.afterthoughts import (
+    any_such,
+    but_not,
+    out_of_the_way,
+    told_behind,
+)
 from etot_cli.reasoning.language.grammar.ahead import not_so
 from etot_cli.reasoning.language.grammar.announced import (
     ONE_FOR_EACH,
@@ -30,6 +35,7 @@ from etot_cli.reasoning.language.grammar.chains import (
 from etot_cli.reasoning.language.grammar.clauses import (
     LEAD,
     LED_CLAUSE,
+    LEFT_OUT,
     ORDER_WORDS,
     Reading,
     plain,
@@ -43,9 +49,18 @@ from etot_cli.reasoning.language.grammar.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.headlines import HEADLINE, PLACED, lacks_verb, taken_out
+from etot_cli.reasoning.language.grammar.headlines import (
+    HEADLINE,
+    PLACED,
+    STARTING,
+    lacks_verb,
+    taken_out,
+)
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import DESCRIBED
+from etot_cli.reasoning.language.grammar.modifiers import (
+    CONTRASTED,
+    DESCRIBED,
+)
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -168,6 +183,8 @@ _TOLD_BEHIND = either(
         lambda found: told_behind(found[0], found[1].split()[0], found[2]),
     ),
     sequence(CHAIN, COMMA, AS_IT_IS, build=add),
+    sequence(CHAIN, COMMA, noun_phrase, small_words.ANY_WILL_DO, build=any_such),
+    sequence(CHAIN, OPTIONAL_COMMA, either(LEFT_OUT, CONTRASTED), build=but_not),
 )
 _WITH_MORE_BEFORE_IT = either(
     sequence(small_words.LOOK_FOR, NAMED, _AND, CHAIN, build=done_there),
@@ -348,6 +365,12 @@ def _in_the_end(reading: Reading) -> Reading | None:
     return reading if all(isinstance(said.clause, EnsureClause) for said in reading) else None
 
 
+def _aside(joined: tuple[str, Reading]) -> tuple[str, Reading]:
+    """What goes somewhere without a verb; "the tray should have A and B on it" rather has both."""
+    said, (placed, *rest) = joined
+    return said, (replace(placed, far_fetched=1), *rest)
+
+
 _GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
 WHOLE = either(
     sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
@@ -358,7 +381,7 @@ WHOLE = either(
             sequence(ORDER_WORDS, COMMA, build=lambda order: (order, 0)),
             optional(sequence(ORDER_WORDS, build=lambda order: (order, 1)), (Order.SAID, 0)),
         ),
-        HEADLINE,
+        STARTING,
         GOES_ON,
         EMPTY_WORDS,
         _BUT_NO_MORE,
@@ -372,7 +395,7 @@ WHOLE = either(
         joint("and", LIST, PLACED),
         some(JOINED, most=6),
         _END,
-        build=lambda first, more, placed, rest: chained(first, (*more, placed, *rest)),
+        build=lambda first, more, placed, rest: chained(first, (*more, _aside(placed), *rest)),
     ),
 )
 

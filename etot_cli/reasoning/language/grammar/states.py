@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import LIST, noun_phrase
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.coordination import all_of, disagrees
 from etot_cli.reasoning.language.grammar.destinations import AS_SAID, DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
@@ -36,8 +36,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.places import Prep
 
-_NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
+NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
 """Denials before a noun, and of which things what is denied is said."""
 SHUT = phrase(manner.CLOSED_STATE, "closed")
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
@@ -52,8 +53,8 @@ PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, WHERE)
 
 def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
     """What is to be so: a word for a state, or where things are to be."""
-    if all(np.determiner in _NONE for np in subjects) and "not" not in predicate:
-        every = tuple(replace(np, determiner=_NONE[np.determiner]) for np in subjects)
+    if all(np.determiner in NONE for np in subjects) and "not" not in predicate:
+        every = tuple(replace(np, determiner=NONE[np.determiner]) for np in subjects)
         return _opposite(every, predicate)
     if isinstance(predicate, str):
         return State(subjects, word=predicate)
@@ -102,13 +103,24 @@ _STAYS = sequence(
 _THEREIN = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
 
 
-def _holds(np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward) -> State:
-    return State(held, (Destination(toward, (np,)),))
+_AS_WELL = sequence(OPTIONAL_COMMA, "and, as well as, together with, along with", NP_LIST)
+
+
+def _holds(
+    np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward, more: tuple[NounPhrase, ...] = ()
+) -> State | None:
+    """What is in or on something; "the cup on it" is no cup on another one that it has."""
+    behind = held[-1].modifiers[-1:]
+    told = any(n.pronoun == "it" for m in behind if m.prep in (Prep.IN, Prep.ON) for n in m.phrases)
+    return None if told and held[1:] else State((*held, *more), (Destination(toward, (np,)),))
 
 
 def containing(verb: str) -> Parser:
     """What is in or on something, by a verb for that."""
-    return sequence(noun_phrase, verb, NP_LIST, optional(_THEREIN, Toward.INSIDE), build=_holds)
+    return either(
+        sequence(noun_phrase, verb, NP_LIST, optional(_THEREIN, Toward.INSIDE), build=_holds),
+        sequence(noun_phrase, verb, NP_LIST, _THEREIN, _AS_WELL, build=_holds),
+    )
 
 
 def _held(np: NounPhrase, held: NounPhrase) -> State:
@@ -282,7 +294,7 @@ ENSURE = either(
                 sequence(
                     "neither",
                     separated(noun_phrase, "nor"),
-                    verbs.MODAL,
+                    f"{verbs.MODAL}, {verbs.STAY}",
                     build=lambda nps: nps if nps[1:] else None,
                 ),
             ),

@@ -12,7 +12,10 @@ from etot_cli.reasoning.language.grammar.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.coordination import coordinated
+from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
+    Parser,
     either,
     optional,
     phrase,
@@ -52,6 +55,12 @@ def put_in_turn(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return PutClause(tuple(PutGroup(Things((np,)), where) for np in things.phrases))
 
 
+def _no_place(given: Input, at: int) -> list[Result]:
+    return [] if (given.words[at - 1], given.ahead[at]) == ("next", "to") else [(at, NOTHING)]
+
+
+_NO_PLACE = Parser(_no_place)
+"""Behind a word for what comes next: "the cup next to it" is none."""
 FIRST_THEN = sequence(
     optional(phrase("first", True), False),
     noun_phrase,
@@ -60,7 +69,9 @@ FIRST_THEN = sequence(
         either(
             sequence(COMMA, noun_phrase, build=lambda np: (False, np)),
             sequence(OPTIONAL_COMMA, THEN, noun_phrase, build=lambda np: (True, np)),
-            sequence(LIST, noun_phrase, small_words.COUNTED, build=lambda np: (True, np)),
+            sequence(
+                LIST, noun_phrase, small_words.COUNTED, _NO_PLACE, build=lambda np: (True, np)
+            ),
         ),
         least=1,
         most=4,

@@ -127,6 +127,8 @@ class Toward(StrEnum):
     """Where it was at the start."""
     WITH = "with"
     """In or on what the target is in or on."""
+    STEAD = "stead"
+    """Where the target was, which goes elsewhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +152,8 @@ class Destination:
     beside: tuple[Beside, ...] = ()
     denied: bool = False
     """They must not go there ("in a cup, but not in the red one")."""
+    around: tuple[Destination, ...] = ()
+    """What the target is in or on, as it is said again ("on the tray, in its place")."""
 
     def going_to(self, change: Callable[[NounPhrase], NounPhrase]) -> Destination:
         """The same with the phrases for its targets changed."""
@@ -195,6 +199,8 @@ class PutGroup:
     destinations: tuple[Destination, ...]
     upright: bool = False
     """They are to stand there."""
+    back: bool = False
+    """They are put back there."""
 
     @property
     def not_denied(self) -> PutGroup:
@@ -311,14 +317,9 @@ class TowerClause:
 
 @dataclass(frozen=True, slots=True)
 class SwapClause:
-    """Each of two things goes where the other is, or (``replaces``) but the second."""
+    """Each of two things goes where the other is."""
 
     things: Things
-    replaces: bool = False
-    back: tuple[NounPhrase, ...] = ()
-    """The same things, where it is said again which one goes back where."""
-    where: tuple[Destination, ...] = ()
-    """Where what is replaced is, as it is said again ("put it on the tray in its place")."""
     placed: PutClause | None = None
     """Where each of them goes, as it is said again."""
 

@@ -33,7 +33,8 @@ WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], 
     ),
     (rf"\band in (its|their) place (put|place) ({NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
     (
-        rf"^(next to|beside|behind|in front of|to the (?:left|right) of) ({NAMED} [^.,;]*?),? "
+        r"^(next to|beside|behind|in front of|to the (?:left|right) of|where) "
+        rf"({NAMED} [^.,;]*?),? "
         rf"(?:i (?:want|would like|need)|there (?:should|must) be) ({NAMED} [^.,;]*)",
         r"put \3 \1 \2",
     ),

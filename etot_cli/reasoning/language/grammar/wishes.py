@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.common import EMPTY_WORDS, LIST, noun_phrase
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.common import (
+    EMPTY_WORDS,
+    LIST,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, FILLED
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -22,6 +27,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     EnsureClause,
     NounPhrase,
     PickClause,
+    PutClause,
     RemoveClause,
     State,
     Things,
@@ -40,6 +46,12 @@ def _wanted_in_hand(things: Things) -> PickClause | None:
     return None if away or every else PickClause(things, wanted=True)
 
 
+def _shared(things: Things, place: NounPhrase) -> PutClause | None:
+    """Several things that have one place."""
+    put = put_to(things, (Destination(Toward.TO, (place,), FILLED),))
+    return replace(put, grouping=Grouping.TOGETHER) if things.may_be_several else None
+
+
 WANTED = either(
     PASSIVE,
     sequence(
@@ -52,6 +64,7 @@ WANTED = either(
         noun_phrase,
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
+    sequence(optional("have, let, make"), ALL_THINGS, verbs.SHARE, noun_phrase, build=_shared),
     sequence(
         # "The pen I want in the cup"
         ALL_THINGS,

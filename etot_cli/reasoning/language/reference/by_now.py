@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.words.places import Prep
@@ -96,10 +96,24 @@ def is_empty_by_now(thing: Thing, discourse: Discourse) -> bool:
     return True
 
 
-def note_placed(discourse: Discourse, what: Sequence[int], places: tuple[Place, ...]) -> None:
+def note_placed(discourse: Discourse, put: Put) -> None:
     """Notes where things have been put; of a choice it is open whether they have been."""
-    for index in what:
+    for index in put.what:
         chosen = len(discourse.referents[index].options) == 1
         for thing in discourse.things(index):
             before = discourse.placed.pop(thing, (None,))
-            discourse.placed[thing] = places if chosen else (*places, *before)
+            off = all(place is None or _is_anywhere(place, discourse) for place in before)
+            if put.removal or not off:
+                discourse.moved_on |= {thing} if before != (None,) else set()
+            discourse.placed[thing] = put.places if chosen else (*put.places, *before)
+
+
+def is_off(thing: Thing, discourse: Discourse) -> bool:
+    """Whether a thing has been taken from somewhere and waits on the desk."""
+    places = discourse.placed.get(thing, (None,))
+    return all(place is not None and _is_anywhere(place, discourse) for place in places)
+
+
+def _is_anywhere(place: Place, discourse: Discourse) -> bool:
+    """Whether a place is but the desk, such as where what is taken away waits."""
+    return place.where is not None and discourse.is_desk(place.where) and not place.beside

@@ -57,7 +57,7 @@ def antecedents(
         ReferenceProblem: nothing before it fits.
     """
     if pronoun == UNSAID:
-        pronoun = left_unsaid(discourse, text)
+        return left_unsaid(discourse, text)
     if pronoun in PLURAL_PRONOUNS:
         found = _plural(discourse, role, text)
         if not found:
@@ -285,6 +285,26 @@ def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
         for index in (referent, other)
     )
     return all(map(is_flat, own)) and not any(is_flat(info) or info.container for info in rivals)
+
+
+def told_by_them(discourse: Discourse, pronoun: str, text: str) -> list[tuple[int, ...]]:
+    """All that "them" may mean where it tells what something is in, on or beside: behind "empty the
+    bins" what was in them, or these.
+    """
+    latest = max((mention.clause for mention in discourse.mentions), default=-1)
+    said = [mention for mention in discourse.mentions if mention.clause == latest]
+    found = _acted_on(discourse, said, Role.ANY)
+    if found and (emptied := _emptied(discourse, latest, Role.ANY)):
+        return [found, emptied]
+    try:
+        return [antecedents(discourse, pronoun, Role.ANY, text)]
+    except AmbiguousReference:
+        # "Without moving the plates, take the cup off them": what was spoken of before that
+        before = {m.referent for m in discourse.mentions if m.clause < discourse.clause}
+        several = [index for index in before if len(discourse.things(index)) > 1]
+        if len(several) != 1:
+            raise
+        return [(several[0],)]
 
 
 def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:

@@ -33,6 +33,8 @@ class Discourse:
     last_places: tuple[Place, ...] = ()
     placed: dict[Thing, tuple[Place | None, ...]] = field(default_factory=dict)
     """Where things have been put, one of several places; None is where one was at the start."""
+    moved_on: frozenset[Thing] = frozenset()
+    """What has been put somewhere and then somewhere else, so that "where it was" may be either."""
     put_into: dict[int, int] = field(default_factory=dict)
     """Referent → the referent that it was to be put into last."""
     notes: list[str] = field(default_factory=list)
@@ -60,6 +62,8 @@ class Discourse:
     """Referents of everything that is to be taken off the desk, which needs another place."""
     replaced: frozenset[int] = frozenset()
     """Referents that the clause that is being read puts something else in the place of."""
+    emptied: int = -1
+    """Number of the latest clause after which something is to be empty."""
     cleared: frozenset[Thing] = frozenset()
     """What the clause before took out of what it empties."""
     roomy: int | None = None

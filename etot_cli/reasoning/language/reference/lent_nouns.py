@@ -16,8 +16,8 @@ from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, Ambiguous
 from etot_cli.reasoning.language.reference.coreference import (
     PERSONAL_PRONOUNS,
     PLURAL_PRONOUNS,
-    antecedents,
     is_like_people,
+    told_by_them,
 )
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
@@ -229,5 +229,5 @@ class LentNouns(ABC):
             if not found:
                 raise ReferenceProblem(phrase.text, UNCLEAR, 2)
             return found
-        indices = antecedents(self.discourse, phrase.pronoun, Role.ANY, phrase.text)
-        return [self.discourse.things(*indices)]
+        ways = told_by_them(self.discourse, phrase.pronoun, phrase.text)
+        return [self.discourse.things(*indices) for indices in ways]

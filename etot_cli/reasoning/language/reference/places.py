@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.destinations import FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.by_now import is_off
 from etot_cli.reasoning.language.reference.coreference import (
     antecedents,
     latest_place,
@@ -41,6 +42,7 @@ from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREI
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
+_BY_A_THING = (Toward.WITH, Toward.STEAD, Toward.HOME)
 _DESK = Resolved(((Thing(DESK),),), noun=DESK)
 """Anywhere on the desk, nobody having said so."""
 
@@ -72,7 +74,10 @@ class Places:
         referents = self.discourse.referents
         if any(item.toward is Toward.HOME for item in destinations):
             put = self.discourse.put
-            return [index for index in range(len(referents)) if put and index not in put]
+            # "Take the bowl out, put the egg in it and put it back": the bowl with the egg
+            inner = {i for i, around in self.discourse.put_into.items() if self._waits(around)}
+            away = {*range(len(referents))} - put if put else set()
+            return sorted(away | inner)
         named = [phrase for item in destinations for phrase in item.targets if phrase.words]
         named += [p for item in destinations for b in item.beside for p in b.phrases if p.words]
         meant = []
@@ -88,13 +93,18 @@ class Places:
                 meant.append(self._phrases.meaning(phrase, Role.ANY).options)
         return [index for index, referent in enumerate(referents) if referent.options in meant]
 
+    def _waits(self, index: int) -> bool:
+        """Whether things have been taken from somewhere and were told no other place."""
+        things = self.discourse.things(index)
+        return bool(things) and all(is_off(thing, self.discourse) for thing in things)
+
     def of(
         self, destinations: Sequence[Destination], themes: Sequence[int], *, stays: bool = False
     ) -> tuple[Place, ...]:
         """Alternative places; ``stays``: of several drawers the one that things are in already."""
         places: dict[Place, None] = {}
         for destination in destinations:
-            if destination.toward in (Toward.WITH, Toward.HOME):  # only where one thing is put
+            if destination.toward in _BY_A_THING:  # only where one thing is put
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
             if destination.toward is Toward.BESIDE:
                 destination = self._surroundings.across_the_desk(destination, themes)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.builtin.roles import Role, can_be
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
 
 TARGETS = (Role.SURFACE, Role.CONTAINER, Role.PLACE)
@@ -76,19 +76,18 @@ def fits(discourse: Discourse, referent: int, role: Role) -> bool:
     return any(can_be(thing, role, discourse.scene) for thing in discourse.things(referent))
 
 
-def left_unsaid(discourse: Discourse, text: str) -> str:
-    """The pronoun for what is left out behind a verb: what was acted on last, be it several things.
+def left_unsaid(discourse: Discourse, text: str) -> tuple[int, ...]:
+    """What is left out behind a verb: what was acted on last, be it several things.
 
     Raises:
         AmbiguousReference: something was emptied, and may be meant as well as what was in it.
+        ReferenceProblem: nothing was acted on.
     """
     said = [mention for mention in discourse.mentions if mention.role is Role.THEME]
-    latest = [mention for mention in said if mention.clause == said[-1].clause]
-    named = [discourse.referents[mention.referent].text for mention in latest]
-    if any(name.startswith(("everything in ", "everything on ")) for name in named):
+    if not said:
+        raise ReferenceProblem(text, UNCLEAR, 2)
+    latest = [mention.referent for mention in said if mention.clause == said[-1].clause]
+    named = [discourse.referents[index].text for index in latest]
+    if said[-1].clause == discourse.emptied:
         raise AmbiguousReference(text, [*named, *(name.split(maxsplit=2)[2] for name in named)])
-    several = len({mention.referent for mention in latest}) > 1 or any(
-        mention.several or (are_several(discourse, mention.referent) and not mention.whatever)
-        for mention in latest
-    )
-    return "them" if several else "it"
+    return tuple(dict.fromkeys(latest))

@@ -158,6 +158,12 @@ HOME = """
     [back] [to] where (it|they) (was|were) [before], [back] [to] where (it|they) came from,
     back where (it|they) belong[s]
 """
+WAS_THERE = frozenset({"was", "were", "before"})
+IS_THERE = """
+    (is|are) [now|currently|standing|lying|sitting], stands, stand, lies, lie, sits, sit,
+    (was|were) [before]
+"""
+"""Behind "where the cup"."""
 ITS_SIDE: dict[Nearby, str] = {
     Nearby.LEFT: "(to|on|at) its left [side|hand side]",
     Nearby.RIGHT: "(to|on|at) its right [side|hand side]",

@@ -161,7 +161,7 @@ RELATIONS = """
 WANT = """
     (i|we) [just|really|also] (want|need|prefer) [to (have|see)], need,
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
-    i d like, (can|could|may|might) (i|we) (have|get), let us have,
+    i d like, (can|could|may|might) (i|we) (have|get), let (us|me) have,
     (would|is) it [be] possible to have,
     (i|we) would rather (have|see),
     what (i|we) [really|just] (want|need|would like) [to (have|see)] is
@@ -222,6 +222,7 @@ LET = "have, let, get"
 LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
 """Between them is what is to go somewhere."""
 JOIN = "joins, [can|may|should|must|is to|are to|has to|needs to|will] join"
+SHARE = "[can|may|should|must|is to|are to|has to|have to|will] share[s]"
 COME_AWAY = "[should|must|shall|has to|have to|needs to|need to|ought to|is to|are to] come[s]"
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]

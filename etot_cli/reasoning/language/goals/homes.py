@@ -1,0 +1,198 @@
+"""Places that are told by what is or was there: where something was, is, or goes no more."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Place, Put, Thing, things_in
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context, InTheWay
+from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.syntax import (
+    Destination,
+    EnsureClause,
+    PutClause,
+    PutGroup,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.space import carries, touches
+from etot_cli.reasoning.language.words.known import REASONS
+from etot_cli.reasoning.language.words.places import WAS_THERE
+
+_ITS_PLACE = "back to its place"
+_WAS_THERE = "where it was"
+
+
+def never_there(context: Context, group: PutGroup) -> list[int]:
+    """What "it" does not mean that is put back somewhere where another thing was that has been
+    moved: what was not ("take the bowl out, put the egg in it and put it back in the oven").
+    """
+    discourse = context.discourse
+    at: list[Thing] = []
+    for np in (np for item in group.destinations for np in item.targets if np.words):
+        with suppress(ReferenceProblem):
+            at += things_in(context.phrases.meaning(np, Role.PLACE).options)
+
+    def was_there(index: int) -> bool:
+        things = discourse.things(index)
+        return any(touches(thing, place, context.scene) for thing in things for place in at)
+
+    moved = discourse.put | discourse.lifted
+    if not group.back or not any(map(was_there, moved)):
+        return []
+    return [index for index in range(len(discourse.referents)) if not was_there(index)]
+
+
+def put_back(
+    context: Context, themes: Sequence[int], group: PutGroup, ruled_out: Sequence[Destination] = ()
+) -> None:
+    """Puts things back to where they are at the start, or were just said to belong."""
+    if len(group.destinations) > 1 or ruled_out:
+        raise ReferenceProblem(group.destinations[0].word or "back", "say one place only", 4)
+    (where,) = group.destinations
+    told = isinstance(context.last, EnsureClause) and context.order is Order.SAID
+    told = told and where.word in ("", "back", _ITS_PLACE)
+    lifted = context.discourse.lifted
+    for index in themes:
+        if told and any(isinstance(s, Put) and index in s.what for s in context.done):
+            text = context.discourse.referents[index].text
+            context.discourse.notes.append(f"{text!r}: back to where it is said to belong")
+            continue
+        things = context.only(index, "say which one goes back")
+        moved = {*things} & {*context.discourse.things(*context.discourse.put, *lifted)}
+        for thing, before in zip(
+            things, things if moved else _gone(context, index, where), strict=True
+        ):
+            place = context.home(before)
+            context.steps.append(Put((context.single(thing, thing.name),), (place,)))
+
+
+def _gone(context: Context, theme: int, where: Destination) -> tuple[Thing, ...]:
+    """For "put the cup where it was", which has not been moved: the one thing that has gone from
+    there.
+    """
+    gone = tuple(dict.fromkeys(context.discourse.things(*context.discourse.put)))
+    if _WAS_THERE not in where.word or len(context.discourse.things(theme)) != len(gone) != 1:
+        text = context.discourse.referents[theme].text
+        raise ReferenceProblem(text, "not moved before; say where that is to go", 3)
+    context.discourse.notes.append(f"{where.word!r}: where {gone[0].address} was")
+    return gone
+
+
+def where_is(
+    context: Context, clause: PutClause, group: PutGroup, themes: Sequence[int]
+) -> tuple[Place, ...]:
+    """In or on what something is, or will be by then.
+
+    Raises:
+        ReferenceProblem: it is on the desk, where no other thing fits; where is not known; or more
+            is said of the place than that.
+    """
+    (where, *more) = group.destinations
+    # "Drop it not in the bowl where the apple is" says nothing of which it is.
+    denied = any(item.denied for np in group.things.phrases for item in np.modifiers)
+    if more or clause.conditions or denied:
+        raise ReferenceProblem(where.word, REASONS["where"], 3)
+    pronoun = any(np.pronoun for np in where.targets)
+    steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
+    moved = {index: step.places for step in steps for index in step.what}
+    said = range(len(context.discourse.referents)) if pronoun else ()
+    still = [index for index in said if index not in moved]
+    when = where.word.split()[-1]
+    own: tuple[Place, ...] = ()
+    lent = "where" in where.word.split()[:2]
+
+    gone = {*context.discourse.things(*context.discourse.put)}
+
+    def is_moved(index: int) -> bool:
+        return index in context.discourse.put or {*context.discourse.things(index)} <= gone
+
+    def was(index: int) -> bool:
+        # "The cup in the box and the pen where the cup is now" is where it was by then.
+        moved_on = when == "now" and is_moved(index)
+        return when in WAS_THERE or moved_on
+
+    def at(index: int) -> tuple[Place, ...]:
+        if pronoun:
+            return moved.get(index, ())
+        if is_moved(index) and not was(index) and moved.get(index) != own:
+            return ()
+        places = () if is_moved(index) or was(index) else context.source((index,))
+        if places or not lent:
+            return places  # where it is there is room beside it
+        things = context.only(index, REASONS["where"])
+        if not is_moved(index):  # where something is or was is free only once it has gone
+            context.in_the_way.append(InTheWay(where.word, frozenset(things), REASONS["where"]))
+        return _left_by(context, things, where.word, exact=True)
+
+    with suppress(ReferenceProblem):  # "the cup where the can is and the can where the cup is"
+        own = tuple(context.home(t, exact=True) for t in context.discourse.things(*themes))
+    away = [*themes, *still]
+    named = (
+        # "With the other boxes on the shelf": what it is not one of, wherever that is
+        replace(np, determiner="all") if np.modifiers and quantity_of(np.determiner).other else np
+        for np in where.targets
+    )
+    marks = [index for np in named for index in context.phrases.refer(np, Role.ANY, away)]
+    (places, *others) = {*map(at, marks)}
+    held = [place.where for place in places if place.where is not None]
+    if others or len(held) != 1:
+        raise ReferenceProblem(where.word, REASONS["where"], 3)
+    return places
+
+
+def _left_by(
+    context: Context, things: Sequence[Thing], text: str, *, exact: bool = False
+) -> tuple[Place, ...]:
+    """Where things were before they went elsewhere."""
+    if {*things} & context.discourse.moved_on:
+        raise ReferenceProblem(text, "it has been in several places by then; say which", 3)
+    return tuple(dict.fromkeys(context.home(thing, exact=exact) for thing in things))
+
+
+def replaced_by(context: Context, group: PutGroup) -> tuple[int, ...]:
+    """What things are to go in place of, if that is said; "it" has been moved before, if anything
+    has.
+    """
+    (where, *more), discourse = group.destinations, context.discourse
+    if more or where.toward is not Toward.STEAD:
+        return ()
+    pronoun = discourse.put and any(np.pronoun for np in where.targets)
+    still = {*range(len(discourse.referents))} - discourse.put if pronoun else ()
+    return tuple(context.phrases.things(Things(where.targets), Role.THEME, [*still]))
+
+
+def in_stead(
+    context: Context, group: PutGroup, themes: Sequence[int], replaced: Sequence[int]
+) -> Place:
+    """Where something was that goes elsewhere, be it only to the desk to make room.
+
+    Raises:
+        ReferenceProblem: it is not known where that was, or it is said to have been elsewhere.
+    """
+    (where,), discourse = group.destinations, context.discourse
+    things = [thing for index in replaced for thing in context.only(index, "say which one")]
+    (new, *others) = discourse.things(*themes)
+    if others or any(carries(old, new, context.scene) for old in things):
+        why = "one of them is in or on the other"
+        raise ReferenceProblem(where.word, "say where each one is to go" if others else why, 2)
+    (place, *more) = _left_by(context, things, where.word)
+    if more:
+        raise ReferenceProblem(where.word, REASONS["where"], 3)
+    for said in context.places.of(where.around, themes):
+        at = [item.where for item in (said, place) if item.where is not None and not said.beside]
+        (one, *other) = map(discourse.things, at) if at else ((),)
+        if said.relation is not place.relation or other != [one]:
+            raise ReferenceProblem(where.word, "that is not where it was", 3)
+    surely = (i for i in discourse.put if len(discourse.referents[i].options) == 1)
+    if not {*things} <= {*discourse.things(*surely)}:
+        off = Put(tuple(replaced), (context.places.on_the_desk(),), removal=True)
+        owned = "'s" in where.word  # "in the cup's place" does not say that the cup goes away
+        off_if = None if owned else off
+        context.in_the_way.append(InTheWay(where.word, frozenset(things), off=off_if))
+        context.steps += () if owned else (off,)
+    return place
