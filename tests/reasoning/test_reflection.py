@@ -91,6 +91,32 @@ def test_what_the_branch_put_there_is_not_taken_out_again() -> None:
     assert revision(failed(start, plan, 3, reason, before)) is None
 
 
+def test_what_the_hand_cannot_take_out_of_furniture_is_grasped_otherwise() -> None:
+    start = scenes.scene(
+        scenes.cabinet("locker", (0.6, 0.2), 1.0),
+        scenes.item("can", at=(0.6, 0.2), on="locker", inside="locker"),
+    )
+    step = failed(
+        start, "[PICK UP, can] [PUT ON, desk]", 0, cause(CauseKind.NO_GRASP, "locker", "can")
+    )
+    assert revision(step) == "[PICK UP, can] (horizontal) [PUT ON, desk]"
+
+
+def test_what_comes_from_a_drawer_in_a_doors_way_is_taken_out_before() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.4, -0.2), {"only": 0.0}),
+        scenes.cabinet("locker", (0.4, 0.3), 1.0),
+        scenes.item("tin", at=(0.4, -0.2), on="chest", inside="chest"),
+    )
+    plan = "[OPEN, chest] [PICK UP, tin] [PUT INTO, locker] [CLOSE, locker] [CLOSE, chest]"
+    before = changed(
+        start, tin={"inside": "locker", "on": ("locker",)}, chest={"openness": {"only": 1.0}}
+    )
+    step = failed(start, plan, 3, cause(CauseKind.BLOCKED, "chest", "locker"), before)
+    out = "[OPEN, chest] [PICK UP, tin] [PUT ON, desk] [CLOSE, chest]"
+    assert revision(step) == f"{out} [PICK UP, tin] [PUT INTO, locker] [CLOSE, locker]"
+
+
 def test_what_blocks_a_cycle_from_the_start_is_taken_out_before_the_close() -> None:
     start = scenes.scene(
         scenes.drawers("chest", (0.5, 0.1), {"top": 1.0}),

@@ -172,7 +172,11 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
         # What the cycle has in the hand by now was in there before it.
         inside |= {one for one in taken if is_inside(failed.start, one, part.address)}
         needed = {part.address, f"{part.owner}.{part.name}"} & filled or inside & reached
-        if start is None or needed or is_closed(scene, part):
+        # What cannot be taken out of it cannot wait elsewhere either.
+        stuck = (
+            actions[failed.index].verb is Verb.PICK_UP and actions[failed.index].target in inside
+        )
+        if start is None or needed or stuck or is_closed(scene, part):
             continue
         waiting = tuple(
             action for one in sorted(taken & inside) for action in set_aside(failed, one)
