@@ -195,6 +195,8 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
             if place is not None and place > cycle.end:
                 rest = (*actions[cycle.end : place], again, *actions[place:])
                 yield Correction((*cleared, *rest), change)
+        elif hand_free_at(actions, len(actions), failed.start) == len(actions):
+            yield Correction((*cleared, *actions[cycle.end :], again), change)
         yield Correction((*cleared, again, *actions[cycle.end :]), change)
 
 
