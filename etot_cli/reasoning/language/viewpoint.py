@@ -12,7 +12,8 @@ _SEEN = r"(?:(?:as )?(?:seen|viewed|looked at)|when (?:seen|viewed)|looking|faci
 _YOURS = (
     rf"(?:{_SEEN} )?from (?:your|the (?:robot|arm)(?:'s|s'|s)?) (?:own )?{_VIEW}"
     rf"|{_SEEN} (?:from|by) (?:you|the (?:robot|arm))(?:'s (?:side|base|place))?"
-    rf"|(?:{_SEEN} )?from where (?:you|the (?:robot|arm)) (?:are|is|stands?|looks?|sits?)"
+    rf"|(?:{_SEEN} )?from where (?:you|the (?:robot|arm)) "
+    r"(?:(?:are|is)(?: (?:standing|sitting|looking))?|stands?|looks?|sits?)"
     r"|(?:the way|as) (?:you|the (?:robot|arm)) sees? (?:it|them|things)"
 )
 _OTHERS = (

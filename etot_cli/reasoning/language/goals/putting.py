@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import (
     Close,
     Grouping,
     Open,
+    Pick,
     Place,
     Put,
     Thing,
@@ -86,6 +87,7 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.states import state_holds
+from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
@@ -226,6 +228,14 @@ def _rest_there(group: PutGroup) -> PutGroup:
 def ensure(context: Context, state: State) -> None:
     """Adds the steps after which something is as it is said to be."""
     state = as_said(context, state)
+    if state.word == HELD:
+        if state.denied or state.kept:
+            why = "say what is to be picked up, or put where"
+            raise ReferenceProblem(state.subjects[0].text, why, 2)
+        for index in context.phrases.things(Things(state.subjects), Role.THEME):
+            context.steps.append(Pick(index))
+            context.discourse.lifted |= {index}
+        return
     if state.word:
         for phrase in state.subjects:
             if phrase.determiner in ("a", "an"):

@@ -132,7 +132,12 @@ JOINED = either(
             ),
             OPTIONAL_COMMA,
             PLACED,
-            build=lambda order, placed: (replace(placed[0], order=order, far_fetched=1),),
+            # "…, last, the cup in the box first" is two orders for one thing.
+            build=lambda order, placed: (
+                None
+                if placed[0].order is not Order.SAID
+                else (replace(placed[0], order=order, far_fetched=1),)
+            ),
         ),
     ),
     joint(

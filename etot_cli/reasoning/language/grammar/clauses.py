@@ -75,6 +75,7 @@ from etot_cli.reasoning.language.grammar.taking import (
     EMPTY,
     FILL,
     HAND_OVER,
+    HOLD,
     PICK,
     REMOVE,
 )
@@ -226,7 +227,7 @@ def _making_room(clause: PutClause, where: tuple[Destination, ...]) -> PutClause
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, WISHED, TOLD_APART, BOTH_SO),
+        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, HOLD, WISHED, TOLD_APART, BOTH_SO),
         *(SPREAD, REVERSED),
     )
 )

@@ -29,12 +29,13 @@ from etot_cli.reasoning.language.grammar.predicates import BOTH_LEFT_SO
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, state_of
+from etot_cli.reasoning.language.grammar.states import IN_HAND, NONE, OPEN_OR_CLOSED, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     Destination,
     EnsureClause,
     NounPhrase,
+    PickClause,
     PutClause,
     RemoveClause,
     State,
@@ -122,6 +123,7 @@ LEFT_SO = Rule(
     timed(
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
         sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
+        sequence(ALL_THINGS, IN_HAND, build=lambda things, _: PickClause(things)),
         sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
         sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),
         UNTOUCHED,

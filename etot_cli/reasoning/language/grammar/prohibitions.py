@@ -21,15 +21,24 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
     Destination,
+    EnsureClause,
     NounPhrase,
+    State,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.places import Prep
 
 
 def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
     return AvoidClause(avoid, things, where or ())
+
+
+def _undisturbed(things: Things, when: Any = ()) -> AvoidClause | None:
+    """What is not to be moved; "without pushing it off the desk" says where it stays."""
+    off = any(item.prep is Prep.FROM for np in things.phrases for item in np.modifiers)
+    return None if off else _avoid(Avoid.MOVE, things, when)
 
 
 def _not_wanted(things: Things) -> AvoidClause | None:
@@ -50,7 +59,7 @@ _FORBIDDEN = either(
         one_of(
             {
                 Avoid.TOUCH: verbs.TOUCH,
-                Avoid.MOVE: f"{verbs.DISTURB}, {verbs.PICK}, {verbs.REMOVE}",
+                Avoid.MOVE: f"{verbs.PICK}, {verbs.REMOVE}",
                 Avoid.OPEN: verbs.OPEN,
                 Avoid.CLOSE: verbs.CLOSE,
             }
@@ -59,7 +68,10 @@ _FORBIDDEN = either(
         optional(small_words.TRAILING_THEN),
         build=_avoid,
     ),
+    sequence(verbs.DISTURB, THINGS, optional(small_words.TRAILING_THEN), build=_undisturbed),
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
+    sequence(phrase(verbs.UPSET, Avoid.MOVE), THINGS, "off, over, down", build=_avoid),
+    sequence("let[ting]", THINGS, verbs.TOPPLE, build=partial(AvoidClause, Avoid.MOVE)),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
     sequence(
         "leav(e|ing)",
@@ -104,6 +116,17 @@ WITHOUT = sequence(
     OPTIONAL_COMMA,
     either(
         sequence(verbs.WITHOUT, _FORBIDDEN),
+        sequence(
+            verbs.WITHOUT,
+            f"{verbs.UPSET}, {verbs.DISTURB}",
+            NP_LIST,
+            "off [of], from",
+            noun_phrase,
+            build=lambda nps, np: EnsureClause(
+                (State(nps, (Destination(Toward.ON, (np,)),), kept=True),)
+            ),
+        ),
+        sequence(verbs.WITHOUT, THINGS, verbs.TOPPLING, build=partial(AvoidClause, Avoid.MOVE)),
         sequence(verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
         sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
         sequence("[while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH)),
@@ -141,6 +164,7 @@ OTHERS_STILL = sequence(
 )
 UNTOUCHED = either(
     sequence(_ALL_ELSE, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
+    phrase("nothing else (moved|touched|changed)", AvoidClause(Avoid.MOVE, _THE_REST)),
     sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
 )
 """The same without a verb ("bolts untouched")."""

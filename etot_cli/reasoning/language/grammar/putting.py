@@ -217,6 +217,13 @@ PUT = either(
     sequence(ALL_THINGS, _COMES_AND_GOES, DESTINATIONS, build=put_to),
     sequence(verbs.PUT, THINGS, "aside, to one side", build=lambda things: put_to(things, DOWN)),
     sequence(
+        # With what is opened next it is rather out of the way of that.
+        f"{verbs.PUT}, {verbs.FETCH}",
+        THINGS,
+        places.SAFELY,
+        build=lambda things: replace(put_to(things, DOWN), far_fetched=1),
+    ),
+    sequence(
         ALL_THINGS, verbs.COME_AWAY, "[back|right] (out|off|down|over)", DIRECTED, build=put_to
     ),
     sequence(

@@ -42,12 +42,13 @@ NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of th
 """Denials before a noun, and of which things what is denied is said."""
 SHUT = phrase(manner.CLOSED_STATE, "closed")
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
+IN_HAND = phrase(manner.IN_HAND, manner.HELD)
 _NOT_SO = sequence(
     "not [left|kept]", either(OPEN_OR_CLOSED, DESTINATIONS), build=lambda found: ("not", found)
 )
-SO = either(OPEN_OR_CLOSED, _NOT_SO, DESTINATIONS)
+SO = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, DESTINATIONS)
 """How things are."""
-PREDICATE = either(OPEN_OR_CLOSED, _NOT_SO, WHERE)
+PREDICATE = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, WHERE)
 """How things are to be."""
 
 

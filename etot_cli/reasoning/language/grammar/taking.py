@@ -92,7 +92,7 @@ PICK = sequence(
     THINGS,
     optional("up"),
     optional(either(SOURCE, sequence("(from|off [of]) the top of", noun_phrase)), None),
-    optional(sequence(OPTIONAL_COMMA, optional("but"), POSES), None),
+    optional(sequence(OPTIONAL_COMMA, optional("but, with, using"), POSES), None),
     silent(optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")),
     build=_pick,
 )
@@ -104,6 +104,21 @@ HAND_OVER = quiet(
         build=lambda things, to: PickClause(things, to=to),
     )
 )
+HOLD = either(
+    sequence(
+        f"{verbs.SET}, {verbs.FETCH}, keep[ing], have, hold[ing]",
+        THINGS,
+        phrase(manner.IN_HAND),
+        build=lambda things, _: PickClause(things),
+    ),
+    sequence(
+        "(end|finish|wind) [up] (with|holding), [you (should|must) [finally]] be holding",
+        THINGS,
+        silent(optional(manner.IN_HAND)),
+        build=PickClause,
+    ),
+)
+"""What is in the hand in the end."""
 _DESKS = [(noun,) for noun in DESK_NOUNS]
 
 

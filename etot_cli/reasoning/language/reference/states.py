@@ -50,8 +50,9 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
             filled = any(contents(scene, place) for place in places)
             if thing.board is not None:
                 places = [f"{thing.name}.{thing.board}"]
-            if thing.board is not None or (not info.container and not parts):
-                filled = any(is_on(scene, name, places[0]) for name in scene.states)
+            # What rests in a vessel's mouth keeps it from being empty, too.
+            if thing.board is not None or not parts:
+                filled = filled or any(is_on(scene, name, places[0]) for name in scene.states)
             return filled == (STATES[word] == "full")
         case "stacked":
             upon = [Thing(name) for name, other in scene.infos.items() if other.movable]

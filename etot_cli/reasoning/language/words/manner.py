@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-OPEN_STATE = "[wide|all the way|fully|completely] open, opened"
-CLOSED_STATE = "[fully|completely|properly|all the way] (closed|shut)"
+OPEN_STATE = "[still] [wide|all the way|fully|completely] open, opened"
+CLOSED_STATE = "[still] [fully|completely|properly|all the way] (closed|shut)"
 A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
@@ -67,6 +67,13 @@ KEPT_HELD = """
 """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
+_HAND = "(hand|gripper|grasp|grip|fingers|robot hand|claw|jaws)"
+IN_HAND = f"""
+    [held] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}, held
+"""
+"""Where what is picked up is in the end."""
+HELD = "held"
+"""The state of what is there."""
 AS_IT_IS = """
     [exactly|right|just] where (it|they|he|she) (is|are|was|were), as (it|they) (is|are) [now],
     [just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched, unchanged,
@@ -135,5 +142,5 @@ VERTICAL = """
     vertically, in a vertical (pose|grasp), top down,
     [with|using] [a] vertical [grasp|grip|pose], (with|using) a (top|top down) (grasp|grip),
     [from] (above|straight above|overhead), from (the|its) top, from the top,
-    by (the|its) (rim|edge|top)
+    by (the|its) (rim|edge|top) [from above]
 """

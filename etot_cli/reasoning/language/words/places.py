@@ -74,6 +74,11 @@ BOTH_SIDES = {
     (Nearby.FRONT, Nearby.BEHIND): "in front of and behind",
     (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
 }
+SAFELY = """
+    out of the way, (in|into|to|at|on) a safe (place|spot|location), to safety,
+    (somewhere|some place) safe, out of harm 's way
+"""
+"""Where nothing happens to it, which the plan sees to."""
 SOMEWHERE = "(somewhere|anywhere|some place) [safe] [~comma]"
 """Before a place that is said more closely."""
 UP_OR_DOWN = "up, down"

@@ -9,6 +9,7 @@ NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 """What a place begins with, as a regular expression."""
 _WHICH = "which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]"
+_EASIER = "(easier|easiest|best|better|possible|simpler|simplest|[more|most] convenient)"
 _WILL_DO = "(is|are|would be) (fine|ok|okay|good)|will do|would do|works|work"
 ANY_WILL_DO = f"({_WILL_DO}) [for me]"
 """Behind any of several things, before what is to be done with one of them."""
@@ -29,10 +30,15 @@ WITHOUT_MEANING = f"""
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
-    (either|any|each|both) [one] [of (them|these|those)] ({_WILL_DO}),
+    (either|any|each|both) [one] [of (them|these|those|the two)] ({_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
-    [i] (do not|don t) (care|mind) [one|{_WHICH}], whichever, if you can,
+    [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four)], whichever,
+    if you can,
+    (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
+    in any (orientation|pose|way|manner) [you (like|can|want)], any way you can, no matter how,
+    however you (like|can|want),
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
+    as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
     if possible, at all times, properly, neatly, directly, straight,
     ~comma if you would, ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
@@ -88,7 +94,8 @@ I_THINK = """
 WISH_IF = f"({WOULD_BE_NICE}) if, (i|we) wish [that]"
 """Before how things are to be."""
 FRAMES = f"""
-    ({WISH_IF}) you (would|could|can|might), {GREETINGS}, actually, go, go and, go ahead and,
+    ({WISH_IF}) (you|someone|somebody) (would|could|can|might),
+    {GREETINGS}, actually, go, go and, go ahead and,
     (can|could|would|will) (you|u),
     (can|could|will|may|might) i [please] (ask|trouble|bother) you to,
     (would|will) you be able to, could you possibly,

@@ -293,6 +293,9 @@ DISTURB = f"""
     disturb[ing], push[ing], displac(e|ing), knock[ing] over, topple, toppling, tip[ping] over,
     lift[ing], knock[ing]
 """
+UPSET = "knock[ing], tip[ping], push[ing], throw[ing], sweep[ing]"
+TOPPLE = "fall [off|over|down], drop, topple [over], tip over, slide off, roll off"
+TOPPLING = "falling [off|over|down], dropping, toppling [over], tipping over, sliding off"
 ANYTHING_ELSE = """
     anything else, any other (object|thing|things|objects), other (objects|things),
     the (others|rest)
