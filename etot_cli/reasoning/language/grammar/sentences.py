@@ -91,6 +91,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AgainClause,
     Destination,
     EnsureClause,
+    MoveClause,
     NounPhrase,
     PickClause,
     PutClause,
@@ -98,6 +99,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     SwapClause,
     Things,
     Toward,
+    Turns,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY
@@ -117,7 +119,7 @@ from etot_cli.reasoning.language.grammar.topics import (
 )
 from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import manner, small_words, verbs
 
 
 def _verbless(
@@ -134,6 +136,14 @@ def _verbless(
         first = (replace(first[0], order=order, far_fetched=far_fetched),)
     done = chained(first, more)
     return None if done is None else sum(avoided, done)
+
+
+def _started_with(first: NounPhrase, done: Reading) -> Reading | None:
+    """What is done with several things, the first of which is told before."""
+    clause = done[0].clause
+    if not isinstance(clause, PutClause | MoveClause) or clause.turns != Turns():
+        return None
+    return (replace(done[0], clause=replace(clause, turns=Turns(first=(first,)))), *done[1:])
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
@@ -337,6 +347,7 @@ _WITH_MORE_BEFORE_IT = either(
     not_so(CHAIN),
     sequence("while [you]", LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
+    sequence(manner.STARTING_WITH, noun_phrase, COMMA, CHAIN, build=_started_with),
     sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, then_done), build=add),
     sequence(
         small_words.BEFORE,

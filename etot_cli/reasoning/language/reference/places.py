@@ -297,6 +297,25 @@ class Places:
         held = [i for i in spoken if {t.name for t in self.discourse.things(i)} == around]
         return (Place(Relation.INSIDE, held[-1]),) if held else ()
 
+    def _told_apart_from(self, themes: Sequence[int]) -> list[int]:
+        """Containers that a clause has told its things by, which are in none of them."""
+        discourse, things = self.discourse, self.discourse.things(*themes)
+        marks = dict.fromkeys(
+            item.referent
+            for item in discourse.mentions
+            if item.clause == discourse.clause and item.referent not in themes
+        )
+        return [
+            mark
+            for mark in marks
+            if all(can_be(at, Role.CONTAINER, self._scene) for at in discourse.things(mark))
+            and not any(
+                space.touches(thing, at, self._scene)
+                for thing in things
+                for at in discourse.things(mark)
+            )
+        ]
+
     def _here(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
         discourse = self.discourse
         if word == "down":
@@ -331,6 +350,9 @@ class Places:
         except AmbiguousReference:
             raise
         except ReferenceProblem:
+            beside = self._told_apart_from(themes) if word in spellings(THEREIN) else ()
+            if len(beside) == 1:  # "the ball that is not in the bag should go in there"
+                return (Place(Relation.INSIDE, beside[0]),)
             if word not in spellings(THEREIN) or len(before) != 1:
                 raise
             place = before[0]  # "take the milk out, put the juice in"

@@ -125,7 +125,7 @@ END_STATE = f"""
     ({_AT_END}) [~comma], (when|once) you are [all] (done|finished) [~comma]
 """
 """Before how things are to be by then."""
-ANY_MORE = "anymore, any more, any longer"
+ANY_MORE = "anymore, any more, any longer, yet, so far"
 TURNED = "warm|hot|cold|wet|dry|dirty|dusty|stale|soft|hard|bad|off|flat|mouldy|sour|old"
 """How things get or go by themselves."""
 SO_LONG = """

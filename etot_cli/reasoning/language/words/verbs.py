@@ -246,7 +246,7 @@ FORM_A_TOWER = f"""
 TURN_INTO = "turn[ing], mak(e|ing), arrang(e|ing), assembl(e|ing), combin(e|ing), form[ing]"
 """Before things and what becomes of them."""
 SWAP = """
-    swap[ping], exchang(e|ing), switch[ing], interchange,
+    swap[ping], exchang(e|ing), switch[ing], interchange, trad(e|ing),
     (swap|exchange|switch|trade|change) [the] (places|positions) of
 """
 CHANGE_PLACES = """
