@@ -226,6 +226,17 @@ def test_a_door_whose_hinge_is_far_is_pulled_by_its_edge_and_pushed_shut(
     assert episode(oven=oven).must("[CLOSE, oven]").states["oven"].openness["door"] <= CLOSED_AT
 
 
+@pytest.mark.parametrize(("side", "hinge"), [(1, "right"), (-1, "left")])
+@pytest.mark.parametrize("x", [0.50, 0.58])
+def test_a_door_that_looks_away_is_pulled_shut_over_its_upper_edge(
+    side: int, hinge: str, x: float
+) -> None:
+    """Only a hand that leans far outwards reaches over it, and it has room behind the edge."""
+    door = {"hinge": hinge, "open_deg": 110, "handle": {"depth": 0.04, "vertical": True}}
+    cab = OVEN | {"at": [x, 0.0], "yaw_deg": -110 * side, "size": [0.23, 0.29, 0.26], "door": door}
+    episode(oven=cab).must("[CLOSE, oven]")
+
+
 POST = {"kind": "box", "size": [0.04, 0.26, 0.10], "fixed": True}
 
 

@@ -264,3 +264,16 @@ def test_a_pen_that_was_said_to_be_in_a_cup_is_taken_out(
     cup = CUP | {"diameter": 0.08, "height": 0.09, "mass": 0.4, "at": [0.42, 0.16]}
     state = episode(seed, cup=cup, pen=pen).must("[PICK UP, pen]")
     assert state.holding == "pen" and not state.states["cup"].toppled
+
+
+@pytest.mark.parametrize("yaw", [180, 150])
+def test_a_slanting_finger_does_not_come_down_on_the_rim_that_it_goes_along(yaw: float) -> None:
+    """The hand slants below the handle above; straight back from a deep hold lies the rim."""
+    handle = {"depth": 0.042}
+    two = [{"name": "up", "travel": 0.16, "handle": handle},
+           {"name": "low", "travel": 0.176, "open": 0.176, "handle": handle}]  # fmt: skip
+    chest = UNIT | {"at": [0.494, 0.031], "yaw_deg": yaw, "size": [0.224, 0.2, 0.232]}
+    cup = {"kind": "cup", "inside": "chest.low", "diameter": 0.062, "height": 0.088, "mass": 0.124}
+    run = episode(chest=chest | {"drawers": two}, cup=cup)
+    assert run.must("[PICK UP, cup]").states["chest"].openness["low"] > 0.97, "the hand pushed it"
+    assert abs(run.state.states["cup"].tilt_deg) < 15.0

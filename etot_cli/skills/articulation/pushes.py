@@ -26,8 +26,8 @@ SHARES = (0.86, 0.72, 0.58, 0.45, 0.32)
 SIDE_SHARES = (0.0, 0.45, -0.45, 0.85, -0.85)
 """Where across a panel's half width to push, the middle first."""
 TILTS = tuple(float(tilt) for tilt in np.radians((0.0, 20.0, 30.0, 40.0, 60.0, 80.0)))
-"""Leans of the hand along a push [rad], looked at in turn until one goes; between those with which
-a hand over a panel's edge reaches behind it (from 20° on) and has no more room (40°) lies one."""
+"""Leans of the hand [rad], looked at in turn until one goes. Over a panel's edge a hand reaches
+behind it from 20° on, and has room up to 60° where the fingertip works close below the edge."""
 LEAN_CHANGES = (0.0, 0.15, -0.15, 0.3)
 """How the lean may change from one pose of a push to the next [rad]."""
 STEEPEST = 1.6
@@ -74,10 +74,16 @@ class Push:
         level = level / max(float(np.linalg.norm(level)), 1e-9)
         approach = -UP * np.cos(lean) + level * np.sin(lean)
         forward = float(approach @ direction)
-        side = float(np.sqrt(max(0.0, 1.0 - forward**2)))
-        offset = self.robot.tip * max(forward, 0.0) + self.robot.finger_half * side
-        # A hand that reaches over the panel pulls it by its upper edge, on which the fingers lean.
-        offset += self.below * max(-forward, 0.0) / max(float(-approach @ UP), 1e-9)
+        if forward >= 0.0:
+            side = float(np.sqrt(1.0 - min(forward, 1.0) ** 2))
+            offset = self.robot.tip * forward + self.robot.finger_half * side
+        else:
+            # A hand that reaches over the panel pulls it by its upper edge, on which the fingers
+            # lean: as far from their axis as they are thick.
+            down = max(float(-approach @ UP), 1e-9)
+            offset = (
+                self.robot.finger_half * float(np.hypot(forward, down)) - self.below * forward
+            ) / down
         return Pose(
             point - direction * (offset - inside), rotation_from_axes(approach, cross(UP, level))
         )

@@ -38,7 +38,10 @@ OUT_LENGTHS = (0.24, 0.16)
 
 @dataclass(frozen=True)
 class PreparedGrasp:
-    """A reachable, collision-free grasp: joint values before, along the approach and the lift."""
+    """A reachable, collision-free grasp: joint values before, along the approach and the lift.
+
+    ``grazes``: the hand touches the object itself on its way, and nothing else.
+    """
 
     grasp: Grasp
     before: Vector
@@ -46,6 +49,7 @@ class PreparedGrasp:
     lift: Vector
     lift_length: float
     """[m]"""
+    grazes: bool
 
 
 def prepare_grasp(
@@ -96,15 +100,18 @@ def prepare_grasp(
     if count < len(way):
         return None
     line = np.vstack([back[-2::-1], at_grasp.joints])
-    for joints in (back[-1], back[count // 2]):
+    grazes = False
+    # All of the way: a slanting finger that has room beside a wall may come down on that wall.
+    for joints in reversed(back):
         hits = checker.hits(joints, clearance=CONTACT_CLEARANCE, allow=allow)
-        if hits:
+        grazes = grazes or name in hits
+        if {*hits} - {name}:
             blockers.add(hits)
             return False
     lift = _lift(belief, name, grasp, line[-1], blockers)
     if lift is None:
         return False
-    return PreparedGrasp(grasp, back[-1], line, *lift)
+    return PreparedGrasp(grasp, back[-1], line, *lift, grazes)
 
 
 def _closed_on(belief: Belief, name: str, grasp: Grasp, opening: float) -> list[str]:

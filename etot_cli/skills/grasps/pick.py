@@ -53,7 +53,8 @@ def pick_motions(
 ) -> Iterator[Motion | SkillOutcome]:
     """Motions that pick the target up, best first; the reason as the only item where none does.
 
-    The grasp of a ``rehearsed`` motion comes first, where the object now is.
+    The grasp of a ``rehearsed`` motion comes first, where the object now is. Those that touch the
+    object on the way to it come last: physics decides whether it gives way or stops the hand.
     """
     name = action.target
 
@@ -68,20 +69,32 @@ def pick_motions(
     blockers = Blockers(belief.world)
     prepared: list[PreparedGrasp] = []
     unreachable = 0
-    for candidate in chain(_again(belief, name, rehearsed), sampled()):
-        belief.checker.freeze(belief.data)
-        result = prepare_grasp(belief, name, candidate, blockers)
-        if result is None:
-            # The hand is symmetric: exchanging the fingers helps the wrist, not the clearance.
-            result = prepare_grasp(belief, name, _spun(candidate), blockers)
-        if result is None:
-            unreachable += 1
-        elif isinstance(result, PreparedGrasp) and _is_new(result, prepared):
-            motion = _motion(belief, action, result)
+
+    def reached() -> Iterator[PreparedGrasp]:
+        nonlocal unreachable
+        grazing: list[PreparedGrasp] = []
+        for candidate in chain(_again(belief, name, rehearsed), sampled()):
+            belief.checker.freeze(belief.data)
+            result = prepare_grasp(belief, name, candidate, blockers)
+            if result is None:
+                # The hand is symmetric: exchanging the fingers helps the wrist, not the clearance.
+                result = prepare_grasp(belief, name, _spun(candidate), blockers)
+            if result is None:
+                unreachable += 1
+            elif isinstance(result, PreparedGrasp):
+                if result.grazes:
+                    grazing.append(result)
+                else:
+                    yield result
+        yield from grazing
+
+    for grasp in reached():
+        if _is_new(grasp, prepared):
+            motion = _motion(belief, action, grasp)
             if motion is None:
                 unreachable += 1
                 continue
-            prepared.append(result)
+            prepared.append(grasp)
             yield motion
     if not prepared:
         yield _explain(belief, name, found(), blockers, unreachable)
