@@ -46,6 +46,8 @@ class PreparedGrasp:
     lift: Vector
     lift_length: float
     """[m]"""
+    pinned: tuple[str, ...] = ()
+    """What is in the object and comes between a finger and its wall."""
 
 
 def prepare_grasp(
@@ -104,7 +106,7 @@ def prepare_grasp(
     lift = _lift(belief, name, grasp, line[-1], blockers)
     if lift is None:
         return False
-    return PreparedGrasp(grasp, back[-1], line, *lift)
+    return PreparedGrasp(grasp, back[-1], line, *lift, pinned=_pinned(belief, name, grasp))
 
 
 def _closed_on(belief: Belief, name: str, grasp: Grasp, opening: float) -> list[str]:
@@ -128,6 +130,19 @@ def _closed_on(belief: Belief, name: str, grasp: Grasp, opening: float) -> list[
         if met := [address for address in (*left, *right) if owner_of(address) in unmoved]:
             return met
     return []
+
+
+def _pinned(belief: Belief, name: str, grasp: Grasp) -> tuple[str, ...]:
+    """Objects inside of this one where the closed fingers are to be: a finger that goes in through
+    the mouth has them before it, and presses them on the wall, where they cannot give way.
+    """
+    if not (contents := belief.riders(name)):
+        return ()
+    checker = belief.checker
+    checker.set_fingers(min(grasp.width, grasp.opening))
+    met = checker.hand_hits(grasp.tool, clearance=0.0, part=HandPart.FINGERS)
+    checker.freeze(belief.data)
+    return tuple(sorted(contents & {owner_of(address) for address in met}))
 
 
 def _lift(
