@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from etot_cli.skills.action import GraspPose
-from etot_cli.skills.grasps import pick
 from etot_cli.skills.grasps.ranking import Grasp, GraspSet
+from etot_cli.skills.grasps.variants import variants
 from etot_cli.world.pose import Pose
 from etot_cli.world.state import CauseKind
 from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, Episode, drawers, episode
@@ -68,8 +68,8 @@ def test_a_hand_that_dips_goes_no_further_around_what_is_too_wide() -> None:
     pose = Pose(np.zeros(3), np.diag([1.0, -1.0, -1.0]))
     wide = Grasp(pose, 0.087, 0.085, GraspPose.HORIZONTAL, 0.0)
     fitting = replace(wide, width=0.06)
-    assert [*pick._variants(GraspSet((), (wide,), wide.width), pose)] == [wide]
-    assert len([*pick._variants(GraspSet((fitting,), (wide,), fitting.width), pose)]) > 1
+    assert [*variants(GraspSet((), (wide,), wide.width), pose)] == [wide]
+    assert len([*variants(GraspSet((fitting,), (wide,), fitting.width), pose)]) > 1
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -277,3 +277,68 @@ def test_a_slanting_finger_does_not_come_down_on_the_rim_that_it_goes_along(yaw:
     run = episode(chest=chest | {"drawers": two}, cup=cup)
     assert run.must("[PICK UP, cup]").states["chest"].openness["low"] > 0.97, "the hand pushed it"
     assert abs(run.state.states["cup"].tilt_deg) < 15.0
+
+
+def _row(book: float, out: float, gap: float) -> dict[str, dict[str, object]]:
+    """A book of some width that sticks ``out`` between two others, with gaps [m]."""
+    low: dict[str, object] = {"kind": "box", "size": [0.11, 0.04, 0.12], "mass": 0.4}
+    thing = low | {"size": [0.11, book, 0.12 + out], "mass": 0.25, "at": [0.4, 0.14]}
+    away = (book + 0.04) / 2 + gap
+    return {"thing": thing, "left": low | {"at": [0.4, 0.14 + away]},
+            "right": low | {"at": [0.4, 0.14 - away]}}  # fmt: skip
+
+
+def _in_cup(inside: float, deep: float, **thing: object) -> dict[str, dict[str, object]]:
+    """Something in a cup of some width and height [m]."""
+    cup: dict[str, object] = {"kind": "cup", "diameter": inside + 0.006, "wall": 0.003}
+    cup |= {"height": deep, "mass": 0.3, "at": [0.38, 0.15]}
+    return {"cup": cup, "thing": {"inside": "cup", "mass": 0.1, **thing}}
+
+
+STICKING_OUT = {
+    "book": _row(0.036, 0.015, 0.005),
+    "jar": _in_cup(0.064, 0.06, kind="cylinder", diameter=0.05, height=0.074),
+    "cup": _in_cup(0.066, 0.08, kind="cup", diameter=0.05, height=0.094),
+    "stick": _in_cup(0.07, 0.066, kind="box", size=[0.024, 0.024, 0.05]),
+    "egg": _in_cup(0.05, 0.026, kind="sphere", diameter=0.044, rolling_friction=0.003),
+}
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("name", STICKING_OUT)
+def test_what_sticks_out_little_is_held_by_the_fingertips(name: str, seed: int) -> None:
+    """No finger gets as deep as where the thing is held firmly."""
+    run = episode(seed, **STICKING_OUT[name])
+    assert run.must("[PICK UP, thing]").holding == "thing"
+    state = run.must("[PUT ON, desk]").states["thing"]
+    assert state.on == ("desk",) and not state.toppled
+
+
+def test_what_hardly_sticks_out_is_obstructed_by_its_neighbours() -> None:
+    record = episode(**_row(0.036, 0.007, 0.005)).do("[PICK UP, thing]").record
+    assert not record.effect and record.cause is not None
+    assert record.cause.kind is CauseKind.NO_GRASP
+    assert {*record.cause.objects} == {"thing", "left", "right"}
+
+
+NESTED = {
+    "outer": CUP | {"diameter": 0.074, "wall": 0.003, "at": [0.40, 0.15]},
+    "inner": {"kind": "cup", "diameter": 0.056, "height": 0.09, "mass": 0.08, "inside": "outer"},
+}
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_cup_is_not_taken_by_the_walls_of_two(seed: int) -> None:
+    """A finger in the inner cup presses it on the outer one's wall, and is not at that."""
+    run = episode(seed, **NESTED)
+    after = run.must("[PICK UP, outer]")
+    assert after.holding == "outer" and after.states["inner"].inside == "outer"
+
+
+def test_two_walls_between_the_fingers_are_no_slip() -> None:
+    wide = NESTED["outer"] | {"diameter": 0.1}
+    inner = NESTED["inner"] | {"diameter": 0.085}
+    record = episode(outer=wide, inner=inner).do("[PICK UP, outer] (vertical)").record
+    assert record.cause is not None and record.cause.kind is CauseKind.NO_GRASP
+    assert record.cause.objects == ("inner", "outer")
+    assert episode(outer=wide).must("[PICK UP, outer] (vertical)").holding == "outer"

@@ -155,10 +155,15 @@ def test_no_grasp_names_who_is_in_the_way(
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("length", [0.12, 0.13])
 def test_a_wall_that_a_pen_leans_on_is_not_taken_along_with_it(length: float, seed: int) -> None:
-    """One finger would be inside of it and one outside."""
+    """One finger would be inside of it and one outside. Fingertips above it may hold the pen."""
     tube = CUP | {"diameter": 0.055, "height": 0.12, "mass": 0.2, "at": [0.42, 0.12]}
     pen = PEN | {"diameter": 0.014, "length": length, "inside": "tube", "at": [0.42, 0.12]}
-    cause = episode(seed, tube=tube, pen=pen).do("[PICK UP, pen]").record.cause
+    record = episode(seed, tube=tube, pen=pen).do("[PICK UP, pen]").record
+    assert record.displacement["tube"] < 0.002
+    if length == 0.13:
+        assert record.effect
+        return
+    cause = record.cause
     assert cause is not None and cause.kind is CauseKind.NO_GRASP
     assert cause.objects == ("tube", "pen")
 

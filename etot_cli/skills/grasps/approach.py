@@ -50,6 +50,8 @@ class PreparedGrasp:
     lift_length: float
     """[m]"""
     grazes: bool
+    pinned: tuple[str, ...] = ()
+    """What is in the object and comes between a finger and its wall."""
 
 
 def prepare_grasp(
@@ -111,7 +113,8 @@ def prepare_grasp(
     lift = _lift(belief, name, grasp, line[-1], blockers)
     if lift is None:
         return False
-    return PreparedGrasp(grasp, back[-1], line, *lift, grazes)
+    pinned = _pinned(belief, name, grasp)
+    return PreparedGrasp(grasp, back[-1], line, *lift, grazes, pinned)
 
 
 def _closed_on(belief: Belief, name: str, grasp: Grasp, opening: float) -> list[str]:
@@ -135,6 +138,19 @@ def _closed_on(belief: Belief, name: str, grasp: Grasp, opening: float) -> list[
         if met := [address for address in (*left, *right) if owner_of(address) in unmoved]:
             return met
     return []
+
+
+def _pinned(belief: Belief, name: str, grasp: Grasp) -> tuple[str, ...]:
+    """Objects inside of this one where the closed fingers are to be: a finger that goes in through
+    the mouth has them before it, and presses them on the wall, where they cannot give way.
+    """
+    if not (contents := belief.riders(name)):
+        return ()
+    checker = belief.checker
+    checker.set_fingers(min(grasp.width, grasp.opening))
+    met = checker.hand_hits(grasp.tool, clearance=0.0, part=HandPart.FINGERS)
+    checker.freeze(belief.data)
+    return tuple(sorted(contents & {owner_of(address) for address in met}))
 
 
 def _lift(

@@ -7,7 +7,7 @@ fingers and there is room for a finger on either side of it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import mujoco
@@ -19,6 +19,9 @@ from etot_cli.skills.grasps.lines import (
     Bounds,
     Line,
     closing_directions,
+    depths_between,
+    fingertip_depths,
+    firm_depths,
     grid,
     level_direction,
     through_parts,
@@ -54,19 +57,15 @@ def sample_grasps(
         name: the object.
         pose: only grasps from above (vertical) or from the side (horizontal); None: both.
     """
-    low, high = object_bounds(world, data, name)
-    # A model from a file may have its masses in bodies below the one that is called so.
-    massive = world.entries[name].free and world.model.body(name).mass[0] > 0.0
-    center = data.body(name).xipos.copy() if massive else (low + high) / 2
-    own = world.entries[name].axis
-    axis = None if own is None else data.body(name).xmat.reshape(3, 3) @ np.array(own)
-    bounds, closings = (low, high, center, axis), closing_directions(axis)
+    bounds = _bounds(world, data, name)
+    closings = closing_directions(bounds[3])
     found = Found(world.robot.spec.gripper.opening)
     if pose in (None, GraspPose.VERTICAL):
-        _from_above(world, solids, data, name, bounds, grid(bounds, closings), found)
+        lines = grid(bounds, closings, firm_depths(bounds))
+        _from_above(world, solids, data, name, bounds, lines, found)
         if all(pinch.friction > SLANTED for pinch in found.fitting):
             # Too wide at the middle, as large balls are. The lower, the less friction it takes.
-            lines = grid(bounds, closings, between=True)
+            lines = grid(bounds, closings, depths_between(bounds), central=True)
             _from_above(world, solids, data, name, bounds, lines, found)
         if not found.fitting:
             lines = through_parts(world, data, name, bounds, closings)
@@ -77,6 +76,32 @@ def sample_grasps(
     upright = abs(float(data.body(name).xmat[8])) >= LEVEL
     lies_round = world.entries[name].info.kind == "cylinder" and not upright
     return replace(found.ranked(), lies_round=lies_round)
+
+
+def fingertip_grasps(
+    world: World, solids: Solids, data: mujoco.MjData, name: str
+) -> Iterator[GraspSet]:
+    """Candidates from above that hold less of an object than :func:`sample_grasps` looks for, as
+    much as sticks out of a vessel or between neighbours: one set for each depth, rising.
+    """
+    bounds = _bounds(world, data, name)
+    closings = closing_directions(bounds[3])
+    for depth in fingertip_depths(bounds):
+        found = Found(world.robot.spec.gripper.opening)
+        lines = grid(bounds, closings, [depth])
+        _from_above(world, solids, data, name, bounds, lines, found)
+        if found.fitting:
+            yield found.ranked()
+
+
+def _bounds(world: World, data: mujoco.MjData, name: str) -> Bounds:
+    low, high = object_bounds(world, data, name)
+    # A model from a file may have its masses in bodies below the one that is called so.
+    massive = world.entries[name].free and world.model.body(name).mass[0] > 0.0
+    center = data.body(name).xipos.copy() if massive else (low + high) / 2
+    own = world.entries[name].axis
+    axis = None if own is None else data.body(name).xmat.reshape(3, 3) @ np.array(own)
+    return low, high, center, axis
 
 
 def _from_above(

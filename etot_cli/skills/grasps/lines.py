@@ -21,6 +21,11 @@ SHALLOWEST = 0.012
 BETWEEN = 16
 """Depths between that and the middle: less than 2 mm from one to the next on what is as high as a
 hand is wide. The width of a ball changes by less than a millimetre over that."""
+FINGERTIPS = 0.002
+"""Least depth that is looked at where deeper ones have no room [m]: 9 mm of the pads hold then.
+With 8 mm, jars, cups and books of up to 0.5 kg are lifted and put down in all varied worlds."""
+SHALLOWER = 0.003
+"""From one of these depths to the next [m]: so much less than there is room for is held at most."""
 MAX_PARTS = 32
 """Parts of an object that are looked at one by one where nothing else can be grasped."""
 
@@ -36,29 +41,45 @@ class Line(NamedTuple):
     depth: float
 
 
-def grid(bounds: Bounds, closings: Iterable[Vector], *, between: bool = False) -> list[Line]:
-    """Lines all over the object; ``between``: at many depths instead of one or two, through its
-    centre.
+def grid(
+    bounds: Bounds, closings: Iterable[Vector], depths: Sequence[float], *, central: bool = False
+) -> list[Line]:
+    """Lines all over the object at some depths below its top [m]; ``central``: only those through
+    its centre.
     """
     low, high, center, axis = bounds
     lines = []
-    depths = sorted({round(d, 4) for d in _depths(float(high[2] - low[2]))})
-    if axis is not None and depths[1:]:
-        depths = [SHALLOWEST, *depths]  # of what leans in a vessel little more may stick out
-    if between:
-        depths = (
-            np.linspace(SHALLOWEST, depths[-1], BETWEEN + 2)[:-1].tolist() if depths[1:] else []
-        )
     for closing in closings:
         across = np.array([-closing[1], closing[0], 0.0])
         half = float(np.abs(across) @ (high - low)) / 2
-        offsets = [0.0] if between else _offsets(half, axis, across)
+        offsets = [0.0] if central else _offsets(half, axis, across)
         for depth in depths:
             for offset in offsets:
                 point = center + across * offset
                 point[2] = high[2] - depth
                 lines.append(Line(point, closing, offset, depth))
     return lines
+
+
+def firm_depths(bounds: Bounds) -> list[float]:
+    """Depths below the top of an object at which it is held firmly [m], rising: in its middle, or
+    as deep as the fingers get.
+    """
+    low, high, _, axis = bounds
+    depths = sorted({round(d, 4) for d in _depths(float(high[2] - low[2]))})
+    # Of a rod that leans in a vessel little more may stick out.
+    return [SHALLOWEST, *depths] if axis is not None and depths[1:] else depths
+
+
+def depths_between(bounds: Bounds) -> list[float]:
+    """Many depths from the least of the firm ones to the middle, for what is too wide there [m]."""
+    depths = firm_depths(bounds)
+    return np.linspace(SHALLOWEST, depths[-1], BETWEEN + 2)[:-1].tolist() if depths[1:] else []
+
+
+def fingertip_depths(bounds: Bounds) -> list[float]:
+    """Depths less than the firm ones, rising [m]."""
+    return np.arange(FINGERTIPS, firm_depths(bounds)[0] - SHALLOWER / 2, SHALLOWER).tolist()
 
 
 def through_parts(

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator
 from functools import cache
 from itertools import chain
 
@@ -12,8 +11,10 @@ import numpy as np
 from etot_cli.skills.action import Action, GraspPose
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
-from etot_cli.skills.grasps.candidates import LEAN_COST, sample_grasps, tilted
+from etot_cli.skills.grasps.candidates import fingertip_grasps, sample_grasps
 from etot_cli.skills.grasps.ranking import Grasp, GraspSet
+from etot_cli.skills.grasps.refusals import explain, too_wide
+from etot_cli.skills.grasps.variants import spun, variants
 from etot_cli.skills.motion.motion import (
     GRIP_TIME,
     Hand,
@@ -26,7 +27,7 @@ from etot_cli.skills.motion.motion import (
 )
 from etot_cli.skills.outcome import DONE, Blockers, SkillOutcome, arm_stopped, failed
 from etot_cli.world.build.pads import grip_friction
-from etot_cli.world.pose import LEVEL, Pose
+from etot_cli.world.pose import LEVEL
 from etot_cli.world.state import CauseKind, SceneState
 
 APPROACH_SPEED = 0.15
@@ -39,13 +40,6 @@ HOLD_TIME = 0.4
 HELD_SHARE = 0.4
 """Fingers that close to less than this share of a grasp's width hold nothing: pads and walls give
 way by up to half a thin wall's thickness, and empty fingers close to nothing."""
-MAX_PREPARED = 140
-"""Grasp candidates whose kinematics are looked at."""
-MAX_SUSPECTS = 4
-"""Objects that are taken away, one at a time and together, to see whether that helps."""
-TILTS = {GraspPose.VERTICAL: (-0.3, 0.3, -0.6, 0.6), GraspPose.HORIZONTAL: (0.25, 0.5)}
-"""Leans of the hand about the closing direction [rad]. A level one only dips: its wrist is thicker
-than what lies low on a desk is high, and up to 30° it still goes in and out through fronts."""
 
 
 def pick_motions(
@@ -53,10 +47,14 @@ def pick_motions(
 ) -> Iterator[Motion | SkillOutcome]:
     """Motions that pick the target up, best first; the reason as the only item where none does.
 
-    The grasp of a ``rehearsed`` motion comes first, where the object now is. Those that touch the
-    object on the way to it come last: physics decides whether it gives way or stops the hand.
+    The grasp of a ``rehearsed`` motion comes first, where the object now is. Last come those that
+    touch the object on the way to it, where physics decides whether it gives way or stops the hand,
+    and those that pin what is in it to its wall, where one finger is at that.
     """
     name = action.target
+    blockers = Blockers(belief.world)
+    prepared: list[PreparedGrasp] = []
+    unreachable = 0
 
     @cache
     def found() -> GraspSet:
@@ -64,40 +62,61 @@ def pick_motions(
 
     def sampled() -> Iterator[Grasp]:
         # Not before it is asked for: sampling takes longest, and a rehearsed grasp mostly goes.
-        yield from _variants(found(), belief.object_pose(name))
+        yield from variants(found(), belief.object_pose(name))
+        fingertips = found().grasps and action.pose is not GraspPose.HORIZONTAL
+        if fingertips and not prepared and blockers.most(excluding=[name]):
+            yield from _by_fingertips(belief, name)
 
-    blockers = Blockers(belief.world)
-    prepared: list[PreparedGrasp] = []
-    unreachable = 0
-
-    def reached() -> Iterator[PreparedGrasp]:
+    def ready() -> Iterator[PreparedGrasp]:
         nonlocal unreachable
-        grazing: list[PreparedGrasp] = []
+        doubtful: list[PreparedGrasp] = []
         for candidate in chain(_again(belief, name, rehearsed), sampled()):
             belief.checker.freeze(belief.data)
-            result = prepare_grasp(belief, name, candidate, blockers)
-            if result is None:
-                # The hand is symmetric: exchanging the fingers helps the wrist, not the clearance.
-                result = prepare_grasp(belief, name, _spun(candidate), blockers)
+            result = _prepare(belief, name, candidate, blockers)
             if result is None:
                 unreachable += 1
             elif isinstance(result, PreparedGrasp):
-                if result.grazes:
-                    grazing.append(result)
+                if result.pinned or result.grazes:
+                    doubtful.append(result)
                 else:
                     yield result
-        yield from grazing
+        yield from sorted(doubtful, key=lambda grasp: bool(grasp.pinned))
 
-    for grasp in reached():
-        if _is_new(grasp, prepared):
-            motion = _motion(belief, action, grasp)
-            if motion is None:
-                unreachable += 1
-                continue
-            prepared.append(grasp)
-            yield motion
+    for result in ready():
+        if not _is_new(result, prepared):
+            continue
+        motion = _motion(belief, action, result)
+        if motion is None:
+            unreachable += 1
+            continue
+        prepared.append(result)
+        yield motion
     if not prepared:
-        yield _explain(belief, name, found(), blockers, unreachable)
+        yield explain(belief, name, found(), blockers, unreachable)
+
+
+def _prepare(
+    belief: Belief, name: str, grasp: Grasp, blockers: Blockers
+) -> PreparedGrasp | bool | None:
+    result = prepare_grasp(belief, name, grasp, blockers)
+    if result is None:
+        # The hand is symmetric: exchanging the fingers helps the wrist, not the clearance.
+        result = prepare_grasp(belief, name, spun(grasp), blockers)
+    return result
+
+
+def _by_fingertips(belief: Belief, name: str) -> Iterator[Grasp]:
+    """Candidates at the largest depth at which the hand has room, where it has at any."""
+    deepest: GraspSet | None = None
+    aside = Blockers(belief.world)
+    belief.checker.freeze(belief.data)
+    for found in fingertip_grasps(belief.world, belief.solids, belief.data, name):
+        ways = (_prepare(belief, name, one, aside) for one in found.grasps)
+        if not any(isinstance(way, PreparedGrasp) for way in ways):
+            break  # and deeper there is less room still
+        deepest = found
+    if deepest is not None:
+        yield from variants(deepest, belief.object_pose(name))
 
 
 def _again(belief: Belief, name: str, rehearsed: Motion | None) -> Iterator[Grasp]:
@@ -160,6 +179,11 @@ def pick_outcome(
     # Where it is wider than the gripper opens, the other grasps of this kind pinch it no better.
     another = width <= opening
     stopped = trace.stopped
+    pinned = sorted(one for one in belief.riders(name) if belief.scene.states[one].inside)
+    if pinned and stopped is None and raised >= 0.3 * LIFT:
+        # It came up with one finger at it, and the other at what is in it.
+        text = f"the fingers closed on {name} together with {', '.join(pinned)} in it"
+        return failed(CauseKind.NO_GRASP, [*pinned, name], text, trace.seconds, another_way=True)
     if stopped is not None and stopped.end is PhaseEnd.BLOCKED:
         where = {"transit": "on the way to it", "approach": "during the approach"}.get(
             stopped.name, "while lifting it"
@@ -167,7 +191,7 @@ def pick_outcome(
         struck = [item for item in trace.touching if item != name]
         if not struck and width > opening:
             # Tried all the same, since physics decides; what stopped the hand is the thing itself.
-            return _too_wide(name, width, opening, trace.seconds)
+            return too_wide(name, width, opening, trace.seconds)
         met = trace.against(name if stopped.name == "lift" else None)
         against = sorted(met, key=lambda address: address == name)
         return arm_stopped(where, against, [name], trace.seconds)
@@ -176,7 +200,7 @@ def pick_outcome(
         text = f"the fingers closed without getting hold of {name} {widths}"
     elif width > opening:
         # The fingers came to rest on it: they were never around it.
-        return _too_wide(name, width, opening, trace.seconds)
+        return too_wide(name, width, opening, trace.seconds)
     else:
         text = f"{name} slipped out of the fingers {widths}"
     return failed(CauseKind.SLIP, [name], text, trace.seconds, another_way=another)
@@ -195,116 +219,7 @@ def pick_precondition(belief: Belief, action: Action) -> SkillOutcome | None:
     return None
 
 
-def _variants(found: GraspSet, pose: Pose) -> Iterator[Grasp]:
-    """Candidates best first, leaning ones behind upright ones of the same quality, and last those
-    that have moved around a cylinder that lies at ``pose``. Objects too wide for the gripper are
-    tried all the same when nothing else is left: physics decides.
-    """
-    ranked = found.grasps or found.too_wide[:12]
-    # A dip makes room for the wrist, not between the fingers.
-    tilts = TILTS if found.grasps else {**TILTS, GraspPose.HORIZONTAL: ()}
-    order = [
-        (grasp.score + LEAN_COST * abs(tilt), abs(tilt), rank, tilt)
-        for rank, grasp in enumerate(ranked)
-        for tilt in (0.0, *tilts[grasp.pose])
-    ]
-    # Were only the best looked at, one lean of all walls of a cup would do for all its outside.
-    kept = sorted(order, key=lambda item: (item[-1] != 0.0, item))[:MAX_PREPARED]
-    for *_, rank, tilt in sorted(kept):
-        yield tilted(ranked[rank], tilt) if tilt else ranked[rank]
-    for grasp in ranked if found.lies_round else ():
-        if grasp.pose is GraspPose.VERTICAL:
-            yield from (tilted(grasp, angle, pose) for angle in TILTS[GraspPose.VERTICAL])
-
-
-def _spun(grasp: Grasp) -> Grasp:
-    """The same grasp with the fingers exchanged."""
-    rotation = grasp.tool.rotation @ np.diag([-1.0, -1.0, 1.0])
-    return replace(grasp, tool=Pose(grasp.tool.position, rotation))
-
-
 def _is_new(candidate: PreparedGrasp, others: list[PreparedGrasp]) -> bool:
     return all(
         float(np.abs(candidate.approach[-1] - other.approach[-1]).max()) > 0.1 for other in others
     )
-
-
-def _explain(
-    belief: Belief, name: str, found: GraspSet, blockers: Blockers, unreachable: int
-) -> SkillOutcome:
-    """Why no grasp goes: whoever is in the way is found by looking again without them."""
-    opening = belief.world.robot.spec.gripper.opening
-    # Lines that cut off a corner are short enough, but the fingers do not pass the object itself.
-    suspects = blockers.most(excluding=[name])[:MAX_SUSPECTS]
-    if not found.grasps and not found.too_wide:
-        return failed(
-            CauseKind.NO_GRASP,
-            [name],
-            f"no two opposed upright sides of {name} fit the gripper, which opens "
-            f"{opening * 1000:.0f} mm",
-        )
-    guilty = _guilty(belief, name, found, suspects)
-    if guilty:
-        return failed(
-            CauseKind.NO_GRASP,
-            [*guilty, name],
-            f"every grasp of {name} is obstructed by {', '.join(guilty)}",
-        )
-    if not found.grasps:
-        return _too_wide(name, found.narrowest, opening)
-    if unreachable:
-        return failed(
-            CauseKind.UNREACHABLE,
-            [name],
-            f"the arm reaches none of the {unreachable} grasps of {name} that it has room for",
-        )
-    return failed(
-        CauseKind.NO_GRASP,
-        [*suspects, name],
-        f"the hand has no room at any grasp of {name} (opening {opening * 1000:.0f} mm)",
-    )
-
-
-def _guilty(belief: Belief, name: str, found: GraspSet, suspects: Sequence[str]) -> Sequence[str]:
-    """Whose absence lets some grasp go, what can be moved first: each one's that does alone; where
-    nothing that can be moved does, all those together that turn up one behind the other, as in a
-    pile or before something at the back of a cupboard.
-    """
-    blockers, entries = Blockers(belief.world), belief.world.entries
-    guilty = [one for one in suspects if _goes_without(belief, name, found, [one], blockers)]
-    if any(entries[one].info.movable for one in guilty):
-        return sorted(guilty, key=lambda one: not entries[one].info.movable)
-    absent: list[str] = []
-    behind = suspects
-    while more := [one for one in behind if entries[one].info.movable or not guilty]:
-        absent += more[: MAX_SUSPECTS - len(absent)]
-        if len(absent) > 1 and _goes_without(belief, name, found, absent, blockers):
-            return [*absent, *guilty]
-        if len(absent) == MAX_SUSPECTS:
-            break
-        behind = blockers.most(excluding=[name, *absent])
-    return guilty
-
-
-def _too_wide(name: str, width: float, opening: float, time_s: float | None = None) -> SkillOutcome:
-    """``width`` and ``opening`` in metres."""
-    return failed(
-        CauseKind.NO_GRASP,
-        [name],
-        f"{name} is {width * 1000:.0f} mm wide where the fingers would close, the gripper opens "
-        f"{opening * 1000:.0f} mm and needs a little to spare",
-        time_s,
-    )
-
-
-def _goes_without(
-    belief: Belief, name: str, found: GraspSet, absent: Sequence[str], blockers: Blockers
-) -> bool:
-    """Whether some grasp goes once these objects are taken away; notes who is in the way then."""
-    with belief.checker.without(absent):
-        for candidate in _variants(found, belief.object_pose(name)):
-            belief.checker.freeze(belief.data)
-            result = prepare_grasp(belief, name, candidate, blockers)
-            if isinstance(result, PreparedGrasp):
-                return True
-    return False

@@ -1,0 +1,96 @@
+"""Why an object is not grasped."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.grasps.approach import PreparedGrasp, prepare_grasp
+from etot_cli.skills.grasps.ranking import GraspSet
+from etot_cli.skills.grasps.variants import variants
+from etot_cli.skills.outcome import Blockers, SkillOutcome, failed
+from etot_cli.world.state import CauseKind
+
+MAX_SUSPECTS = 4
+"""Objects that are taken away, one at a time and together, to see whether that helps."""
+
+
+def explain(
+    belief: Belief, name: str, found: GraspSet, blockers: Blockers, unreachable: int
+) -> SkillOutcome:
+    """Why no grasp goes: whoever is in the way is found by looking again without them."""
+    opening = belief.world.robot.spec.gripper.opening
+    # Lines that cut off a corner are short enough, but the fingers do not pass the object itself.
+    suspects = blockers.most(excluding=[name])[:MAX_SUSPECTS]
+    if not found.grasps and not found.too_wide:
+        return failed(
+            CauseKind.NO_GRASP,
+            [name],
+            f"no two opposed upright sides of {name} fit the gripper, which opens "
+            f"{opening * 1000:.0f} mm",
+        )
+    guilty = _guilty(belief, name, found, suspects)
+    if guilty:
+        return failed(
+            CauseKind.NO_GRASP,
+            [*guilty, name],
+            f"every grasp of {name} is obstructed by {', '.join(guilty)}",
+        )
+    if not found.grasps:
+        return too_wide(name, found.narrowest, opening)
+    if unreachable:
+        return failed(
+            CauseKind.UNREACHABLE,
+            [name],
+            f"the arm reaches none of the {unreachable} grasps of {name} that it has room for",
+        )
+    return failed(
+        CauseKind.NO_GRASP,
+        [*suspects, name],
+        f"the hand has no room at any grasp of {name} (opening {opening * 1000:.0f} mm)",
+    )
+
+
+def _guilty(belief: Belief, name: str, found: GraspSet, suspects: Sequence[str]) -> Sequence[str]:
+    """Whose absence lets some grasp go, what can be moved first: each one's that does alone; where
+    nothing that can be moved does, all those together that turn up one behind the other, as in a
+    pile or before something at the back of a cupboard.
+    """
+    blockers, entries = Blockers(belief.world), belief.world.entries
+    guilty = [one for one in suspects if _goes_without(belief, name, found, [one], blockers)]
+    if any(entries[one].info.movable for one in guilty):
+        return sorted(guilty, key=lambda one: not entries[one].info.movable)
+    absent: list[str] = []
+    behind = suspects
+    while more := [one for one in behind if entries[one].info.movable or not guilty]:
+        absent += more[: MAX_SUSPECTS - len(absent)]
+        if len(absent) > 1 and _goes_without(belief, name, found, absent, blockers):
+            return [*absent, *guilty]
+        if len(absent) == MAX_SUSPECTS:
+            break
+        behind = blockers.most(excluding=[name, *absent])
+    return guilty
+
+
+def too_wide(name: str, width: float, opening: float, time_s: float | None = None) -> SkillOutcome:
+    """``width`` and ``opening`` in metres."""
+    return failed(
+        CauseKind.NO_GRASP,
+        [name],
+        f"{name} is {width * 1000:.0f} mm wide where the fingers would close, the gripper opens "
+        f"{opening * 1000:.0f} mm and needs a little to spare",
+        time_s,
+    )
+
+
+def _goes_without(
+    belief: Belief, name: str, found: GraspSet, absent: Sequence[str], blockers: Blockers
+) -> bool:
+    """Whether some grasp goes once these objects are taken away; notes who is in the way then."""
+    with belief.checker.without(absent):
+        for candidate in variants(found, belief.object_pose(name)):
+            belief.checker.freeze(belief.data)
+            result = prepare_grasp(belief, name, candidate, blockers)
+            if isinstance(result, PreparedGrasp):
+                return True
+    return False
