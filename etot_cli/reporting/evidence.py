@@ -19,6 +19,7 @@ from etot_cli.reporting.models import (
     rounded,
 )
 from etot_cli.skills.action import Action
+from etot_cli.world.relations import TOPPLED_DEG
 from etot_cli.world.state import DESK, ContactEvent, ObjectState, RolloutRecord, owner_of
 
 SEEN_MOVE_M = 0.005
@@ -173,5 +174,6 @@ def whereabouts(state: ObjectState) -> str:
         place = "in place"  # fastened, or on its way down
     notes = [f"{part} {100 * share:.0f} % open" for part, share in state.openness.items()]
     if state.toppled:
-        notes.insert(0, f"toppled by {state.tilt_deg:.0f}°")
+        on_head = state.tilt_deg > 180 - TOPPLED_DEG and not state.in_hand
+        notes.insert(0, "upside down" if on_head else f"toppled by {state.tilt_deg:.0f}°")
     return ", ".join([place, *notes])

@@ -47,8 +47,8 @@ class Condition(Spec):
     closed: Reference | None = None
     """The part is closed."""
     upright: Reference | None = None
-    """It stands: it has not toppled, and does not lie on its side from the start, if it is taller
-    than wide, a cup or a bowl."""
+    """It stands: a vessel on its foot, and what is taller than wide with its own z axis up, however
+    they were at the start; all else as it stood then, boxes and cylinders either way round."""
     present: Reference | None = None
     """It is still on the desk or on something."""
     left_of: Pair | None = None

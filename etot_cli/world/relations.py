@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from etot_cli.world.index import ObjectEntry, Region
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
-from etot_cli.world.pose import LEVEL
 from etot_cli.world.snapshot import Memory
 from etot_cli.world.state import (
     OPEN_AT,
@@ -25,8 +24,8 @@ from etot_cli.world.viewpoint import forward_of
 
 TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
 """Tilt from which an object counts as toppled, and below which it no longer does."""
-HOLLOW_KINDS = frozenset({"cup", "bowl"})
-"""Kinds whose mouth is known to be along their z axis."""
+SYMMETRIC_KINDS = frozenset({"box", "cylinder"})
+"""Kinds that are the same when they are turned over."""
 INSIDE_MARGIN = 0.010
 """How far an object that was inside may stick out and still be inside [m]."""
 END_DEPTH = 0.5
@@ -52,20 +51,21 @@ def initial_memory(world: World, data: mujoco.MjData) -> Memory:
 
 
 def standing_axis(entry: ObjectEntry, rotation: NDArray[np.float64]) -> tuple[float, float, float]:
-    """The direction of an object's own frame that is up when it stands.
-
-    As it stands now; but what is made to stand along its z axis, being longest that way or hollow,
-    and has that axis level lies now.
+    """The direction of an object's own frame that is up when it stands: its z axis where it has a
+    top, however it lies or stands now; else what is up now.
 
     Args:
         entry: the object.
         rotation: its orientation (3, 3) in the base frame.
     """
-    size, kind = entry.info.size, entry.info.kind
-    is_made_to = size[2] > max(size[:2]) or (entry.info.container and kind in HOLLOW_KINDS)
-    if is_made_to and abs(rotation[2, 2]) < LEVEL:
-        return (0.0, 0.0, 1.0)
-    return triple(rotation[2])
+    return (0.0, 0.0, 1.0) if has_top(entry) else triple(rotation[2])
+
+
+def has_top(entry: ObjectEntry) -> bool:
+    """Whether an object is made to stand along its own z axis: it is hollow, its mouth that way, or
+    longest that way, as bottles, cans and cartons are.
+    """
+    return entry.info.container or entry.info.size[2] > max(entry.info.size[:2])
 
 
 def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[SceneState, Memory]:
@@ -82,6 +82,8 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
         body = data.body(entry.body)
         rotation = body.xmat.reshape(3, 3)
         tilt = _tilt_deg(rotation, memory.up.get(name, (0.0, 0.0, 1.0)))
+        if entry.info.kind in SYMMETRIC_KINDS and not has_top(entry):
+            tilt = min(tilt, 180.0 - tilt)
         has_toppled = entry.upright_matters and tilt > (
             RIGHTED_DEG if name in memory.toppled else TOPPLED_DEG
         )

@@ -96,9 +96,10 @@ class ObjectState:
     """The container it lies in: an object's name or a part's address."""
     in_hand: bool = False
     toppled: bool = False
-    """Leans more than its upright tolerance from how it stood at the start of the episode."""
+    """Leans more than its upright tolerance: from its own z axis where it has a top, else from how
+    it stood at the start of the episode."""
     tilt_deg: float = 0.0
-    """Angle between its own z axis and its z axis at rest at the start."""
+    """How far it leans [deg]: 90 where it lies on its side, 180 where it stands on its head."""
     lost: bool = False
     """Off the desk."""
     reachable: bool = True

@@ -357,6 +357,18 @@ def test_a_rod_that_stands_in_the_hand_is_held_from_the_side(rise_deg: int, agai
     assert (plan.format(" (horizontal)") in revisions(step)) == again
 
 
+@pytest.mark.parametrize("where", [" (upright)", ""])
+def test_what_does_not_stand_as_it_was_taken_is_grasped_anew(where: str) -> None:
+    """The first grasp may have had room for a hand near one end alone."""
+    start = scenes.scene(scenes.ball("can", (0.4, 0.1)), scenes.drawers("chest", (0.5, -0.2), {}))
+    plan = f"[PICK UP, can]{{}} [PUT ON, chest]{where}"
+    reason = cause(CauseKind.UNREACHABLE, "chest", "can")
+    found = revisions(failed(start, plan.format(""), 1, reason, held(start, "can")))
+    again = "[PICK UP, can] [PUT ON, desk] " + plan.format("")
+    assert plan.format(" (horizontal)") in found
+    assert (again in found) == bool(where)
+
+
 def test_what_the_goal_wants_in_place_comes_back() -> None:
     plain = scenes.apple_and_holder()
     start = changed(plain, apple={"inside": "holder", "on": ("holder",)})

@@ -47,6 +47,55 @@ def test_what_lies_is_stood_up_where_that_is_asked_for() -> None:
     assert after.on == ("desk",) and not after.toppled
 
 
+TURNED_OVER = {"at": [0.38, 0.18], "quaternion": [0.0, 1.0, 0.0, 0.0]}
+GLASS = {"kind": "cup", "diameter": 0.066, "height": 0.11, "mass": 0.2}
+BOTTLE = {"kind": "cylinder", "diameter": 0.05, "height": 0.15, "mass": 0.25}
+SHORT = {"kind": "cylinder", "diameter": 0.067, "height": 0.093, "mass": 0.25}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("thing", [GLASS, BOTTLE, SHORT], ids=["glass", "bottle", "short"])
+@pytest.mark.slow
+def test_what_stands_upside_down_is_turned_over_by_a_level_hand(
+    thing: dict[str, Any], seed: int
+) -> None:
+    run = episode(seed, thing=thing | TURNED_OVER)
+    after = run.must("[PICK UP, thing] (horizontal)", "[PUT ON, desk] (upright)").states["thing"]
+    assert after.on == ("desk",) and after.tilt_deg < 5
+
+
+def test_a_hand_from_above_would_have_to_be_below_what_it_turns_over() -> None:
+    run = episode(thing=GLASS | TURNED_OVER)
+    run.must("[PICK UP, thing] (vertical)")
+    cause = run.do("[PUT ON, desk] (upright)").record.cause
+    assert cause is not None and cause.kind is CauseKind.UNREACHABLE
+    assert "the hand would be below it" in cause.text
+
+
+def test_a_vessel_that_stands_upside_down_takes_nothing_in() -> None:
+    run = episode(glass=GLASS | TURNED_OVER, ball=BALL | {"at": [0.35, -0.2], "diameter": 0.04})
+    run.must("[PICK UP, ball]")
+    cause = run.do("[PUT INTO, glass]").record.cause
+    assert cause is not None and cause.text == "glass stands upside down and takes nothing in"
+
+
+@pytest.mark.parametrize("turn", [[0.5, 0.5, 0.5, 0.5], [0.5, -0.5, 0.5, -0.5]])
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.slow
+def test_what_hangs_in_the_hand_is_not_put_on_its_head(turn: list[float], seed: int) -> None:
+    """The drawer's walls leave room for a hand near one end alone, which the other hangs from."""
+    chest = {"kind": "drawer_unit", "at": [0.50, -0.14], "yaw_deg": 165, "size": [0.26, 0.26, 0.17],
+             "mass": 3, "drawers": [
+                 {"name": "top", "travel": 0.20, "open": 0.20, "height": 0.085},
+                 {"name": "bottom", "travel": 0.0}]}  # fmt: skip
+    lying = {"inside": "chest", "at": [0.315, -0.09], "quaternion": turn}
+    run = episode(seed, chest=chest, bottle=BOTTLE | lying | {"rolling_friction": 0.002})
+    after = run.must("[PICK UP, bottle]", "[PUT ON, desk]").states["bottle"]
+    assert after.on == ("desk",) and after.tilt_deg < 100
+    after = run.must("[PICK UP, bottle]", "[PUT ON, desk] (upright)").states["bottle"]
+    assert after.on == ("desk",) and after.tilt_deg < 5
+
+
 def test_a_standing_rod_is_laid_down_by_a_hand_thicker_than_it() -> None:
     """The hand points down along the pen, so that flat on the desk it would have to be level."""
     # It leans on the rim: 10° in a cup of 70 mm.

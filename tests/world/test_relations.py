@@ -338,6 +338,26 @@ def test_what_is_made_to_stand_lies_from_the_start(made_to_stand: dict[str, obje
     assert not stage.see("thing").toppled
 
 
+@pytest.mark.parametrize(
+    ("thing", "has_top"),
+    [
+        (CUP, True),
+        ({"kind": "bowl", "diameter": 0.12, "height": 0.05, "mass": 0.2}, True),
+        ({"kind": "cylinder", "diameter": 0.05, "height": 0.15, "mass": 0.2}, True),
+        (BOX | {"size": [0.05, 0.06, 0.15]}, True),
+        (BOX | {"size": [0.15, 0.2, 0.03]}, False),
+        ({"kind": "cylinder", "diameter": 0.12, "height": 0.03, "mass": 0.2}, False),
+    ],
+    ids=["cup", "bowl", "bottle", "carton", "book", "puck"],
+)
+def test_what_has_a_top_does_not_stand_upside_down(thing: dict[str, object], has_top: bool) -> None:
+    turned_over = {"at": [0.4, 0.0], "quaternion": about_y(180)}
+    stage = set_up_stage(make_scene(thing=thing | turned_over))
+    assert stage.see("thing").toppled is has_top, "from the start"
+    stage.move("thing", [0.4, 0.0, 0.4], [1, 0, 0, 0])
+    assert not stage.see("thing").toppled, "the same for what has none"
+
+
 def test_what_has_no_side_of_its_own_stands_as_it_stood_however_it_is_turned() -> None:
     cube = BOX | {"size": [0.05, 0.05, 0.05]}
     stage = set_up_stage(make_scene(cube=cube | {"at": [0.4, 0.0], "quaternion": about_y(90)}))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
-from etot_cli.reasoning.builtin.effects import acted_object
+from etot_cli.reasoning.builtin.effects import acted_object, effect_holds
 from etot_cli.reasoning.builtin.harm import Harm, HarmKind
 from etot_cli.reasoning.builtin.relations import container_address, contents, is_on
 from etot_cli.skills.action import PUTS, Action, Verb
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, Cause, CauseKind, ContactEvent, RolloutRecord, owner_of
 
 ROBOT = frozenset({"robot", "gripper"})
@@ -73,6 +75,9 @@ def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[
         text = f"{target} toppled when {held} was put into it"
         return Cause(CauseKind.TOPPLED, (owner,), text, _first_touch(record, owner))
     joint = "in" if action.verb is Verb.PUT_INTO else "on"
+    if _is_there_but_lies(action, record, held):
+        text = f"{held} does not stand {joint} {target}"
+        return Cause(CauseKind.REBOUND, (held,), text)
     struck = _struck_by({held}, record, excluding={owner, *ROBOT})
     resident = [name for name in struck if _is_at(name, action, record)]
     beneath = [name for name in resident if is_on(record.after, held, name)]
@@ -99,6 +104,13 @@ def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[
         text = f"{held} does not go into {target}: it came to rest on its rim"
         return Cause(CauseKind.NO_ROOM, blamed, text)
     return Cause(CauseKind.REBOUND, blamed, f"{held} did not stay {joint} {target}")
+
+
+def _is_there_but_lies(action: Action, record: RolloutRecord, held: str) -> bool:
+    """Whether all that what was put down lacks is that it stands."""
+    unsaid = tuple(where for where in action.where if where.relation is not Nearby.UPRIGHT)
+    anyhow = replace(action, where=unsaid)
+    return unsaid != action.where and effect_holds(anyhow, record)
 
 
 def _is_at(name: str, action: Action, record: RolloutRecord) -> bool:

@@ -52,6 +52,7 @@ from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sharing import lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, GraspPose, Verb
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import (
     DESK,
     STAYS_OPEN_AT,
@@ -345,18 +346,25 @@ class _Case:
             yield from self._grasped_anew(pick)
 
     def _grasped_anew(self, pick: int) -> Iterator[Correction]:
-        """What a level hand has taken out of somewhere is set down and grasped from above, where
-        that hand has no room.
+        """What was taken out of somewhere is set down and grasped where the hand has room all
+        round: what does not stand as it was held; and from above, what has no room beside a level
+        hand.
         """
         level = self.actions[pick].pose is GraspPose.HORIZONTAL
+        stands = any(where.relation is Nearby.UPRIGHT for where in self.action.where)
         name = self.acted
-        if not (level and self.is_full and name) or self.action.safe:
+        if name is None or self.action.safe or relocations(self.actions, name):
             return
-        if not relocations(self.actions, name):
-            _, down = set_aside(self.failed, name)
-            above = replace(self.actions[pick], pose=GraspPose.VERTICAL)
-            anew = (*self.actions[: pick + 1], down, above, *self.actions[pick + 1 :])
-            yield Correction(anew, f"{name} is set down and grasped from above")
+        ways: list[tuple[GraspPose | None, str]] = []
+        if stands:
+            ways.append((None, "anew"))
+        if level and self.is_full:
+            ways.append((GraspPose.VERTICAL, "from above"))
+        _, down = set_aside(self.failed, name)
+        for pose, how in ways:
+            again = replace(self.actions[pick], pose=pose)
+            anew = (*self.actions[: pick + 1], down, again, *self.actions[pick + 1 :])
+            yield Correction(anew, f"{name} is set down and grasped {how}")
 
     def _is_furniture_alone(self) -> bool:
         """Whether only what cannot be moved is in the way."""

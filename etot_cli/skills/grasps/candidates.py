@@ -33,6 +33,7 @@ from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.pose import LEVEL, UP, Pose, turn_about
+from etot_cli.world.relations import has_top
 
 SUPPORT_GAP = 0.002
 """Distance kept between fingertips and what the object stands on [m]."""
@@ -73,9 +74,12 @@ def sample_grasps(
     if pose in (None, GraspPose.HORIZONTAL):
         _from_side(solids, data, name, bounds, found)
         _through_mouth(world, solids, data, name, found)
-    upright = abs(float(data.body(name).xmat[8])) >= LEVEL
-    lies_round = world.entries[name].info.kind == "cylinder" and not upright
-    return replace(found.ranked(), lies_round=lies_round)
+    entry, rise = world.entries[name], float(data.body(name).xmat[8])
+    return replace(
+        found.ranked(),
+        lies_round=entry.info.kind == "cylinder" and abs(rise) < LEVEL,
+        on_its_head=has_top(entry) and rise <= -LEVEL,
+    )
 
 
 def fingertip_grasps(

@@ -56,13 +56,14 @@ class Grasp:
 class GraspSet:
     """The best candidates, best first. ``too_wide``: grasps that were left out for width alone,
     which can only be tried in physics; ``narrowest`` [m] is the smallest width seen;
-    ``lies_round``: they are of a cylinder that lies.
+    ``lies_round``: they are of a cylinder that lies; ``on_its_head``: of what stands upside down.
     """
 
     grasps: tuple[Grasp, ...]
     too_wide: tuple[Grasp, ...]
     narrowest: float
     lies_round: bool = False
+    on_its_head: bool = False
 
 
 class Pinch(NamedTuple):

@@ -34,7 +34,12 @@ def variants(found: GraspSet, pose: Pose) -> Iterator[Grasp]:
     ]
     # Were only the best looked at, one lean of all walls of a cup would do for all its outside.
     kept = sorted(order, key=lambda item: (item[-1] != 0.0, item))[:MAX_PREPARED]
-    for *_, rank, tilt in sorted(kept):
+    if found.on_its_head:
+        # A hand that dips would have to rise as much to turn it over, and be below it.
+        kept.sort(key=lambda item: (ranked[item[2]].pose is GraspPose.HORIZONTAL and item[1], item))
+    else:
+        kept.sort()
+    for *_, rank, tilt in kept:
         yield tilted(ranked[rank], tilt) if tilt else ranked[rank]
     for grasp in ranked if found.lies_round else ():
         if grasp.pose is GraspPose.VERTICAL:

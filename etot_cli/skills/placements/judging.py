@@ -101,6 +101,7 @@ class Request:
         absent: objects taken for not being there, such as what the held one carries.
         rehearsed: where it was let go in a scene much like this one; looked at first.
         upright: it has to stand.
+        bare: the hand is thought away.
     """
 
     attached: Attached
@@ -112,6 +113,7 @@ class Request:
     absent: frozenset[str] = field(default_factory=frozenset)
     rehearsed: Pose | None = None
     upright: bool = False
+    bare: bool = False
 
 
 @dataclass(frozen=True)
@@ -205,8 +207,9 @@ class Judge:
         relief = self.relief
         low, high = self._extent(rotation)
         underside = self._undersides.of_object(rotation)
-        rest = drop = resting_heights(relief, underside, cells)
-        if len(cells):
+        rest = resting_heights(relief, underside, cells)
+        drop = np.zeros_like(rest)
+        if len(cells) and not self._request.bare:
             highest = float(relief.heights.max()) + HAND_MARGIN - float(rest.min())
             open_hand = self._undersides.of_hand(rotation).below(highest)
             drop = resting_heights(relief, open_hand, cells) - rest

@@ -11,7 +11,7 @@ from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import LEVEL, UP, cross, rotation_between, turn_about
-from etot_cli.world.relations import standing_axis
+from etot_cli.world.relations import RIGHTED_DEG, has_top
 
 HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
@@ -19,6 +19,8 @@ TURNS_AT_ONCE = 4
 """The most comfortable turns mostly do, so the others are looked at only where they do not."""
 DOWN = 0.6
 """A hand points down rather than level while it falls by more than this (sine; 37°)."""
+ON_ITS_HEAD = float(np.cos(np.radians(RIGHTED_DEG)))
+"""What stood on its head leans in the hand by no more than what stands (cosine)."""
 MAX_LAID = 2
 """Ways to lie that are tried."""
 TIPPED = np.radians(40)
@@ -45,6 +47,8 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
     if not entry.upright_matters:
         return _level_tool(belief) @ attached.in_tool.rotation
     columns = pose.rotation.T @ UP
+    if has_top(entry) and -ON_ITS_HEAD < columns[2] < 0.0:
+        columns[2] = 0.0  # it hangs in the hand; only what stood on its head may do so again
     nearest = int(np.argmax(np.abs(columns)))
     up = pose.rotation[:, nearest] * np.sign(columns[nearest])
     return rotation_between(up, UP) @ pose.rotation
@@ -113,11 +117,13 @@ def orientations(
     """
     entry = belief.world.entries[attached.name]
     now = belief.object_pose(attached.name).rotation
-    axis = now @ np.array(standing_axis(entry, now))
-    enters_level = support.from_front and axis[2] < LEVEL and _points_down(belief)
+    base = resting_rotation(belief, attached)
+    lies = has_top(entry) and abs(now[2, 2]) < LEVEL
+    enters_level = support.from_front and lies and _points_down(belief)
     found: list[Orientations] = []
     if entry.upright_matters and (upright or enters_level):
-        found = _turned(belief, attached, support, rotation_between(axis, UP) @ now, laid=False)
+        standing = rotation_between(now[:, 2], UP) @ now if has_top(entry) else base
+        found = _turned(belief, attached, support, standing, laid=False)
         if upright:
             return found
     if (
@@ -128,7 +134,6 @@ def orientations(
         for way in standing_rotations(belief, attached):
             found += _turned(belief, attached, support, way, laid=False)
         return found
-    base = resting_rotation(belief, attached)
     is_drawer = support.address in belief.world.parts
     if support.is_container and not (support.from_front or is_drawer or entry.info.container):
         stood = stood_up(belief, attached, support)

@@ -12,7 +12,7 @@ from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Preference, Request
 from etot_cli.skills.placements.placement import Placement, Tally, placements
 from etot_cli.skills.placements.refusal import why_no_place
-from etot_cli.skills.placements.support import container_support, surface_support
+from etot_cli.skills.placements.support import UPRIGHT, container_support, surface_support
 from etot_cli.skills.placements.wanted import wanted_spots
 from etot_cli.world.pose import Pose
 from etot_cli.world.spatial import Nearby
@@ -31,9 +31,13 @@ def put_places(
     support = surface_support(belief, target) if on else container_support(belief, target)
     if support is None:
         text = "has no flat top to put something on"
-        if not on:
-            lies = target in belief.world.regions
-            text = "lies on its side and takes nothing in" if lies else "is no container"
+        if not on and target in belief.world.regions:
+            region = belief.world.regions[target]
+            rises = belief.data.body(region.body).xmat[8]
+            how = "stands upside down" if rises < -UPRIGHT else "lies on its side"
+            text = f"{how} and takes nothing in"
+        elif not on:
+            text = "is no container"
         yield failed(CauseKind.PRECONDITION, [target], f"{target} {text}")
         return
     request = Request(

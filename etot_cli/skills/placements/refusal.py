@@ -7,8 +7,9 @@ from dataclasses import replace
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
-from etot_cli.skills.placements.judging import Request
+from etot_cli.skills.placements.judging import Quality, Request
 from etot_cli.skills.placements.placement import Tally, placements
+from etot_cli.skills.placements.places import PlaceFinder
 from etot_cli.skills.placements.relief import relief
 from etot_cli.skills.placements.undersides import Stamps
 from etot_cli.world.state import CauseKind
@@ -67,6 +68,13 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             CauseKind.NO_ROOM,
             [*(fixed or owner), name],
             f"{text} {'into' if request.support.is_container else 'onto'} {address}",
+        )
+    alone = next(PlaceFinder(belief, replace(request, bare=True)).places(), None)
+    if alone is not None and alone.quality is Quality.GOOD:
+        return failed(
+            CauseKind.UNREACHABLE,
+            [*owner, name],
+            f"{name} is held so that the hand would be below it {_preposition(request)} {address}",
         )
     return failed(
         CauseKind.NO_ROOM,
