@@ -237,6 +237,17 @@ def test_a_door_that_looks_away_is_pulled_shut_over_its_upper_edge(
     episode(oven=cab).must("[CLOSE, oven]")
 
 
+@pytest.mark.parametrize(("side", "hinge"), [(1, "right"), (-1, "left")])
+@pytest.mark.parametrize(("x", "yaw"), [(0.50, 145), (0.58, -90)])
+def test_a_door_is_opened_no_farther_than_it_can_be_closed_again(
+    side: int, hinge: str, x: float, yaw: float
+) -> None:
+    """At its stop it stands before the robot's base, or looks away from it beyond its reach."""
+    door = {"hinge": hinge, "handle": {"depth": 0.04, "vertical": True}}
+    cab = OVEN | {"at": [x, 0.0], "yaw_deg": yaw * side, "size": [0.23, 0.29, 0.26], "door": door}
+    episode(oven=cab).must("[OPEN, oven]", "[CLOSE, oven]")
+
+
 POST = {"kind": "box", "size": [0.04, 0.26, 0.10], "fixed": True}
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.articulation.part_path import PreparedMove, way_back
 from etot_cli.skills.articulation.search import MAX_SINGLE, PartSearch, belief_after
+from etot_cli.skills.articulation.stops import closable_stop
 from etot_cli.skills.articulation.travel import fraction_open
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import STANDOFF
@@ -65,14 +66,16 @@ def articulation_motions(
         yield Motion(str(action), ())
         return
     tool_at = None if rehearsed is None else rehearsed.tool_at
-    search = PartSearch(belief, part, opening, None if tool_at is None else tool_at.pose)
+    hinged = part.info.joint_type == "hinge"
+    target = closable_stop(belief, part) if opening and hinged else None
+    search = PartSearch(belief, part, opening, None if tool_at is None else tool_at.pose, target)
     found = False
     barred: list[tuple[Belief, PreparedMove]] = []
     for move in search.moves():
         phases = _phases(belief, part, move)
         stood, latest = belief, move
         if phases is not None and move.then is not None:
-            stood, latest = belief_after(belief, part, move), move.then
+            stood, latest = belief_after(belief, part, move.reached, move.retreat[-1]), move.then
             second = _phases(stood, part, latest)
             phases = None if second is None else (*phases, *second)
         if phases is not None:

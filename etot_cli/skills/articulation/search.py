@@ -24,6 +24,7 @@ from etot_cli.skills.articulation.travel import CONTACT_CLEARANCE, PartTravel, f
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.hindrance import Hindrances, Passage
 from etot_cli.skills.motion.collision import HandPart
+from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Part
 from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
@@ -82,10 +83,16 @@ class PartSearch:
         opening: whether it is to be opened, else closed.
         rehearsed: tool pose at an earlier first contact, in the part's frame; the hold like it
             comes first.
+        target: joint value to bring it to; None for its end [m or rad].
     """
 
     def __init__(
-        self, belief: Belief, part: Part, opening: bool, rehearsed: Pose | None = None
+        self,
+        belief: Belief,
+        part: Part,
+        opening: bool,
+        rehearsed: Pose | None = None,
+        target: float | None = None,
     ) -> None:
         self.part, self.opening, self._rehearsed = part, opening, rehearsed
         self.hindrances = Hindrances(belief.world)
@@ -93,7 +100,10 @@ class PartSearch:
         """Something to hold or to push was found that the hand has room at."""
         self._belief = belief
         self._seen: Counter[str] = Counter()
-        self._travel = PartTravel(belief, part, part.upper if opening else part.lower)
+        end = part.upper if opening else part.lower
+        self._travel = PartTravel(belief, part, end if target is None else target)
+        goal = fraction_open(part, self._travel.target)
+        self._nearly = min(NEARLY_OPEN, goal - OPEN_AT - OPEN_SPARE) if opening else NEARLY_CLOSED
 
     @property
     def faces_away(self) -> bool:
@@ -129,7 +139,7 @@ class PartSearch:
                 continue
             left[hold.contact.grip] -= 1
             for item in self._followed(hold):
-                if item.missing < (NEARLY_OPEN if self.opening else NEARLY_CLOSED):
+                if item.missing < self._nearly:
                     found = True
                     yield item.move
                     self._belief.checker.freeze(self._belief.data)
@@ -182,7 +192,7 @@ class PartSearch:
 
     def _works_without(self, names: Iterable[str]) -> bool:
         with self._belief.checker.without(names):
-            search = PartSearch(self._belief, self.part, self.opening)
+            search = PartSearch(self._belief, self.part, self.opening, target=self._travel.target)
             return next(search.moves(explain=False), None) is not None
 
     def _suffices(self, value: float) -> bool:
@@ -283,7 +293,7 @@ class PartSearch:
                 missing = abs(move.reached - travel.target) / abs(self.part.upper - self.part.lower)
                 if best is None or missing < best.missing:
                     best = _Partial(missing if missing > 1e-9 else 0.0, move)
-                if best.missing < (NEARLY_OPEN if self.opening else NEARLY_CLOSED):
+                if best.missing < self._nearly:
                     yield best
                     return
             if not reachable or best is not None:
@@ -304,21 +314,26 @@ class PartSearch:
         """
         ajar = (item.move for item in partial if self._is_ajar(item.move))
         for move in islice(ajar, MAX_FIRST_STEPS):
-            after = PartSearch(belief_after(self._belief, self.part, move), self.part, self.opening)
+            after = PartSearch(
+                belief_after(self._belief, self.part, move.reached, move.retreat[-1]),
+                self.part,
+                self.opening,
+                target=self._travel.target,
+            )
             second = next(after.moves(in_two=False, explain=False), None)
             if second is not None:
                 yield replace(move, then=second)
 
 
-def belief_after(belief: Belief, part: Part, move: PreparedMove) -> Belief:
-    """The belief once a move has been carried out: the part where it leaves it, the arm back."""
+def belief_after(belief: Belief, part: Part, value: float, joints: Vector) -> Belief:
+    """The belief with a part at a joint value [m or rad] and the arm at ``joints`` (n,) [rad]."""
     model, checker = belief.world.model, belief.checker
     data = mujoco.MjData(model)
     checker.freeze(belief.data)
-    checker.set_joint(part.joint, move.reached)
+    checker.set_joint(part.joint, value)
     copy_configuration(belief.data, data)
     data.qpos[:], data.ctrl[:] = checker.configuration, belief.data.ctrl
-    data.qpos[belief.world.robot.qpos] = move.retreat[-1]
-    data.ctrl[belief.world.robot.ctrl] = move.retreat[-1]
+    data.qpos[belief.world.robot.qpos] = joints
+    data.ctrl[belief.world.robot.ctrl] = joints
     mujoco.mj_forward(model, data)
     return belief.in_state(data)
