@@ -122,7 +122,7 @@ def check_poured(
 
 def check_contrasted(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
     """Whether "the cups on the plate, but not the red one" says of the plate which it is not, and
-    "on the shelf instead of the car" of the car that it is there.
+    "on the shelf instead of the car" of the car that it is there; or of the cups what is the plate.
     """
     discourse = context.discourse
     moved = {*discourse.things(*themes)}
@@ -130,6 +130,9 @@ def check_contrasted(context: Context, themes: Sequence[int], places: Sequence[P
         text, out = discourse.referents[index].text, discourse.left_out.get(index, ())
         if moved & {*out}:
             raise ReferenceProblem(text, "what is no such place is to go there itself", 1)
+        spared = {thing for theme in themes for thing in discourse.left_out.get(theme, ())}
+        if spared & {*discourse.things(index)}:  # "the cup in the box, not box A" is about the box
+            raise ReferenceProblem(text, "it is said not to be meant", 1)
         for thing in out:
             if any(touches(thing, at, context.scene) for at in discourse.things(index)):
                 why = f"{thing.name} is there; say where that is to go"

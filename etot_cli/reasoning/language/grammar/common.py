@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from etot_cli.reasoning.language.grammar import text
-from etot_cli.reasoning.language.grammar.input import Input
+from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
     Parser,
@@ -18,7 +18,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     word,
 )
-from etot_cli.reasoning.language.words import known, small_words
+from etot_cli.reasoning.language.words import known, manner, small_words
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import PURPOSES
 
@@ -54,6 +54,16 @@ def _is_noun(given: Input, said: str) -> bool:
 
 NOUN_WORD = word(_is_noun)
 OPTIONAL_COMMA = optional(COMMA)
+_HAND = phrase(manner.IN_HAND, manner.HELD)
+
+
+def _in_hand(given: Input, at: int) -> list[Result]:
+    found = _HAND.find(given, at)
+    return [(end, value) for end, value in found if given.words[end - 1] not in given.nouns]
+
+
+IN_HAND = Parser(_in_hand, lambda: _HAND.first)
+"""In the gripper, where nothing in the scene is called "hand"."""
 EXACTLY = optional(small_words.EXACTLY)
 
 

@@ -10,7 +10,7 @@ from etot_cli.reasoning.language.grammar.clauses import (
     of_the_things,
     plain,
 )
-from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, IN_HAND, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.modifiers import (
@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.predicates import BOTH_LEFT_SO
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import IN_HAND, NONE, OPEN_OR_CLOSED, state_of
+from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, state_of
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     Destination,

@@ -6,7 +6,12 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.common import (
+    IN_HAND,
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.coordination import all_of, disagrees
 from etot_cli.reasoning.language.grammar.destinations import AS_SAID, DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
@@ -42,7 +47,6 @@ NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of th
 """Denials before a noun, and of which things what is denied is said."""
 SHUT = phrase(manner.CLOSED_STATE, "closed")
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
-IN_HAND = phrase(manner.IN_HAND, manner.HELD)
 _NOT_SO = sequence(
     "not [left|kept]", either(OPEN_OR_CLOSED, DESTINATIONS), build=lambda found: ("not", found)
 )

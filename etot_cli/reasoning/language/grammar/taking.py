@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
+    IN_HAND,
     LIST,
     OPTIONAL_COMMA,
     alternatives,
@@ -108,13 +109,13 @@ HOLD = either(
     sequence(
         f"{verbs.SET}, {verbs.FETCH}, keep[ing], have, hold[ing]",
         THINGS,
-        phrase(manner.IN_HAND),
+        IN_HAND,
         build=lambda things, _: PickClause(things),
     ),
     sequence(
         "(end|finish|wind) [up] (with|holding), [you (should|must) [finally]] be holding",
         THINGS,
-        silent(optional(manner.IN_HAND)),
+        silent(optional(IN_HAND, "")),
         build=PickClause,
     ),
 )
