@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.passives import (
     goes_on,
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER
+from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import (
@@ -100,7 +101,12 @@ _SO = sequence(
     build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
 )
 WITH_MORE_SO = either(
-    joint("and", OPTIONAL_COMMA, "with", plain(sequence(NP_LIST, SHUT, build=left_so))),
+    joint(
+        "and",
+        OPTIONAL_COMMA,
+        "with",
+        plain(either(sequence(NP_LIST, SHUT, build=left_so), UNTOUCHED)),
+    ),
     joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
 )
 """How other things are to be besides ("…, with the door closed")."""

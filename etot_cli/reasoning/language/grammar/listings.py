@@ -5,27 +5,19 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, basic_color
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
 _NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
 ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
 """Before what somebody is asked for."""
-_BARE = re.compile(r"(^|, |; |\b(?:and|then|put) )(\w+) (?=(?:in|on|into|onto|to|go(?:es)?)\b)")
 _ALL_NAMED = re.compile(
     r"(^|[.;\n]\s*)([^:.;\n]+): "
     r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
     r" (?=(?:in|on|into|onto|to)\b)"
 )
 """What a list before a colon names, all of it."""
-
-
-def _sorted(said: re.Match[str]) -> str:
-    """Bare adjectives below what is to be sorted ("sort the blocks: red in the bin, blue …")."""
-    return said[1] + _BARE.sub(
-        lambda bare: f"{bare[1]}{bare[2]} ones " if basic_color(bare[2]) else bare[0], said[2]
-    )
 
 
 def _one_by_one(said: re.Match[str]) -> str:
@@ -48,11 +40,6 @@ LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str
     ),
     (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
     (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
-    (
-        rf"^({ASKED}(?:sort|separate|organi[sz]e|divide|split|group) [^:.,;]*[:,] "
-        r"|[^:.,;]+: )((?:put )?\w+ (?:in|on|into|onto|to|goe?s?) .*)$",
-        _sorted,
-    ),
     (
         r"\bthe (top|uppermost|highest) (\w+) off (?=(?:the|my) (?:tower|stack|pile)\b)",
         r"the \1 \2 of ",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
+    COLON,
     COMMA,
     LIST,
     LIST_COMMA,
@@ -12,12 +13,14 @@ from etot_cli.reasoning.language.grammar.common import (
     alternatives,
 )
 from etot_cli.reasoning.language.grammar.coordination import coordinated, told_together
+from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.modifiers import (
     exceptions,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.naming import DESCRIPTIVE, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
     Rule,
     at_end,
     either,
@@ -30,13 +33,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
     word,
 )
 from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     NUMBERS,
     basic_color,
     singular,
+    word_set,
 )
+from etot_cli.reasoning.language.words.patterns import words_of
 
 
 def _both(both: Any, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
@@ -101,13 +106,40 @@ _COORDINATION = sequence(
     ),
     build=_listed,
 )
+_COLOR = word(lambda given, text: basic_color(text) is not None and text not in COMMON_NOUNS)
 _COLORED_ONES = sequence(
-    word(lambda given, text: basic_color(text) is not None and text not in COMMON_NOUNS),
-    build=lambda color: (NounPhrase("all", (color, "ones"), text=color),),
+    _COLOR, build=lambda color: (NounPhrase("all", (color, "ones"), text=color),)
+)
+
+
+def _colors_alone(given: Input, at: int) -> list[Result]:
+    """Colours alone, where nothing before them and behind them could belong to them, are the ones
+    of such a colour ("red and green in the mug, blue stays where it is").
+    """
+    before = given.words[at - 1] if at else COMMA
+    if before not in _BEFORE_COLORS:
+        return []
+    return [
+        (end, tuple(NounPhrase(words=(color, "ones"), text=color) for color in colors))
+        for end, colors in _COLORS.find(given, at)
+        if given.ahead[end] in _BEHIND_COLORS and given.words[end + 1 : end + 2] != ("top",)
+    ]
+
+
+_COLORS = separated(_COLOR, LIST, most=4)
+_BEFORE_COLORS = {COMMA, COLON, "and", "but", "then", *words_of((verbs.PLACE, verbs.KEEP))}
+_BEHIND_COLORS = word_set(
+    "in inside into on onto to at where go goes belong belongs stay stays remain remains should"
 )
 _NEITHER = sequence(alternatives(noun_phrase, 3), build=lambda nps: nps if nps[1:] else None)
 exceptions.define(either(_COORDINATION, _COLORED_ONES, _NEITHER))
-NP_LIST = Rule(either(_PARTS, sequence(optional(phrase("both"), None), _COORDINATION, build=_both)))
+NP_LIST = Rule(
+    either(
+        _PARTS,
+        sequence(optional(phrase("both"), None), _COORDINATION, build=_both),
+        Parser(_colors_alone, lambda: _COLORS.first),
+    )
+)
 
 
 def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:

@@ -61,7 +61,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER, SO
 from etot_cli.reasoning.language.grammar.predicates import BOTH_ARE
-from etot_cli.reasoning.language.grammar.prohibitions import KEEP_STILL, OTHERS_STILL, WITHOUT
+from etot_cli.reasoning.language.grammar.prohibitions import (
+    KEEP_STILL,
+    OTHERS_STILL,
+    UNTOUCHED,
+    WITHOUT,
+)
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order
@@ -235,7 +240,7 @@ _WITH_MORE_BEFORE_IT = either(
         NAMED,
         optional("by (color|colour|kind|type|size)"),
         COMMA,
-        either(PLACED, CHAIN),
+        either(BARE_CHAIN, CHAIN),
         build=each_sorted,
     ),
     sequence(
@@ -299,8 +304,12 @@ _WITH_MORE_BEFORE_IT = either(
                 SO,
                 sequence(ALL_THINGS, build=taken_out),
                 sequence(
-                    ALL_THINGS, optional(f"{verbs.BE}, out of the way"), DESTINATIONS, build=put_to
+                    ALL_THINGS,
+                    optional(f"{verbs.BE}, out of the way, staying"),
+                    DESTINATIONS,
+                    build=put_to,
                 ),
+                UNTOUCHED,
             )
         ),
         COMMA,

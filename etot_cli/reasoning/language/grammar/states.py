@@ -183,7 +183,7 @@ _ALL_SO = sequence(
 BESIDES_SO = sequence(
     "with",
     NP_LIST,
-    silent(optional("[still|left] (lying|standing|sitting|resting)")),
+    silent(optional("[still|left] (lying|standing|sitting|resting), staying")),
     _ALL_SO,
     silent(optional("instead")),
     build=lambda nps, said: _ensured(*said(nps)),

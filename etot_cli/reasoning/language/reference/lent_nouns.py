@@ -69,6 +69,8 @@ class LentNouns(ABC):
             why = "a number alone is a count or a name; say which thing"
             raise ReferenceProblem(phrase.text, why, 3)
         elliptic = phrase.is_elliptic
+        if elliptic and phrase.text in phrase.words:
+            self._check_color_alone(phrase, role, noun)
         resolved: Resolved | None = None
         problem: ReferenceProblem | None = None
         try:
@@ -128,6 +130,22 @@ class LentNouns(ABC):
                 rival = things_in(self.resolved_as(phrase, role, other).options)
             if (*rival,) in spoken and rival != meant:
                 raise AmbiguousReference(phrase.text, [t.name for t in (*meant, *rival)])
+
+    def _check_color_alone(self, phrase: NounPhrase, role: Role, noun: str | None) -> None:
+        """Whether what a colour alone is said of is clear ("the balls and the blocks: red in …").
+
+        Raises:
+            ReferenceProblem: nothing was spoken of before, or two sorts of things have that colour.
+        """
+        said = dict.fromkeys(m.noun for m in self.discourse.mentions if m.role is Role.THEME)
+        if noun is None:
+            raise ReferenceProblem(phrase.text, "nothing was spoken of that may be so; say what", 3)
+        found: dict[tuple[Thing, ...], None] = {}
+        for other in (noun, *said):
+            with suppress(ReferenceProblem):
+                found[tuple(things_in(self.resolved_as(phrase, role, other).options))] = None
+        if len(found) > 1:
+            raise AmbiguousReference(phrase.text, [t.name for things in found for t in things])
 
     def _are_several(self, noun: str, role: Role) -> bool:
         """Whether more than one thing is called so."""

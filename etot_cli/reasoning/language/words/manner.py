@@ -68,13 +68,15 @@ KEPT_HELD = """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
 AS_IT_IS = """
-    [exactly|right|just] where (it|they|he|she) (is|are|was|were), as (it|they) (is|are) [now],
+    [standing|lying|sitting] [exactly|right|just] where (it|they|he|she) (is|are|was|were),
+    as (it|they) (is|are) [now],
     [just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched, unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
 UNTOUCHED = """
     [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
-    [left|kept] (as|where|like) (it|they) (is|are) [now], [left|kept] as is, left alone
+    [left|kept|staying] [standing|lying|sitting] (as|where|like) (it|they) (is|are) [now],
+    [left|kept] as is, left alone
 """
 """Behind what is to stay so, in a headline."""
 IS_LEFT = """
