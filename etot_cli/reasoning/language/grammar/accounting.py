@@ -76,7 +76,7 @@ _FIXED = """
     right (above|below|under|underneath|beneath),
     at the very, (first|last) of all, last but not least,
     one (by|after) (one|the other|another), in back, at last,
-    each other, one another, (on|over) the other, none of,
+    each other, one another, (on|over) the other, none of, the other way (around|up),
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were) left,
     (near|close|next|closer|nearer) to, near (the|each other|one another),

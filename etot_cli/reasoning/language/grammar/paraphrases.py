@@ -124,6 +124,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"put \1 ",
     ),
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
+    (r"\bthe other way round\b", "the other way around"),
     (
         r"\bneither ((?:of the )?\w+) (?:should|must|may|is to) be (moved|touched)\b",
         lambda said: f"do not {said[2][:-1] if said[2] == 'moved' else 'touch'} either {said[1]}",

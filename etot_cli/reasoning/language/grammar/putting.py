@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
+    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
@@ -64,7 +65,7 @@ from etot_cli.reasoning.language.grammar.word_order import (
     NAMED_BEHIND,
     SAID_AHEAD,
 )
-from etot_cli.reasoning.language.words import nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
@@ -251,6 +252,7 @@ PUT = either(
             ),
         ),
         DESTINATIONS,
+        silent(optional(sequence(OPTIONAL_COMMA, manner.IN_THIS_ORDER))),
         build=put_in_turn,
     ),
     quiet(

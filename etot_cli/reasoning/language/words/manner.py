@@ -30,6 +30,8 @@ UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that
 ATOP = "on top [of (it|that|everything)], on (that|this) [one], upon (that|this) [one]"
 """Behind what comes on what was put on the base."""
 AS_BASE = "[as|be|being|is|to be] (the|its|your|my|a) (base|bottom|foundation) [block|piece|layer]"
+TURNED_OVER = "[to be] the other way (around|up)"
+"""Behind a stack that is to be so."""
 NOT_STACKED = """
     [with] none [of them] [stacked|lying|standing] on [top of] (another [one]|each other|
     one another|the other[s]|any other [one]),
@@ -55,10 +57,11 @@ WIDEST_BELOW = """
 """
 """As a stack is built anyway."""
 AT_BOTTOM = (
-    "[at|on] [the [very]] bottom, lowest, underneath, at the base, as (its|the|a) (base|bottom)"
+    "[at|on] [the [very]] bottom, lowest, underneath, below, at the base, "
+    "as (its|the|a) (base|bottom)"
 )
 AT_MIDDLE = "[in [the]] (middle|centre|center), in between"
-AT_TOP = "[at|on] [the [very]] top, uppermost, up top, highest, as (its|the) top"
+AT_TOP = "[at|on] [the [very]] top, uppermost, up top, above, highest, as (its|the) top"
 LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|release it|drop it)"
 """Behind where something is brought."""
 KEPT_HELD = """
