@@ -78,7 +78,7 @@ _FIXED = """
     one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, none of, the other way (around|up),
     one (on [top of]|in|inside|into) (the other|another),
-    (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were) left,
+    (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were|got) left,
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     left (open|opened|closed|shut|ajar|empty|alone|untouched),
     left [standing|lying|sitting] (as|where|like) (it|they),

@@ -348,7 +348,8 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
     (r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1"),
     (
-        r"(?:^|(?<=[.!?;]\s))(?:(?:do|can) you )?see (?=the |that |those )([^.!?;]*)\?",
+        r"(?:^|(?<=[.!?;]\s))(?:(?:do|can) you )?see (?=the |that |those )([^.!?;]*?)"
+        r"(?: (?:(?:up|over|down|out) )?(?:there|here))?\?",
         r"look at \1,",
     ),
     (r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just "),

@@ -213,7 +213,11 @@ PUT = either(
     sequence(ALL_THINGS, _COMES_AND_GOES, DESTINATIONS, build=put_to),
     sequence(verbs.PUT, THINGS, "aside, to one side", build=lambda things: put_to(things, DOWN)),
     sequence(
-        ALL_THINGS, verbs.COME_AWAY, "[back|right] (out|off|down|over)", DIRECTED, build=put_to
+        ALL_THINGS,
+        verbs.COME_AWAY,
+        optional("[back|right] (out|off|down|over)"),
+        DIRECTED,
+        build=put_to,
     ),
     sequence(
         either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
