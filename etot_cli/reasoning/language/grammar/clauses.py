@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.doubles import (
     NEITHER,
     ONLY_THESE,
     SIDE_BY_SIDE,
+    UNLESS_THERE,
     bared,
     with_others,
 )
@@ -216,6 +217,7 @@ _ASKED = Rule(
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)
+
 CLAUSE = located(
     sequence(
         EMPTY_WORDS,
@@ -232,6 +234,7 @@ CLAUSE = located(
                 PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=_but_some
             ),
             SIDE_BY_SIDE,
+            UNLESS_THERE,
         ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),

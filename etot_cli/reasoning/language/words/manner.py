@@ -8,10 +8,12 @@ A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
 _UNLESS = """
-    if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so},
+    if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so} [already],
     if (it is|they are|) not [already] {so} [already|yet], if (necessary|needed),
     until (it is|they are) [fully|completely] {so}
 """
+UNLESS_THERE = "unless (it is|they are) already there, unless (it is|they are) there already"
+"""A condition of putting things somewhere that their place itself fulfils."""
 UNLESS_OPEN = _UNLESS.format(so="(open|opened)", other="(closed|shut)")
 UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 """Conditions of opening and closing that the state itself fulfils."""
