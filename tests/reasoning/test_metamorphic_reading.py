@@ -126,7 +126,7 @@ SIDED = [
     and not re.search(
         r"(?i)right (next|away|behind|then|above|below)|^right,|"
         r"(is|be|been|were|someone|i|anything|nothing) left\b"
-        r"|left (open|closed|shut|untouched|alone)",
+        r"|left (open|closed|shut|untouched|alone|where)",
         text,
     )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)
