@@ -42,7 +42,8 @@ _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last then do t "
     "forbidden prohibited banned unwanted undesired avoid wrong bad current currently initial "
-    "initially starting present previous old so far example optional maybe perhaps alternatively"
+    "initially starting present previous old so far example optional maybe perhaps alternatively "
+    "go goes belong belongs stay stays remain remains"
 )
 """A heading with such a word says something of what stands below it."""
 _REFERRING = word_set(

@@ -75,10 +75,13 @@ def _reverse(context: Context, clause: TowerClause) -> None:
     stack = options[0]
     things = stack[::-1]
     nouns = {head_of(context.scene.infos[t.name].label.replace(" ", "_")) for t in things}
-    for end, thing in ((clause.bottom, things[0]), (clause.top, things[-1])):
+    middle = things[1] if len(things) == 3 else None
+    told = (clause.bottom, things[0]), (clause.middle, middle), (clause.top, things[-1])
+    for end, thing in told:
         named = end.called(*nouns) if end and end.is_elliptic and len(nouns) == 1 else end
         if end and named and _end(context, named, things) != thing:
-            raise ReferenceProblem(end.text, f"it is {thing.name} that is there then", 3)
+            there = thing.name if thing else "none"
+            raise ReferenceProblem(end.text, f"it is {there} that is there then", 3)
     indices = [context.single(thing, thing.name) for thing in things]
     context.steps.append(Put((indices[0],), (context.home(stack[0]),)))
     for (under, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
@@ -154,21 +157,26 @@ def _alike_in_kind(context: Context, themes: Sequence[int]) -> None:
     said = [discourse.referents[index] for index in themes]
     if len(said) < 2 or all(len(referent.options) == 1 for referent in said):
         return
-    kinds = [
-        {
-            head_of(infos[option[0].name].label.replace(" ", "_")): option
-            for option in referent.options
-            if len(option) == 1 and option[0].name in infos
-        }
-        for referent in said
-    ]
+    kinds: list[dict[str, list[tuple[Thing, ...]]]] = []
+    for referent in said:
+        kinds.append({})
+        for option in referent.options:
+            if len(option) == 1 and option[0].name in infos:
+                noun = head_of(infos[option[0].name].label.replace(" ", "_"))
+                kinds[-1].setdefault(noun, []).append(option)
     shared = set.intersection(*(set(kind) for kind in kinds))
-    if len(shared) != 1 or not all(basic_color(referent.text) for referent in said):
+    if len(shared) != 1 or not all(_is_color(referent.text) for referent in said):
         return
     (noun,) = shared
     for index, referent, kind in zip(themes, said, kinds, strict=True):
-        discourse.referents[index] = replace(referent, options=(kind[noun],))
+        discourse.referents[index] = replace(referent, options=tuple(kind[noun]))
     discourse.notes.append(f"took each for a {noun}")
+
+
+def _is_color(text: str) -> bool:
+    """Whether this is a colour alone, perhaps with a size."""
+    *sizes, color = text.split()
+    return basic_color(color) is not None and all(word in SIZES for word in sizes)
 
 
 def _no_vessel(context: Context, index: int) -> None:

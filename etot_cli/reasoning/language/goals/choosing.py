@@ -120,17 +120,21 @@ def check_poured(
             raise ReferenceProblem(phrase.text, why, 4, word=noun, candidates=packs)
 
 
-def check_contrasted(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
+def check_contrasted(
+    context: Context, spoken: Things, themes: Sequence[int], places: Sequence[Place]
+) -> None:
     """Whether "the cups on the plate, but not the red one" says of the plate which it is not, and
     "on the shelf instead of the car" of the car that it is there; or of the cups what is the plate.
     """
     discourse = context.discourse
     moved = {*discourse.things(*themes)}
+    told = (item.prep for np in spoken.phrases for item in np.modifiers)
+    contrasted = themes if Prep.CONTRAST in told else ()
     for index in (place.where for place in places if place.where is not None):
         text, out = discourse.referents[index].text, discourse.left_out.get(index, ())
         if moved & {*out}:
             raise ReferenceProblem(text, "what is no such place is to go there itself", 1)
-        spared = {thing for theme in themes for thing in discourse.left_out.get(theme, ())}
+        spared = {thing for theme in contrasted for thing in discourse.left_out.get(theme, ())}
         if spared & {*discourse.things(index)}:  # "the cup in the box, not box A" is about the box
             raise ReferenceProblem(text, "it is said not to be meant", 1)
         for thing in out:

@@ -150,7 +150,7 @@ def put(
         if clause.stays and _is_left(context, group, themes, places):
             avoid(context, AvoidClause(Avoid.MOVE, group.things))
             continue
-        check_contrasted(context, themes, places)
+        check_contrasted(context, group.things, themes, places)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each

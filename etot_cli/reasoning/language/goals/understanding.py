@@ -18,10 +18,12 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     EnsureClause,
     MoveClause,
+    PickClause,
     PutClause,
     RemoveClause,
     ReorientClause,
 )
+from etot_cli.reasoning.language.grammar.trees import pronouns
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.opposites import check_opposites
@@ -32,6 +34,8 @@ from etot_cli.world.state import DESK, SceneState
 def _check_instead(spoken: Spoken, before: Clause | None, *, room: bool) -> None:
     """Whether "instead" takes back what was asked for; what is taken away makes ``room`` anyway."""
     room |= isinstance(before, RemoveClause) and isinstance(spoken.clause, PutClause)
+    taken = isinstance(before, PickClause) and isinstance(spoken.clause, PutClause)
+    room |= taken and {*pronouns(spoken.clause)} == {"it"}  # not where it is
     room |= isinstance(before, ReorientClause) and before.only_named  # how things are
     denied = (isinstance(before, AvoidClause) and before.negated) or (
         isinstance(before, EnsureClause) and all(state.denied for state in before.states)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.clauses import Reading
+from etot_cli.reasoning.language.grammar.gapping import beside_what, told_beside
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.parsing import either, optional, sequence, silent
 from etot_cli.reasoning.language.grammar.spoken import Spoken
@@ -19,12 +20,14 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.topics import are_several
 from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
     LEVELS,
     is_descriptive,
     singular,
 )
+from etot_cli.world.spatial import Nearby
 
 
 def _named_in(rest: Reading) -> list[NounPhrase] | None:
@@ -51,11 +54,19 @@ def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
     if len({np.head for np in topics}) > 1 and of_them:
         return None  # of the cups and the plates "the red ones" would be plates alone
     alone = ({"one", "other", "others", "rest"} & {*np.text.split()[-1:]} for np in named)
+    sorts = frozenset[str]().union(*(members_of(np.head) for np in topics))
     told = all(
-        np.is_elliptic or adjectives or last
+        np.is_elliptic or adjectives or last or singular(np.head) in sorts
         for np, adjectives, last in zip(named, bare, alone, strict=True)
     )
     return (*topic, *rest) if told else None
+
+
+_SIDES = [Nearby.LEFT, Nearby.RIGHT]
+
+
+def _sides(group: PutGroup) -> list[Nearby]:
+    return [item.relation for where in group.destinations for item in where.beside]
 
 
 def in_detail(first: Reading, rest: Reading) -> Reading | None:
@@ -70,6 +81,13 @@ def in_detail(first: Reading, rest: Reading) -> Reading | None:
             return None
     if others or more or not isinstance(each.clause, PutClause) or not each.clause.groups[1:]:
         return None
+    if _sides(whole) == _SIDES:
+        # "On either side of the plate: the red one on the left, …"
+        marks = beside_what(whole)
+        groups = tuple(told_beside(group, marks) for group in each.clause.groups)
+        named = Spoken(ReorientClause(whole.things, only_named=True), -1)
+        told = sorted(side for group in groups for side in _sides(group)) == sorted(_SIDES)
+        return (named, replace(each, clause=PutClause(groups))) if told else None
     return (replace(said, clause=PutClause((whole, *each.clause.groups))),)
 
 
@@ -119,7 +137,7 @@ def one_for_each(topics: Reading, rest: Reading) -> Reading | None:
 
     groups = tuple(group.going_to(named) for group in put.groups)
     targets = [np for group in groups for w in group.destinations for np in w.targets]
-    kinds = BOARD_NOUNS if place.head in BOARD_NOUNS else (place.head, "one")
+    kinds = (*(BOARD_NOUNS if place.head in BOARD_NOUNS else (place.head,)), "one")
     each = len(groups) > 1 and all(len(group.things.phrases) == 1 for group in groups)
     if not each or any(np.head not in kinds for np in targets):
         return None

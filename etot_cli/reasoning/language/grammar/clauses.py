@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.doubles import (
     NEITHER,
     ONLY_THESE,
     SIDE_BY_SIDE,
+    UNLESS_THERE,
     bared,
     with_others,
 )
@@ -232,6 +233,7 @@ _ASKED = Rule(
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)
+
 CLAUSE = located(
     sequence(
         EMPTY_WORDS,
@@ -249,6 +251,7 @@ CLAUSE = located(
             ),
             sequence(PUT, _WHICH_GOES, build=_making_room),
             SIDE_BY_SIDE,
+            UNLESS_THERE,
         ),
         EMPTY_WORDS,
         optional(phrase(small_words.TRAILING_FIRST, Order.FIRST), None),

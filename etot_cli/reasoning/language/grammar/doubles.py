@@ -119,3 +119,19 @@ SIDE_BY_SIDE = sequence(
     either(PUT, ENSURE), OPTIONAL_COMMA, manner.NOT_STACKED, build=_side_by_side
 )
 """Several things on one place, none of them on another one."""
+
+
+def _only_placed(clause: Clause) -> Clause | None:
+    """What goes to one place, where it may be already."""
+    match clause:
+        case PutClause(groups=(PutGroup(destinations=(_,)),), conditions=()):
+            return clause
+        case EnsureClause(states=(State(destinations=(_,), denied=False, kept=False),)):
+            return clause
+    return None
+
+
+UNLESS_THERE = sequence(
+    either(PUT, ENSURE), OPTIONAL_COMMA, manner.UNLESS_THERE, build=_only_placed
+)
+"""What goes somewhere with a condition that its place answers itself."""

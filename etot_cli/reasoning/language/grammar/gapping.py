@@ -80,19 +80,20 @@ def other_sides(groups: tuple[PutGroup, ...]) -> tuple[PutGroup, ...]:
     """
     found = [groups[0]]
     if len(groups) > 1:
-        found = [_beside(groups[0], _marks(groups[1]))]
+        found = [told_beside(groups[0], beside_what(groups[1]))]
     for group in groups[1:]:
-        group = _beside(group, _marks(found[-1]))
+        group = told_beside(group, beside_what(found[-1]))
         found.append(group)
     return tuple(found)
 
 
-def _marks(group: PutGroup) -> tuple[Beside, ...]:
+def beside_what(group: PutGroup) -> tuple[Beside, ...]:
+    """The landmarks of where something goes."""
     found = (item for where in group.destinations for item in where.beside if item.phrases)
     return tuple({item.phrases: item for item in found}.values())
 
 
-def _beside(group: PutGroup, marks: Sequence[Beside]) -> PutGroup:
+def told_beside(group: PutGroup, marks: Sequence[Beside]) -> PutGroup:
     """A group that goes to a bare side, with the landmark that the other group has, or with the
     surface of which that goes to the other side.
     """

@@ -18,6 +18,7 @@ _ALL_NAMED = re.compile(
     r" (?=(?:in|on|into|onto|to)\b)"
 )
 """What a list before a colon names, all of it."""
+_BOARDS = {"below": "lower", "above": "upper"}
 
 
 def _one_by_one(said: re.Match[str]) -> str:
@@ -62,9 +63,12 @@ LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str
         r"\1: ",
     ),
     (
-        rf"(\beach (?:shelf|board|level)\b[^.;]*?)({NAMED} [^.,;:]*?) below,? (?:and )?"
-        rf"({NAMED} [^.,;:]*?) above\b",
-        r"\1\2 on the lower one, \3 on the upper one",
+        rf"(\beach (?:shelf|board|level)\b[^.;]*?)({NAMED} [^.,;:]*?) (below|above),? (?:and )?"
+        rf"({NAMED} [^.,;:]*?) (?!\3)(below|above)\b",
+        lambda said: (
+            f"{said[1]}{said[2]} on the {_BOARDS[said[3]]} one, "
+            f"{said[4]} on the {_BOARDS[said[5]]} one"
+        ),
     ),
 )
 """What they are put into, in order (see :mod:`etot_cli.reasoning.language.grammar.paraphrases`)."""

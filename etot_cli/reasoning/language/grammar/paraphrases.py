@@ -124,6 +124,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"put \1 ",
     ),
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
+    (r"\bthe other way round\b", "the other way around"),
     (
         r"\bneither ((?:of the )?\w+) (?:should|must|may|is to) be (moved|touched)\b",
         lambda said: f"do not {said[2][:-1] if said[2] == 'moved' else 'touch'} either {said[1]}",
@@ -348,7 +349,8 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
     (r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1"),
     (
-        r"(?:^|(?<=[.!?;]\s))(?:(?:do|can) you )?see (?=the |that |those )([^.!?;]*)\?",
+        r"(?:^|(?<=[.!?;]\s))(?:(?:do|can) you )?see (?=the |that |those )([^.!?;]*?)"
+        r"(?: (?:(?:up|over|down|out) )?(?:there|here))?\?",
         r"look at \1,",
     ),
     (r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just "),

@@ -8,6 +8,8 @@ from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, pla
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
+    Parser,
     either,
     optional,
     phrase,
@@ -36,6 +38,9 @@ SO = sequence(
     build=lambda things, word: MoveClause(things, word == "open"),
 )
 _TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)"
+_TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
+_NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
+"""Not before what has been done with it next ("taken out and put on the tray")."""
 _SO_BY_THEN = either(
     sequence(
         ALL_THINGS,
@@ -49,8 +54,14 @@ _SO_BY_THEN = either(
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
+    sequence(ALL_THINGS, "(is|are) (out|off|away) and", DESTINATIONS, build=put_to),
     sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
-    sequence(ALL_THINGS, "(is|are) (out|off|out of the way)", build=RemoveClause),
+    sequence(
+        ALL_THINGS,
+        f"(is|are) (out|off|out of the way), (is|are|has been|have been) ({_TAKEN_AWAY})",
+        _NO_MORE,
+        build=RemoveClause,
+    ),
     sequence(
         ALL_THINGS,
         _TAKEN_BY_THEN,

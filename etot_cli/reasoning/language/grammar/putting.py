@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
+    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
@@ -69,7 +70,7 @@ from etot_cli.reasoning.language.grammar.word_order import (
     NAMED_BEHIND,
     SAID_AHEAD,
 )
-from etot_cli.reasoning.language.words import nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
@@ -224,7 +225,11 @@ PUT = either(
         build=lambda things: replace(put_to(things, DOWN), far_fetched=1),
     ),
     sequence(
-        ALL_THINGS, verbs.COME_AWAY, "[back|right] (out|off|down|over)", DIRECTED, build=put_to
+        ALL_THINGS,
+        verbs.COME_AWAY,
+        optional("[back|right] (out|off|down|over)"),
+        DIRECTED,
+        build=put_to,
     ),
     sequence(
         either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
@@ -263,6 +268,7 @@ PUT = either(
             ),
         ),
         DESTINATIONS,
+        silent(optional(sequence(OPTIONAL_COMMA, manner.IN_THIS_ORDER))),
         build=put_in_turn,
     ),
     quiet(

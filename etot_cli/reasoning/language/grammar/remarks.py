@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 
+from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.known import ALL_WORDS, OTHER_VERBS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
@@ -19,6 +20,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     word_set,
 )
+from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.reasoning.language.words.small_words import TURNED
 
 IsName = Callable[[str], bool]
@@ -119,6 +121,7 @@ _IN_GENERAL = re.compile(
     r"|^(?:that|this|it) is where (?:i|we|it|they) "
     r"(?:like|want|need|keep|prefer|belongs?|goes?|lives?)"
     r"(?: it| them)?$|^(?:it|that|this) is (?:my|our|his|her) (?:favou?rite|best) \w+$"
+    r"|^it is \w+time for (?:the|my|our) \w+(?: \w+)?$"
     r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b"
 )
 _YONDER = re.compile(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
@@ -144,6 +147,11 @@ _NO_PLACE = re.compile(
     r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "
     r"(?:warm|cold|cool|dry|fresh|clean|safe)$"
 )
+_NEEDED = re.compile(r"^needs? (?:a |some )?(?:little |good )?(?P<done>\w+ing)$")
+_DONE_TO_THINGS = VERB_WORDS | words_of(
+    (verbs.COVER, verbs.UNCOVER, verbs.FILL, verbs.LOAD, verbs.THROW_AWAY, verbs.OPEN, verbs.CLOSE)
+)
+"""What a thing may need of the robot; whatever else it needs, such as chilling, is a reason."""
 _TELLING = (
     word_set("full free clear ready taken occupied") | set(STATES) | set(LEVELS) | set(SIDES)
     | set(NUMBERS) | set(THING_NOUNS) | _REFERRING
@@ -289,9 +297,9 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
     out and speaks of nothing else; none where it does not.
     """
     words = _YONDER.sub("", said).split() or [""]
-    end = 1
-    while end < len(words) and (is_name(words[end]) or is_descriptive(words[end])):
-        end += 1
+    end = _named_until(words, is_name)
+    while words[end : end + 1] == ["and"] and words[end + 1 : end + 2] == ["the"]:
+        end += 1 + _named_until(words[end + 1 :], is_name)  # "the tape and the pencil are trash"
     if words[0] in ("it", "they") and _is_idle(" ".join(words[1:]), is_name):
         return (words[0],)
     if words[0] not in BEFORE_NAMES or end == 1 or not is_name(words[end - 1]):
@@ -299,10 +307,19 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
     return tuple(words[1:end]) if _is_idle(" ".join(words[end:]), is_name) else ()
 
 
+def _named_until(words: Sequence[str], is_name: IsName) -> int:
+    """Where a phrase for something of the scene ends, which begins with the first word."""
+    end = 1
+    while end < len(words) and (is_name(words[end]) or is_descriptive(words[end])):
+        end += 1
+    return end
+
+
 def _is_idle(predicate: str, is_name: IsName) -> bool:
     """Whether a predicate is such a one."""
     predicate = _TOO_SO.sub("is so", predicate)
-    if _NO_PLACE.match(predicate):
+    needed = _NEEDED.match(predicate)
+    if _NO_PLACE.match(predicate) or (needed and needed["done"] not in _DONE_TO_THINGS):
         return True
     found = _PREDICATE.match(predicate)
     if not found:

@@ -272,9 +272,9 @@ _WITH_MORE_BEFORE_IT = either(
         build=each_sorted,
     ),
     sequence(
-        "mov(e|ing), get[ting], put[ting], tak(e|ing)",
+        "mov(e|ing), get[ting], put[ting], tak(e|ing), bring[ing]",
         NAMED,
-        "out of the way by",
+        "(out of the way|closer) by",
         CHAIN,
         build=about,
     ),

@@ -313,6 +313,8 @@ class TowerClause:
     """They are to be inside each other."""
     whole: Things | None = None
     """What they are all of."""
+    again: tuple[NounPhrase, ...] = ()
+    """Layers that are named once more, as what the next one goes on."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -281,6 +281,19 @@ FILL = quiet(
             build=_filled,
         ),
         sequence(
+            # "Load the pan with the egg, and the tray with the cup"
+            one_of({Toward.INSIDE: verbs.FILL, Toward.TO: verbs.LOAD}),
+            noun_phrase,
+            "with",
+            ALL_THINGS,
+            some(
+                sequence(LIST, noun_phrase, "with", ALL_THINGS, build=lambda *pair: pair),
+                least=1,
+                most=4,
+            ),
+            build=lambda toward, np, things, more: _used(np, toward, things, more),
+        ),
+        sequence(
             "use",
             noun_phrase,
             one_of({Toward.INSIDE: "to (hold|keep|store)", Toward.TO: "for"}),

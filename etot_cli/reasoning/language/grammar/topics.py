@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.naming import ALREADY_THERE, WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    one_of,
     optional,
     quiet,
     sequence,
@@ -83,6 +84,13 @@ def _remark(said: str, things: Things) -> ReorientClause | None:
     )
 
 
+def _the_some(things: Things) -> Things:
+    """In "there is some cheese in the fridge" it is the cheese there."""
+    phrases = (replace(np, determiner="the") if np.determiner == "some" and np.modifiers else np
+               for np in things.phrases)  # fmt: skip
+    return replace(things, phrases=tuple(phrases))
+
+
 _STATED = either(
     sequence(
         optional("(i|we) (noticed|notice|see|saw|think|believe|guess|know) [that]"),
@@ -91,6 +99,13 @@ _STATED = either(
         DESCRIBED,
         silent(optional(small_words.SO_LONG)),
         build=lambda np, said: Things((np.told_by(said),)),
+    ),
+    sequence(
+        noun_phrase,
+        small_words.FELL,
+        one_of({Prep.IN: "in, into, inside", Prep.ON: "on, onto"}),
+        noun_phrase,
+        build=lambda np, prep, at: Things((np.told_by(Modifier(prep, (at,))),)),
     ),
     sequence(
         # "My mug is the one on the tray", "the left one"
@@ -115,7 +130,9 @@ _STATED = either(
         build=_all_of_any,
     ),
     sequence(
-        f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}", ALL_THINGS
+        f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}",
+        ALL_THINGS,
+        build=_the_some,
     ),
 )
 """How things are, said of them before something is asked of them."""
@@ -131,7 +148,7 @@ _REMARK = either(
     sequence(ALL_THINGS, "(is|are|stands|lies) [right] in the way of", silent(noun_phrase)),
     sequence(ALL_THINGS, "is for, are for", WORDS, build=_meant_for),
     sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
-    sequence(small_words.DONE_WITH, ALL_THINGS),
+    sequence(small_words.DONE_WITH, ALL_THINGS, silent(optional(small_words.ANY_MORE))),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
     sequence(
         "(i|we) (need|want|have) to (get (at|into|inside|in)|reach [into]), let me get (at|into)",

@@ -70,12 +70,12 @@ def _then(parser: Parser) -> Parser:
 
 
 _PUT = f"{verbs.PUT}, {verbs.STACK}, go[es]"
-_NEXT = either(
+NEXT = either(
     sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA),
     LIST,
 )
 _UPON = some(
-    sequence(_NEXT, optional(_PUT), noun_phrase, optional("goes"), manner.ATOP),
+    sequence(NEXT, optional(_PUT), noun_phrase, optional("goes"), manner.ATOP),
     most=4,
 )
 _ON_IT = f"[right|directly] (on|onto|upon|on top of|over|above) it, on top, {manner.UPON_THAT}"
@@ -105,7 +105,7 @@ ON_A_BASE = quiet(
     either(
         sequence(
             _BASE,
-            either(_NEXT, COMMA),
+            either(NEXT, COMMA),
             optional(_PUT),
             noun_phrase,
             optional("goes"),
@@ -113,7 +113,7 @@ ON_A_BASE = quiet(
             _UPON,
             build=_layered,
         ),
-        sequence(_BASE, either(_NEXT, COMMA), verbs.STACK, THINGS, _ON_IT, build=_founded),
+        sequence(_BASE, either(NEXT, COMMA), verbs.STACK, THINGS, _ON_IT, build=_founded),
         sequence(
             _BASE,
             OPTIONAL_COMMA,
@@ -149,7 +149,7 @@ ONE_ON_THE_OTHER = sequence(
     noun_phrase,
     places.ONTO,
     noun_phrase,
-    some(sequence(_NEXT, noun_phrase, f"{manner.ATOP}, {manner.UPON_THAT}"), least=1, most=4),
+    some(sequence(NEXT, noun_phrase, f"{manner.ATOP}, {manner.UPON_THAT}"), least=1, most=4),
     build=lambda second, first, more: (first, second, *more),
 )
 """The layers of a tower, from the bottom up."""

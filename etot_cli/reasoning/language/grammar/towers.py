@@ -29,12 +29,14 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.tower_bases import (
     FIRST_TO_LAST,
+    NEXT,
     ON_A_BASE,
     ONE_ON_THE_OTHER,
 )
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
+    SIZES,
     basic_color,
     is_descriptive,
     singular,
@@ -78,18 +80,21 @@ def _with_nouns(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
     """With the noun that the first of them has for those that are a colour or the like alone."""
     bare = [all(is_descriptive(word) or word == _BETWEEN_SIZES for word in np.words) for np in nps]
     nouns = [np.head for np, out in zip(nps, bare, strict=True) if np.words and not out]
+    named = dict.fromkeys(noun for noun in nouns if noun != "one")
+    if len(named) == 1:  # "the blue block on the big red one"
+        nps = tuple(np.called(*named) if np.is_elliptic else np for np in nps)
     return tuple(
         replace(np, words=(*np.words, nouns[0])) if out and np.words and nouns else np
         for np, out in zip(nps, bare, strict=True)
     )
 
 
+_SO_MANY = sequence(one_of({n: said for said, n in NUMBERS.items()}), optional(WORDS, ()))
 _A_TOWER = sequence(
     f"{verbs.BUILD}, {verbs.WANT}",
-    verbs.A_TOWER,
-    optional(
-        sequence("of [the]", one_of({n: said for said, n in NUMBERS.items()}), optional(WORDS, ())),
-        (0, ()),
+    either(
+        sequence(verbs.A_TOWER, optional(sequence("of [the]", _SO_MANY), (0, ()))),
+        sequence("a", _SO_MANY, "tower, stack, pile"),
     ),
 )
 """What is to be built, of how many things (0: not said) and how these are called."""
@@ -138,11 +143,23 @@ def _rising(lowest: Any, more: Any) -> tuple[NounPhrase, ...] | None:
     return nps[::-1] if begun == "top" else nps
 
 
+def _piled(
+    whole: Things | None, second: NounPhrase, first: NounPhrase, more: Any
+) -> TowerClause | None:
+    """Each thing on the one before ("stack red on blue, then green on red")."""
+    nps = (first, second, *(upper for upper, _ in more))
+    if any(lower not in (None, under) for under, (_, lower) in zip(nps[1:], more, strict=False)):
+        return None
+    again = tuple(lower for _, lower in more if lower is not None)
+    return TowerClause(Things(nps), upward=True, whole=whole, again=again)
+
+
 _COLOR = sequence(
+    some(word(lambda given, text: text in SIZES), most=1),
     word(lambda given, text: basic_color(text) is not None),
-    build=lambda text: NounPhrase(words=(text,), text=text),
+    build=lambda size, color: NounPhrase(words=(*size, color), text=" ".join((*size, color))),
 )
-"""A colour alone ("stack red on blue")."""
+"""A colour alone, perhaps with a size ("stack red on big blue")."""
 _UPWARD = sequence(
     OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
 )
@@ -201,7 +218,19 @@ _TOWER = either(
         _COLOR,
         places.ONTO,
         _COLOR,
-        build=lambda whole, top, below: TowerClause(Things((below, top)), upward=True, whole=whole),
+        some(
+            sequence(
+                NEXT,
+                _COLOR,
+                either(
+                    sequence(places.ONTO, _COLOR),
+                    sequence(manner.ATOP, build=lambda: ()),
+                ),
+                build=lambda upper, lower: (upper, lower or None),
+            ),
+            most=4,
+        ),
+        build=_piled,
     ),
     sequence(
         either(

@@ -99,15 +99,15 @@ SPREAD = sequence(
     build=_spread,
 )
 """A stack is taken apart, and all of it goes to one place."""
-_END = one_of({"bottom": manner.AT_BOTTOM, "top": manner.AT_TOP})
+_END = one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": manner.AT_TOP})
 _PLAIN = sequence(noun_phrase, build=lambda np: np if np.words and not np.modifiers else None)
 _ENDS = either(
     separated(
-        sequence(_PLAIN, optional(verbs.BE), _END, build=lambda np, end: (np, end)), LIST, most=2
+        sequence(_PLAIN, optional(verbs.BE), _END, build=lambda np, end: (np, end)), LIST, most=3
     ),
     sequence(
         _PLAIN,
-        verbs.BE,
+        f"{verbs.BE}, {verbs.LIES}",
         places.ONTO,
         _PLAIN,
         build=lambda upper, lower: ((upper, "top"), (lower, "bottom")),
@@ -125,8 +125,12 @@ def _turned_over(things: Things, ends: Any) -> TowerClause | None:
 
 _SO = either(COMMA, sequence(OPTIONAL_COMMA, f"with, {small_words.SO_THAT}"))
 REVERSED = sequence(
-    f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)",
-    THINGS,
+    either(
+        sequence(
+            f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)", THINGS
+        ),
+        sequence(f"{verbs.WANT}, {verbs.TURN}", THINGS, manner.TURNED_OVER),
+    ),
     optional(sequence(_SO, _ENDS), ()),
     build=_turned_over,
 )

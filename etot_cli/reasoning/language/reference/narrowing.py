@@ -222,7 +222,9 @@ def singled_out_of(phrase: NounPhrase, noun: str | None, discourse: Discourse) -
             # "The cup on the left of the plate … the right one": on the right of that, or of all?
             raise AmbiguousReference(phrase.text, ["one of all", "one beside the same"])
         contrasted = _are_contrasted(own, mention.adjectives)
-        return discourse.among.get(mention.referent, ()) if contrasted else ()
+        among = discourse.among.get(mention.referent, ())
+        # "Small" may be part of what the one thing that it tells is called.
+        return among if contrasted and len(among) > 1 else ()
     return ()
 
 

@@ -8,10 +8,12 @@ A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
 _UNLESS = """
-    if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so},
+    if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so} [already],
     if (it is|they are|) not [already] {so} [already|yet], if (necessary|needed),
     until (it is|they are) [fully|completely] {so}
 """
+UNLESS_THERE = "unless (it is|they are) already there, unless (it is|they are) there already"
+"""A condition of putting things somewhere that their place itself fulfils."""
 UNLESS_OPEN = _UNLESS.format(so="(open|opened)", other="(closed|shut)")
 UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 """Conditions of opening and closing that the state itself fulfils."""
@@ -30,6 +32,8 @@ UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that
 ATOP = "on top [of (it|that|everything)], on (that|this) [one], upon (that|this) [one]"
 """Behind what comes on what was put on the base."""
 AS_BASE = "[as|be|being|is|to be] (the|its|your|my|a) (base|bottom|foundation) [block|piece|layer]"
+TURNED_OVER = "[to be] the other way (around|up)"
+"""Behind a stack that is to be so."""
 NOT_STACKED = """
     [with] none [of them] [stacked|lying|standing] on [top of] (another [one]|each other|
     one another|the other[s]|any other [one]),
@@ -55,10 +59,11 @@ WIDEST_BELOW = """
 """
 """As a stack is built anyway."""
 AT_BOTTOM = (
-    "[at|on] [the [very]] bottom, lowest, underneath, at the base, as (its|the|a) (base|bottom)"
+    "[at|on] [the [very]] bottom, lowest, underneath, below, at the base, "
+    "as (its|the|a) (base|bottom)"
 )
 AT_MIDDLE = "[in [the]] (middle|centre|center), in between"
-AT_TOP = "[at|on] [the [very]] top, uppermost, up top, highest, as (its|the) top"
+AT_TOP = "[at|on] [the [very]] top, uppermost, up top, above, highest, as (its|the) top"
 LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|release it|drop it)"
 """Behind where something is brought."""
 KEPT_HELD = """

@@ -106,7 +106,7 @@ FRAMES = f"""
     i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
     [the] robot (should|must|has to|needs to), make sure to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind [to], mind,
-    (how|what) about, why do not you,
+    (how|what) about [[if] you], why do not you,
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
@@ -149,6 +149,7 @@ REMARKS = f"""
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
     (is|are) (in|on|at) the wrong (one|place|spot|side),
     (has|have) been (used|washed|cleaned),
+    (is|are) for [my|our|the] ({RELATIONS}|guests|kids|children|grandma|grandpa|mum|mom|dad),
     (is|are) (a mess|all over the place|everywhere|all over the (table|desk|floor|counter))
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""
@@ -158,13 +159,21 @@ FOUND = """
     [left|standing|lying|sitting|resting|wide|slightly|partly|half|a (little|bit)]
 """
 """Between a thing and how it is, before something is asked of it."""
+FELL = """
+    (fell|rolled|slipped|slid|dropped|went|(has|have|had) (fallen|rolled|slipped|slid|gone)) [down]
+"""
+"""Between a thing and what it is in or on by now."""
 BY_NOW = "right now, now, at the moment, currently, still, already, just"
 """With how things are."""
 SOMEBODY_LEFT = f"""
     (i|we|you|they|he|she|someone|somebody|(the|my|our) ({RELATIONS})) [have|has|had] [just] left,
-    whoever (was|worked) here [before|last] [has] left
+    whoever (was|worked) here [before|last] [has] left,
+    (he|she|(the|my|our) ({RELATIONS})) [has] put
 """
-DONE_WITH = "(i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need"
+DONE_WITH = """
+    (i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need,
+    (i|we) have [got] no [more|further] (use|need) for
+"""
 """Before such a thing."""
 SAME_AGAIN = """
     do [exactly|just] the same [thing] (with|for|to), ditto (with|for),
@@ -198,7 +207,10 @@ LEADING_THEN = """
     when (done|finished),
     and then, subsequently, later
 """
-TRAILING_FIRST = "first, before, beforehand, before that, before (anything|everything) else"
+TRAILING_FIRST = """
+    first, before, beforehand, before that, before (anything|everything) else,
+    before you do [so|that|this], before doing (so|that|this)
+"""
 TRAILING_LAST = f"""
     last, {_AT_END}, finally, at last,
     (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done,

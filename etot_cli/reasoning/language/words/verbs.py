@@ -63,7 +63,7 @@ GET_OUT = f"""
 """Said of what is taken out of something; who grabs a thing there holds it."""
 BRING = f"{GET_OUT}, grab[bing], lift[ing]"
 REMOVE = """
-    remov(e|ing), withdraw[ing], clear[ing] away, bring[ing] down, extract[ing],
+    remov(e|ing), withdraw[ing], clear[ing] away, bring[ing] (down|out), extract[ing],
     tak(e|ing) (out|off|away|down),
     get[ting] (out|down), (pull|fish) out, (pulling|fishing) out, clear[ing] out, mov(e|ing) away,
     lift[ing] (out|off)
@@ -171,7 +171,8 @@ OTHERS_WANT = f"""
     (the|my|our)
     (guests|customers|clients|patients|parents|colleagues|students|visitors|kids|children)
     (want|need|would like [to have]),
-    (grandma|grandpa|granny|mum|mom|dad|he|she|somebody|someone) (wants|needs|would like [to have]),
+    [my|our] (grandma|grandpa|granny|mum|mom|dad) (wants|needs|would like [to have]),
+    (he|she|somebody|someone) (wants|needs|would like [to have]),
     they (want|need|would like [to have])
 """
 """Said of other people, who are not there to be handed anything."""
