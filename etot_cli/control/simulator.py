@@ -110,8 +110,6 @@ class ActionSimulator:
             OutOfTimeError: not ready at ``until_s``, a reading of ``time.monotonic`` [s].
         """
         if self._start is None:
-            # Workers come up while the scene settles and the instruction is read.
-            self._ensure_pool()
             begun = self._worlds.start(until_s)
             self._start = _pack([snapshot for snapshot, _ in begun]), begun[0][1]
         return self._start
