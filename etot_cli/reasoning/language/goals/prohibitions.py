@@ -84,9 +84,7 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         for np in clause.things.phrases
     )
     if role is Role.ANY and any(elliptic):
-        # "Leave the red one" speaks of what was moved rather than of where to.
-        turned = isinstance(context.last, MoveClause) or _moves_anyway(context, clause.things)
-        role = Role.PART if turned else Role.THEME
+        role = _role_of_one(context, clause.things)
     before = len(context.discourse.mentions)
     if clause.avoid is Avoid.PUT:
         _rule_out_things(context, clause)
@@ -240,6 +238,21 @@ def _goes(context: Context, name: str) -> bool:
     """Whether something else that is asked for takes a thing away."""
     gone = (i for step in context.done if isinstance(step, Put) for i in step.what)
     return any(thing.name == name for thing in context.discourse.things(*gone))
+
+
+def _role_of_one(context: Context, things: Things) -> Role:
+    """What "the red one" is among: it speaks of what was moved rather than of where to, unless that
+    is moved anyway.
+    """
+    if isinstance(context.last, MoveClause):
+        return Role.PART
+    if not _moves_anyway(context, things):
+        return Role.THEME
+    with suppress(ReferenceProblem):
+        for np in things.phrases:
+            context.phrases.meaning(np, Role.PART)
+        return Role.PART
+    return Role.PLACE
 
 
 def _moves_anyway(context: Context, things: Things) -> bool:

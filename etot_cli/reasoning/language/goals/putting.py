@@ -71,6 +71,7 @@ from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax import (
     Avoid,
     AvoidClause,
+    Destination,
     Modifier,
     NounPhrase,
     PutClause,
@@ -82,7 +83,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Turns,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import is_emptying
+from etot_cli.reasoning.language.grammar.taking import ANYTHING, is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.space import touches
@@ -261,7 +262,12 @@ def ensure(context: Context, state: State) -> None:
         return
     emptied = RemoveClause(Things(state.subjects))
     if is_emptying(emptied):
-        remove(context, emptied)
+        try:
+            remove(context, emptied)
+        except ReferenceProblem:  # where there is nothing in it, it stays so
+            held = tuple(np for m in state.subjects[0].modifiers for np in m.phrases)
+            where = Destination(Toward.INSIDE, held)
+            avoid(context, AvoidClause(Avoid.PUT, ANYTHING, (where,), not_left=True))
         return
     away = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
     before, done = context.discourse.put - away, len(context.steps)

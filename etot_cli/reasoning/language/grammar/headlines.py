@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     one_of,
     optional,
     sequence,
+    variants,
 )
 from etot_cli.reasoning.language.grammar.predicates import BOTH_LEFT_SO
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
@@ -43,7 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import emptied
+from etot_cli.reasoning.language.grammar.taking import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.towers import STACKED
 from etot_cli.reasoning.language.words import manner, small_words, verbs
@@ -124,7 +125,7 @@ LEFT_SO = Rule(
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
         sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
         sequence(ALL_THINGS, IN_HAND, build=lambda things, _: PickClause(things)),
-        sequence(ALL_THINGS, optional(_IS), manner.EMPTIED, build=emptied),
+        variants(sequence(ALL_THINGS, optional(_IS), manner.EMPTIED), to_be_empty),
         sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),
         UNTOUCHED,
         BOTH_LEFT_SO,

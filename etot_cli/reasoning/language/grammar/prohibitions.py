@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Things,
     Toward,
 )
+from etot_cli.reasoning.language.grammar.taking import ANYTHING, stays_empty
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -47,11 +48,9 @@ def _not_wanted(things: Things) -> AvoidClause | None:
     return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
 
 
-def _stays_empty(np: NounPhrase) -> AvoidClause:
-    """Nothing is to be put into what stays empty."""
-    anything = NounPhrase(words=("anything",), text="anything")
-    where = Destination(Toward.INSIDE, (np,))
-    return AvoidClause(Avoid.PUT, Things((anything,)), (where,), not_left=True)
+def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
+    """What is not to be used is not to hold or bear things, some or any."""
+    return AvoidClause(Avoid.PUT, things or ANYTHING, (Destination(Toward.TO, nps),))
 
 
 _FORBIDDEN = either(
@@ -80,13 +79,16 @@ _FORBIDDEN = either(
         build=lambda things, where: AvoidClause(Avoid.PUT, things, where, not_left=True),
     ),
     sequence(phrase(verbs.SHIFT, Avoid.PUT), THINGS, DIRECTED, build=_avoid),
+    sequence(verbs.USE, NP_LIST, optional(sequence("for", THINGS), None), build=_unused),
     sequence(
         either(phrase(verbs.TOUCH, Avoid.TOUCH), phrase(verbs.DISTURB, Avoid.MOVE)),
         verbs.ANYTHING_ELSE,
         build=lambda avoid: AvoidClause(avoid, None),
     ),
 )
+_AVOIDED = sequence("avoid, [while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH))
 AVOID = either(
+    _AVOIDED,
     sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
     sequence(
         verbs.NEED_NOT,
@@ -129,7 +131,7 @@ WITHOUT = sequence(
         sequence(verbs.WITHOUT, THINGS, verbs.TOPPLING, build=partial(AvoidClause, Avoid.MOVE)),
         sequence(verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
         sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
-        sequence("[while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH)),
+        _AVOIDED,
     ),
 )
 KEEP_OUT = sequence(
@@ -176,7 +178,7 @@ _STAYS_EMPTY = either(
     sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
 )
 KEEP_STILL = either(
-    sequence(_STAYS_EMPTY, build=_stays_empty),
+    sequence(_STAYS_EMPTY, build=stays_empty),
     sequence(
         optional("let"), THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)
     ),

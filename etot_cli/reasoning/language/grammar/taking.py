@@ -25,9 +25,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
     some,
+    variants,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     CLEARED,
+    Avoid,
+    AvoidClause,
     Clause,
     CoverClause,
     Destination,
@@ -167,6 +170,20 @@ def emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Cla
     return replace(put_to(contents, where), far_fetched=2 * which)
 
 
+ANYTHING = Things((NounPhrase(words=("anything",), text="anything"),))
+
+
+def stays_empty(np: NounPhrase, far_fetched: int = 0) -> AvoidClause:
+    """Nothing is to be put into what stays empty, or is to be so and is already."""
+    where = Destination(Toward.INSIDE, (np,))
+    return AvoidClause(Avoid.PUT, ANYTHING, (where,), not_left=True, far_fetched=far_fetched)
+
+
+def to_be_empty(things: Things) -> tuple[Clause, ...]:
+    """What is to be empty is emptied, or stays so where nothing is in it."""
+    return emptied(things), *(stays_empty(np, 1) for np in things.phrases[:1])
+
+
 def is_emptying(clause: Clause) -> bool:
     """Whether things are to be without what is in or on them, wherever that goes."""
     return isinstance(clause, RemoveClause) and all(
@@ -234,22 +251,25 @@ EMPTY = either(
         optional(DESTINATIONS, None),
         build=emptied,
     ),
-    sequence(
-        either(
-            sequence(ALL_THINGS, verbs.MODAL),
-            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
-            sequence("mak(e|ing)", ALL_THINGS),
-            sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+    variants(
+        sequence(
+            either(
+                sequence(ALL_THINGS, verbs.MODAL),
+                sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+                sequence("mak(e|ing)", ALL_THINGS),
+                sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+            ),
+            optional(phrase("both, all"), ""),
+            manner.EMPTIED,
+            build=lambda things, said: Things(all_of(things.phrases, said)),
         ),
-        optional(phrase("both, all"), ""),
-        manner.EMPTIED,
-        build=lambda things, said: emptied(Things(all_of(things.phrases, said))),
+        to_be_empty,
     ),
     sequence(verbs.NOTHING_IS, ALL_THINGS, silent(optional(small_words.ANY_MORE)), build=emptied),
 )
 
-IS_EMPTY = sequence(
-    ALL_THINGS, verbs.BE, silent(optional("then, all")), manner.EMPTIED, build=emptied
+IS_EMPTY = variants(
+    sequence(ALL_THINGS, verbs.BE, silent(optional("then, all")), manner.EMPTIED), to_be_empty
 )
 """What something is done for ("so that the box is empty")."""
 
@@ -265,10 +285,16 @@ def _filled(toward: Toward, np: NounPhrase, things: Things) -> PutClause:
     return put_to(things, (Destination(toward, (np,), FILLED),))
 
 
-def _used(np: NounPhrase, toward: Toward, things: Things, more: Any) -> PutClause:
-    """Each of several vessels gets what it is used for."""
+def _used(
+    np: NounPhrase, toward: Toward, things: Things, more: Any, no: NounPhrase | None = None
+) -> PutClause:
+    """Each of several vessels gets what it is used for; ``no``: that is not used for it."""
     pairs = (_filled(toward, np, things), *(_filled(Toward.TO, *pair) for pair in more))
-    return PutClause(tuple(group for put in pairs for group in put.groups))
+    groups = tuple(group for put in pairs for group in put.groups)
+    if no is not None:
+        ruled_out = Destination(toward, (no,), denied=True)
+        groups = tuple(replace(g, destinations=(*g.destinations, ruled_out)) for g in groups)
+    return PutClause(groups)
 
 
 FILL = quiet(
@@ -299,6 +325,7 @@ FILL = quiet(
             one_of({Toward.INSIDE: "to (hold|keep|store)", Toward.TO: "for"}),
             ALL_THINGS,
             some(sequence(LIST, noun_phrase, "for", ALL_THINGS, build=lambda *pair: pair), most=4),
+            optional(sequence(OPTIONAL_COMMA, "[and|but] not", noun_phrase), None),
             build=_used,
         ),
     )
