@@ -266,8 +266,8 @@ def ensure(context: Context, state: State) -> None:
             remove(context, emptied)
         except ReferenceProblem:  # where there is nothing in it, it stays so
             held = tuple(np for m in state.subjects[0].modifiers for np in m.phrases)
-            where = Destination(Toward.INSIDE, held)
-            avoid(context, AvoidClause(Avoid.PUT, ANYTHING, (where,), not_left=True))
+            inside = Destination(Toward.INSIDE, held)
+            avoid(context, AvoidClause(Avoid.PUT, ANYTHING, (inside,), not_left=True))
         return
     away = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
     before, done = context.discourse.put - away, len(context.steps)
