@@ -30,7 +30,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
     NounPhrase,
     PickClause,
     PutClause,
+    PutGroup,
     RemoveClause,
+    ReorientClause,
     State,
     SwapClause,
     Things,
@@ -61,6 +63,12 @@ _DENIAL, _ORDER = "a denial", "an order"
 _DENIALS = word_set("not never without except excluding non neither no")
 _ORDERS = word_set("before after finally beforehand afterwards lastly firstly first last")
 _QUANTITIES = word_set("all every each both either any other another same only remaining")
+_POSTURES = {
+    "upright": ("upright", "vertical"), "vertical": ("vertical", "upright"),
+    "vertically": ("vertical", "upright"), "horizontal": ("horizontal",),
+    "horizontally": ("horizontal",),
+}  # fmt: skip
+"""How things stand, or are grasped."""
 _ALIKE = {
     "center": "middle", "centre": "middle", "behind": "back", "far": "back", "near": "front",
     "nearest": "front", "farthest": "back", "opened": "open", "ajar": "open",
@@ -147,6 +155,8 @@ def _kinds(word: str) -> tuple[str, ...]:
         return (word, _ORDER)
     if word in _QUANTITIES or (word in NUMBERS and word != "one") or word.isdigit():
         return (word,)
+    if word in _POSTURES:
+        return _POSTURES[word]
     if is_descriptive(word) or word in LEVELS or word in STATES:
         return (_canonical(word),)
     return ()
@@ -200,19 +210,22 @@ def _said(node: object) -> Iterator[str]:
             yield _canonical("far")
         case Beside(relation=Nearby.AT_FRONT | Nearby.AT_BACK as side):
             yield "bottom" if side is Nearby.AT_FRONT else "top"
+        case PutGroup(upright=True) | ReorientClause(upright=True):
+            yield "upright"
         case State(denied=True):
             yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects):
             each = len(subjects) > 1 or subjects[0].determiner.split()[:1] in (["both"], ["all"])
             yield from ("both", "each", "all") if each else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))
+            yield from ("upright",) if any(item.upright for item in node.destinations) else ()
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
         case TowerClause(things=Things(phrases=phrases)):
             yield from (said for said, count in NUMBERS.items() if count == len(phrases))
-            yield from ("stacked", _ORDER, "top", "middle", "bottom", "biggest", "largest",
-                        "widest", "smallest")  # fmt: skip
+            yield from ("stacked", "vertical", _ORDER, "top", "middle", "bottom", "biggest",
+                        "largest", "widest", "smallest")  # fmt: skip
         case PickClause(poses=poses) if poses:
             yield from ("either",) if len(poses) > 1 else ("only", _DENIAL)
         case Turns() if node != Turns():

@@ -152,6 +152,8 @@ class Destination:
     beside: tuple[Beside, ...] = ()
     denied: bool = False
     """They must not go there ("in a cup, but not in the red one")."""
+    upright: bool = False
+    """They are to stand there."""
     around: tuple[Destination, ...] = ()
     """What the target is in or on, as it is said again ("on the tray, in its place")."""
 
@@ -197,10 +199,13 @@ class PutGroup:
 
     things: Things
     destinations: tuple[Destination, ...]
-    upright: bool = False
-    """They are to stand there."""
     back: bool = False
     """They are put back there."""
+
+    @property
+    def upright(self) -> bool:
+        """Whether they are to stand there."""
+        return any(item.upright for item in self.not_denied.destinations)
 
     @property
     def not_denied(self) -> PutGroup:
@@ -240,6 +245,11 @@ class PutClause:
     """They are left or kept there, which is rather said of what is there already."""
     far_fetched: int = 0
     """By how much the words rather mean something else ("clear X into Y" what is in X)."""
+
+
+def standing(where: tuple[Destination, ...]) -> tuple[Destination, ...]:
+    """Where things are to stand."""
+    return tuple(replace(item, upright=True) for item in where)
 
 
 def put_to(things: Things, where: tuple[Destination, ...]) -> PutClause:

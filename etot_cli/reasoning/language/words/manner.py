@@ -135,10 +135,20 @@ IN_THIS_ORDER = """
     in (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order
 """
-STANDING = """
-    so [that] (it|they) (stands|stand) (upright|up), standing [upright|up], upright,
-    vertically, on end
+_UPRIGHT = "(upright|vertical|vertically|on end)"
+ERECT = f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation)"
+STANDS = f"""
+    (so [that]|such that) (it|they) (stands|stand|is|are) [standing] ({_UPRIGHT}|up),
+    (so [that]|such that) (it|they) (is|are) standing,
+    {ERECT}
 """
+"""How things stand, ahead of where they do."""
+STANDING = f"{STANDS}, standing [up]"
+TURNED_UP = f"""
+    {STANDING}, to [be] {_UPRIGHT}, until (it|they) (stands|stand|is|are) {_UPRIGHT},
+    (into|to) (an upright|a vertical) (position|pose|orientation)
+"""
+"""Behind what is turned."""
 FITTING = "so [that] (it|they) (fits|fit) [in|inside] [there|it]"
 HORIZONTAL = """
     horizontally, in a horizontal (pose|grasp), sideways,

@@ -249,7 +249,8 @@ _ONCE = "[only|right|straight|just|directly|immediately] (once|after|when|as soo
 BY_THEN = f"[but] ({_ONCE}|not (before|until))"
 AFTER = f"({BY_THEN}) [you have|having|you]"
 GONE = """
-    (has|have) (gone|landed), (has|have) been (put|placed|moved|brought|set|laid) [down|away],
+    (has|have) (gone|landed),
+    (has|have) been (put|placed|moved|brought|set|laid|stood) [down|away],
     (is|are) (put|set|laid) down
 """
 """Between a thing and where it is by then ("after the tuna has gone into the basket")."""
