@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import Goal, Near, Place, Put, Relation, St
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.grasps import grasped
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
@@ -70,6 +71,7 @@ class Understanding:
         """An independent copy, for trying a reading."""
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
+        other.context.grasps = list(self.context.grasps)
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
         other.context.in_the_way = list(self.context.in_the_way)
         other.context.constraints = list(self.context.constraints)
@@ -154,8 +156,8 @@ class Understanding:
     def _is_desk(self, place: Place) -> bool:
         return place.where is not None and self.context.discourse.is_desk(place.where)
 
-    def goal(self) -> Goal:
-        """The goal so far.
+    def goal(self, *, complete: bool = False) -> Goal:
+        """The goal so far; ``complete``: nothing more is asked for.
 
         Raises:
             ReferenceProblem: a part is to be both open and closed.
@@ -166,6 +168,7 @@ class Understanding:
             for step, after in pairwise((*in_order(self.timed, discourse), None))
             if step is not None and not self._narrowed(step, after)
         ]
+        steps = grasped(steps, self.context.grasps, complete=complete)
         steps, constraints = in_turn(
             steps, self.context.constraints, discourse.referents, self._scene
         )

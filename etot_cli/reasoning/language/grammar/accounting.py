@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
     EnsureClause,
+    GraspClause,
     Modifier,
     MoveClause,
     NounPhrase,
@@ -57,6 +58,7 @@ from etot_cli.reasoning.language.words.small_words import (
     SOMEBODY_LEFT,
     WITHOUT_MEANING,
 )
+from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
 
 _DENIAL, _ORDER = "a denial", "an order"
@@ -227,7 +229,9 @@ def _said(node: object) -> Iterator[str]:
             yield from ("stacked", "vertical", _ORDER, "top", "middle", "bottom", "biggest",
                         "largest", "widest", "smallest")  # fmt: skip
         case PickClause(poses=poses) if poses:
-            yield from ("either",) if len(poses) > 1 else ("only", _DENIAL)
+            yield from _said_of_grasp(poses)
+        case GraspClause(poses=poses):
+            yield from (_DENIAL, *_said_of_grasp(poses))
         case Turns() if node != Turns():
             yield _ORDER
         case SwapClause():
@@ -243,6 +247,11 @@ def _said(node: object) -> Iterator[str]:
             yield from ("both", "all", _ORDER) if len(phrases) > 1 else ()
         case _:
             return
+
+
+def _said_of_grasp(poses: Sequence[GraspPose]) -> Iterator[str]:
+    yield from ("either", "both") if len(poses) > 1 else ("only", _DENIAL)
+    yield from ("upright", "top", *GraspPose)  # one may be ruled out by the other
 
 
 def _said_of_put(clause: PutClause) -> Iterator[str]:

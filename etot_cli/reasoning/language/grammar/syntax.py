@@ -194,6 +194,20 @@ class PickClause:
 
 
 @dataclass(frozen=True, slots=True)
+class GraspClause:
+    """How things are grasped, whatever is done with them: what ``things`` say, or, where there are
+    none, what is taken at all. No ``poses``: in any way.
+    """
+
+    things: Things | None
+    poses: tuple[GraspPose, ...]
+    asks: bool = False
+    """Where nothing else is asked of them, they are to be picked up."""
+    text: str = ""
+    """As written."""
+
+
+@dataclass(frozen=True, slots=True)
 class PutGroup:
     """Things with the destinations that they share."""
 
@@ -392,6 +406,7 @@ class AvoidClause:
 
 Clause = (
     PickClause
+    | GraspClause
     | PutClause
     | RemoveClause
     | MoveClause
