@@ -12,6 +12,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.again import again
 from etot_cli.reasoning.language.goals.arrangements import swap, tower
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.grasps import grasp
 from etot_cli.reasoning.language.goals.placing import cover, reorient
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.putting import ensure, put, remove
@@ -23,6 +24,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
     CoverClause,
     EnsureClause,
+    GraspClause,
     MoveClause,
     NounPhrase,
     PickClause,
@@ -89,6 +91,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                 context.discourse.lifted |= {index}
             if clause.to:
                 context.discourse.notes.append(f"{clause.to!r}: {verbs.HELD_UP}")
+        case GraspClause():
+            grasp(context, clause)
         case PutClause():
             moved = {*context.discourse.put}
             put(context, clause)

@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
+from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
@@ -48,6 +49,15 @@ class InTheWay:
     off: Put | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class Grasp:
+    """A way to grasp a referent, or (None) what is taken at all."""
+
+    what: int | None
+    poses: tuple[GraspPose, ...]
+    text: str
+
+
 class Context:
     """What clauses have in common: the scene, what was spoken of, steps and constraints.
 
@@ -64,6 +74,8 @@ class Context:
         self.places = Places(scene, self.phrases, discourse)
         self.turned: list[int] = []
         """Referents that were to be reoriented."""
+        self.grasps: list[Grasp] = []
+        """How things are grasped, where it is said by itself."""
         self.constraints: list[Constraint] = []
         self.steps: list[Step] = []
         """Of the clause that is being read."""

@@ -58,7 +58,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     state = Understanding(scene, discourse, Resolver(scene, vocabulary))
     for sentence in sentences:
         state = best_reading(state, sentence)
-    goal = with_room_made(state.goal(), state.context.in_the_way)
+    goal = with_room_made(state.goal(complete=True), state.context.in_the_way)
     check_kept(goal, scene)
     check_shut(goal, scene)
     check_everything(goal)

@@ -204,12 +204,28 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         if not clause.upright or not _can_stand(context, index):
             context.turned.append(index)
             continue
+        if index in context.discourse.put:
+            context.steps.append(_standing_there(context, index))
+            continue
         for thing in context.only(index, "say which one"):
             if context.scene.states[thing.name].toppled:
                 place = replace(context.home(thing), beside=(Near(Nearby.UPRIGHT),))
                 context.steps.append(Put((context.single(thing, thing.name),), (place,)))
             else:
                 context.discourse.notes.append(f"{thing.name} stands upright as it is")
+
+
+def _standing_there(context: Context, index: int) -> Put:
+    """What was put somewhere, standing there ("put it on the tray; it should be upright").
+
+    Raises:
+        ReferenceProblem: something else was asked for since.
+    """
+    for step in context.done:
+        if isinstance(step, Put) and step.what == (index,):
+            return replace(step, places=upright(context, (index,), step.places))
+    text = context.discourse.referents[index].text
+    raise ReferenceProblem(text, "say that it is to stand where it is put", 2, word="upright")
 
 
 def upright(context: Context, themes: Sequence[int], places: Sequence[Place]) -> tuple[Place, ...]:

@@ -112,7 +112,9 @@ def put(
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
     for group in clause.groups:
+        stands = group.upright
         if add_pairs(context, clause, group):
+            _check_stands(group, stands)
             continue
         for phrase in group.things.phrases:
             said = {item.prep for item in phrase.modifiers}
@@ -129,6 +131,11 @@ def put(
         if placed & own or things_of(context, themes) <= placed:
             group = set_closer(context, group, clause.groups[0], themes, chosen)
         placed |= own
+        if (
+            any(item.toward in (Toward.HOME, Toward.WITH) for item in group.destinations)
+            or replaced
+        ):
+            _check_stands(group, stands)
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, ruled_out)
             continue
@@ -149,6 +156,7 @@ def put(
         found = context.places.of(destinations, themes, stays=wherever or clause.stays)
         places = not_beside(context, found, ruled_out, themes)
         if clause.stays and _is_left(context, group, themes, places):
+            _check_stands(group, stands)
             avoid(context, AvoidClause(Avoid.MOVE, group.things))
             continue
         check_contrasted(context, group.things, themes, places)
@@ -169,7 +177,7 @@ def put(
         check_taken(context, group, themes, places)
         note_described(context, group, places)
         check_poured(context, group, themes, places)
-        if group.upright:
+        if stands:
             places = upright(context, themes, places)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(spread(context, place) for place in places)
@@ -198,6 +206,16 @@ def put(
     if chosen:
         text = context.discourse.referents[chosen[-1]].text
         raise ReferenceProblem(text, "say where each of them goes", 2)
+
+
+def _check_stands(group: PutGroup, stands: bool) -> None:
+    """Whether what is to stand somewhere is put on or into something that is named.
+
+    Raises:
+        ReferenceProblem: it goes back, or to where something else is.
+    """
+    if stands:
+        raise ReferenceProblem(group.things.text, "say on what it is to stand", 2, word="upright")
 
 
 def _is_left(
@@ -410,5 +428,7 @@ def _condition(
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
     else:
         places = context.places.of(condition.destinations, subjects)
+    if any(item.upright for item in condition.destinations):
+        places = upright(context, subjects, places)
     for subject in subjects:
         places_of[subject] = places

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.goal import Goal, Place, Put, Relation, Step, Thing
+from etot_cli.reasoning.builtin.goal import Goal, Near, Place, Put, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.grasps import grasped
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
@@ -28,6 +29,7 @@ from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.opposites import check_opposites
 from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
 
@@ -42,6 +44,13 @@ def _check_instead(spoken: Spoken, before: Clause | None, *, room: bool) -> None
     )
     if spoken.instead and before is not None and not (room or denied):
         raise ReferenceProblem("instead", "say only what is to be done", 3, word="instead")
+
+
+def _lying(step: Put) -> Put:
+    """The same without that things are to stand there."""
+    near = Near(Nearby.UPRIGHT)
+    places = (replace(p, beside=tuple(n for n in p.beside if n != near)) for p in step.places)
+    return replace(step, places=tuple(places))
 
 
 class Understanding:
@@ -62,6 +71,7 @@ class Understanding:
         """An independent copy, for trying a reading."""
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
+        other.context.grasps = list(self.context.grasps)
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
         other.context.in_the_way = list(self.context.in_the_way)
         other.context.constraints = list(self.context.constraints)
@@ -121,6 +131,7 @@ class Understanding:
         """
         if not (isinstance(step, Put) and isinstance(after, Put)) or step.what != after.what:
             return False
+        after = _lying(after)
         where, closer = (
             {
                 (place.relation, thing)
@@ -140,13 +151,13 @@ class Understanding:
             ) and all(touches(thing, Thing(DESK), self._scene) for thing in known)
         whole = step.run == after.run and not any(t.part or t.board for _, t in where)
         one, other = ({(how, thing.name) for how, thing in at} for at in (where, closer))
-        return step == after or (whole and one == other != set())
+        return step == replace(after, run=step.run) or (whole and one == other != set())
 
     def _is_desk(self, place: Place) -> bool:
         return place.where is not None and self.context.discourse.is_desk(place.where)
 
-    def goal(self) -> Goal:
-        """The goal so far.
+    def goal(self, *, complete: bool = False) -> Goal:
+        """The goal so far; ``complete``: nothing more is asked for.
 
         Raises:
             ReferenceProblem: a part is to be both open and closed.
@@ -157,6 +168,7 @@ class Understanding:
             for step, after in pairwise((*in_order(self.timed, discourse), None))
             if step is not None and not self._narrowed(step, after)
         ]
+        steps = grasped(steps, self.context.grasps, complete=complete)
         steps, constraints = in_turn(
             steps, self.context.constraints, discourse.referents, self._scene
         )

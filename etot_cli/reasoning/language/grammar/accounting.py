@@ -25,12 +25,15 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Beside,
     Destination,
     EnsureClause,
+    GraspClause,
     Modifier,
     MoveClause,
     NounPhrase,
     PickClause,
     PutClause,
+    PutGroup,
     RemoveClause,
+    ReorientClause,
     State,
     SwapClause,
     Things,
@@ -55,12 +58,19 @@ from etot_cli.reasoning.language.words.small_words import (
     SOMEBODY_LEFT,
     WITHOUT_MEANING,
 )
+from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
 
 _DENIAL, _ORDER = "a denial", "an order"
 _DENIALS = word_set("not never without except excluding non neither no")
 _ORDERS = word_set("before after finally beforehand afterwards lastly firstly first last")
 _QUANTITIES = word_set("all every each both either any other another same only remaining")
+_POSTURES = {
+    "upright": ("upright", "vertical"), "vertical": ("vertical", "upright"),
+    "vertically": ("vertical", "upright"), "horizontal": ("horizontal",),
+    "horizontally": ("horizontal",),
+}  # fmt: skip
+"""How things stand, or are grasped."""
 _ALIKE = {
     "center": "middle", "centre": "middle", "behind": "back", "far": "back", "near": "front",
     "nearest": "front", "farthest": "back", "opened": "open", "ajar": "open",
@@ -147,6 +157,8 @@ def _kinds(word: str) -> tuple[str, ...]:
         return (word, _ORDER)
     if word in _QUANTITIES or (word in NUMBERS and word != "one") or word.isdigit():
         return (word,)
+    if word in _POSTURES:
+        return _POSTURES[word]
     if is_descriptive(word) or word in LEVELS or word in STATES:
         return (_canonical(word),)
     return ()
@@ -200,21 +212,26 @@ def _said(node: object) -> Iterator[str]:
             yield _canonical("far")
         case Beside(relation=Nearby.AT_FRONT | Nearby.AT_BACK as side):
             yield "bottom" if side is Nearby.AT_FRONT else "top"
+        case PutGroup(upright=True) | ReorientClause(upright=True):
+            yield "upright"
         case State(denied=True):
             yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects):
             each = len(subjects) > 1 or subjects[0].determiner.split()[:1] in (["both"], ["all"])
             yield from ("both", "each", "all") if each else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))
+            yield from ("upright",) if any(item.upright for item in node.destinations) else ()
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
         case TowerClause(things=Things(phrases=phrases)):
             yield from (said for said, count in NUMBERS.items() if count == len(phrases))
-            yield from ("stacked", _ORDER, "top", "middle", "bottom", "biggest", "largest",
-                        "widest", "smallest")  # fmt: skip
+            yield from ("stacked", "vertical", _ORDER, "top", "middle", "bottom", "biggest",
+                        "largest", "widest", "smallest")  # fmt: skip
         case PickClause(poses=poses) if poses:
-            yield from ("either",) if len(poses) > 1 else ("only", _DENIAL)
+            yield from _said_of_grasp(poses)
+        case GraspClause(poses=poses):
+            yield from (_DENIAL, *_said_of_grasp(poses))
         case Turns() if node != Turns():
             yield _ORDER
         case SwapClause():
@@ -230,6 +247,11 @@ def _said(node: object) -> Iterator[str]:
             yield from ("both", "all", _ORDER) if len(phrases) > 1 else ()
         case _:
             return
+
+
+def _said_of_grasp(poses: Sequence[GraspPose]) -> Iterator[str]:
+    yield from ("either", "both") if len(poses) > 1 else ("only", _DENIAL)
+    yield from ("upright", "top", *GraspPose)  # one may be ruled out by the other
 
 
 def _said_of_put(clause: PutClause) -> Iterator[str]:

@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     State,
     Things,
+    standing,
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns
@@ -145,7 +146,7 @@ def put_of(
             return None
         groups = (replace(groups[0], things=replace(things, phrases=nps)),)
     if "upright" in named:
-        groups = tuple(replace(group, upright=True) for group in groups)
+        groups = tuple(replace(g, destinations=standing(g.destinations)) for g in groups)
     return PutClause(
         groups,
         grouping,

@@ -6,7 +6,7 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
@@ -25,6 +25,11 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
 
+
+def _stood_up(things: Things) -> ReorientClause:
+    return ReorientClause(things, upright=True)
+
+
 REORIENT = either(
     sequence(
         phrase(verbs.REORIENT),
@@ -32,7 +37,7 @@ REORIENT = either(
         optional("around, round"),
         optional(
             either(
-                phrase(f"{manner.UPRIGHT}, {manner.STANDING}", True), phrase(manner.FITTING, False)
+                phrase(f"{manner.UPRIGHT}, {manner.TURNED_UP}", True), phrase(manner.FITTING, False)
             ),
             False,
         ),
@@ -41,10 +46,23 @@ REORIENT = either(
     sequence(
         verbs.TURN,
         THINGS,
-        f"back {manner.UPRIGHT}, {manner.UPRIGHT}",
-        build=lambda things: ReorientClause(things, upright=True),
+        f"back {manner.UPRIGHT}, {manner.UPRIGHT}, {manner.TURNED_UP}",
+        build=_stood_up,
+    ),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}"),
+            sequence(verbs.WANTED, ALL_THINGS, optional("to (be|stand)")),
+        ),
+        manner.ERECT,
+        build=_stood_up,
     ),
 )
+STANDS_UP = sequence(
+    ALL_THINGS, optional(f"{verbs.BE}, {verbs.LIES}"), manner.ERECT, build=_stood_up
+)
+"""What stands by then ("once it is upright, …")."""
 _IN_ITS_PLACE = sequence(
     noun_phrase,
     "[to] where",

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.common import (
     after,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so, timed
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, begins_like_a_verb
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -111,6 +112,7 @@ WITH_MORE_SO = either(
 """How other things are to be besides ("…, with the door closed")."""
 JOINED = either(
     joint("and", either(COMMA, LIST), LEFT_SO),
+    joint("and", OPTIONAL_COMMA, plain(WITH_A_GRASP)),
     WITH_MORE_SO,
     joint("mere and", "and", LED_CLAUSE),
     joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),

@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.grammar.doubles import (
     bared,
     with_others,
 )
+from etot_cli.reasoning.language.grammar.grasping import GRASP
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
@@ -229,7 +230,7 @@ _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
         *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, HOLD, WISHED, TOLD_APART, BOTH_SO),
-        *(SPREAD, REVERSED),
+        *(SPREAD, REVERSED, GRASP),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)

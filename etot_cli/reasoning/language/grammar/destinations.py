@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     NounPhrase,
     Toward,
+    standing,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -243,6 +244,7 @@ _any_of_them = separated(destination, small_words.OR, most=5)
 DESTINATIONS = Rule(
     either(
         _any_of_them,
+        sequence(manner.STANDS, _any_of_them, build=standing),
         sequence(
             small_words.EITHER, _any_of_them, build=lambda found: found if found[1:] else None
         ),

@@ -21,6 +21,8 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     quality_alone,
 )
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
+    Parser,
     at_end,
     either,
     one_of,
@@ -35,6 +37,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import nouns, small_words
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
     LEVELS,
@@ -167,6 +170,9 @@ ALREADY_THERE = either(
 OPTIONAL_DETERMINER = optional(DETERMINER, "")
 _OF_THEM = sequence(COMMA, phrase("all, both, each, every one"), "of them", either(COMMA, at_end))
 _ANY_ONE = either("one, of them", silent(NOUN_WORD))
+_BEHIND_A_VERB = Parser(
+    lambda given, at: [(at, NOTHING)] if {*given.words[at - 1 : at]} & {*VERB_WORDS, "up"} else []
+)
 _FREE_CHOICE = phrase("any, whichever, a, an, either")
 DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
 LEVEL = sequence(
@@ -238,6 +244,13 @@ noun_phrase.define(
             ),
             quiet(sequence("[the] same", WORDS, "as", noun_phrase, build=_where_it_is)),
             sequence(_FREE_CHOICE, WORDS, nouns.AS_YOU_LIKE, build=NounPhrase),
+            sequence(
+                # "Of the two, take whichever is easier to reach"
+                _BEHIND_A_VERB,
+                "whichever, whatever",
+                nouns.AS_YOU_LIKE,
+                build=lambda: NounPhrase("whichever", ("one",)),
+            ),
             sequence("the, these, those", WORDS, MODIFIERS, _OF_THEM, build=_all_of_them),
             sequence(
                 "a, an, one, any",

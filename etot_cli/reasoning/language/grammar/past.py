@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
@@ -44,7 +45,8 @@ _NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" 
 _SO_BY_THEN = either(
     sequence(
         ALL_THINGS,
-        f"{verbs.BE}, {small_words.GONE}, (is|are) out [of the way], (is|are) (up|down|back|away)",
+        f"{verbs.BE}, (is|are) {verbs.BEING}, {verbs.LIES}, {small_words.GONE},"
+        " (is|are) out [of the way], (is|are) (up|down|back|away)",
         DESTINATIONS,
         build=put_to,
     ),
@@ -71,6 +73,7 @@ _SO_BY_THEN = either(
         DESTINATIONS,
         build=put_to,
     ),
+    STANDS_UP,
     SO,
 )
 """What has been done or is so by then ("once the pear has been put into the bowl")."""

@@ -29,6 +29,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     Things,
     Toward,
+    standing,
 )
 from etot_cli.reasoning.language.words import manner, small_words
 from etot_cli.reasoning.language.words.lexicon import singular
@@ -62,7 +63,7 @@ def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> P
     return (
         None
         if (how == "back" and sweeping) or home
-        else PutGroup(things, where, how is True, back=how == "back")
+        else PutGroup(things, standing(where) if how is True else where, back=how == "back")
     )
 
 
@@ -81,7 +82,7 @@ def _tabled(things: Things, place: NounPhrase) -> PutGroup | None:
 
 _PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
-    optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
+    optional(either(phrase("standing [up]", True), phrase(_PARTICLE)), False),
     _ASIDE,
     WHERE,
     silent(optional(manner.LET_GO, "")),

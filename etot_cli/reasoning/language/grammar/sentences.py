@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.announced import (
     one_for_each,
     shared_out,
 )
+from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.chains import (
     BARE_CHAIN,
     CHAIN,
@@ -96,13 +97,14 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PickClause,
     PutClause,
     PutGroup,
+    RemoveClause,
     SwapClause,
     Things,
     Toward,
     Turns,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY
+from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY, SOURCE
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
@@ -333,10 +335,12 @@ _WITH_MORE_BEFORE_IT = either(
                 sequence(ALL_THINGS, build=taken_out),
                 sequence(
                     ALL_THINGS,
-                    optional(f"{verbs.BE}, out of the way, staying"),
+                    optional(f"{verbs.BE}, out of the way, staying, {verbs.DONE}"),
                     DESTINATIONS,
                     build=put_to,
                 ),
+                sequence(ALL_THINGS, verbs.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
+                STANDS_UP,
                 UNTOUCHED,
             )
         ),

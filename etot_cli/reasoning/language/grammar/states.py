@@ -199,7 +199,7 @@ _ALL_SO = sequence(
 BESIDES_SO = sequence(
     "with",
     NP_LIST,
-    silent(optional("[still|left] (lying|standing|sitting|resting), staying")),
+    silent(optional(f"[still|left] (lying|standing|sitting|resting), staying, {verbs.DONE}")),
     _ALL_SO,
     silent(optional("instead")),
     build=lambda nps, said: _ensured(*said(nps)),

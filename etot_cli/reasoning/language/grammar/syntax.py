@@ -152,6 +152,8 @@ class Destination:
     beside: tuple[Beside, ...] = ()
     denied: bool = False
     """They must not go there ("in a cup, but not in the red one")."""
+    upright: bool = False
+    """They are to stand there."""
     around: tuple[Destination, ...] = ()
     """What the target is in or on, as it is said again ("on the tray, in its place")."""
 
@@ -192,15 +194,32 @@ class PickClause:
 
 
 @dataclass(frozen=True, slots=True)
+class GraspClause:
+    """How things are grasped, whatever is done with them: what ``things`` say, or, where there are
+    none, what is taken at all. No ``poses``: in any way.
+    """
+
+    things: Things | None
+    poses: tuple[GraspPose, ...]
+    asks: bool = False
+    """Where nothing else is asked of them, they are to be picked up."""
+    text: str = ""
+    """As written."""
+
+
+@dataclass(frozen=True, slots=True)
 class PutGroup:
     """Things with the destinations that they share."""
 
     things: Things
     destinations: tuple[Destination, ...]
-    upright: bool = False
-    """They are to stand there."""
     back: bool = False
     """They are put back there."""
+
+    @property
+    def upright(self) -> bool:
+        """Whether they are to stand there."""
+        return any(item.upright for item in self.not_denied.destinations)
 
     @property
     def not_denied(self) -> PutGroup:
@@ -240,6 +259,11 @@ class PutClause:
     """They are left or kept there, which is rather said of what is there already."""
     far_fetched: int = 0
     """By how much the words rather mean something else ("clear X into Y" what is in X)."""
+
+
+def standing(where: tuple[Destination, ...]) -> tuple[Destination, ...]:
+    """Where things are to stand."""
+    return tuple(replace(item, upright=True) for item in where)
 
 
 def put_to(things: Things, where: tuple[Destination, ...]) -> PutClause:
@@ -382,6 +406,7 @@ class AvoidClause:
 
 Clause = (
     PickClause
+    | GraspClause
     | PutClause
     | RemoveClause
     | MoveClause

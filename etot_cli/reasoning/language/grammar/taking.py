@@ -7,14 +7,15 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
+    EMPTY_WORDS,
     IN_HAND,
     LIST,
     OPTIONAL_COMMA,
-    alternatives,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, FILLED
+from etot_cli.reasoning.language.grammar.grasping import GRASPED, HELD_SO, POSES
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -48,31 +49,7 @@ from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
-from etot_cli.skills.action import GraspPose
 
-_POSE = either(
-    phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
-)
-
-
-def _other(pose: GraspPose) -> GraspPose:
-    """The pose that is left where one is ruled out."""
-    return next(item for item in GraspPose if item is not pose)
-
-
-_OTHER_POSE = sequence("not", _POSE, build=_other)
-POSE = either(
-    sequence(optional("only, just"), _POSE, optional("only")),
-    _OTHER_POSE,
-    sequence(
-        _POSE,
-        OPTIONAL_COMMA,
-        optional("and, but"),
-        _OTHER_POSE,
-        build=lambda pose, left: pose if pose is left else None,
-    ),
-)
-POSES = alternatives(POSE, 1)
 SOURCE = sequence(places.SOURCE, noun_phrase)
 
 
@@ -91,12 +68,18 @@ _GATHERED = frozenset(spellings(verbs.GATHER))
 
 PICK = sequence(
     optional(sequence("in, inside, on, from", noun_phrase, OPTIONAL_COMMA), None),
-    optional(sequence(POSES, OPTIONAL_COMMA), None),
+    optional(
+        either(
+            sequence(POSES, OPTIONAL_COMMA, EMPTY_WORDS),
+            sequence(HELD_SO, f"{small_words.PURPOSE}, and, ~comma, (when|while) [you [are]]"),
+        ),
+        None,
+    ),
     phrase(verbs.PICK),
     THINGS,
     optional("up"),
     optional(either(SOURCE, sequence("(from|off [of]) the top of", noun_phrase)), None),
-    optional(sequence(OPTIONAL_COMMA, optional("but, with, using"), POSES), None),
+    optional(GRASPED, None),
     silent(optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")),
     build=_pick,
 )

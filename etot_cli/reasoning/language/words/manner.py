@@ -135,19 +135,36 @@ IN_THIS_ORDER = """
     in (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order
 """
-STANDING = """
-    so [that] (it|they) (stands|stand) (upright|up), standing [upright|up], upright,
-    vertically, on end
+_UPRIGHT = "(upright|vertical|vertically|on end)"
+ERECT = f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation)"
+STANDS = f"""
+    (so [that]|such that) (it|they) (stands|stand|is|are) [standing] ({_UPRIGHT}|up),
+    (so [that]|such that) (it|they) (is|are) standing,
+    {ERECT}
 """
+"""How things stand, ahead of where they do."""
+STANDING = f"{STANDS}, standing [up]"
+TURNED_UP = f"""
+    {STANDING}, to [be] {_UPRIGHT}, until (it|they) (stands|stand|is|are) {_UPRIGHT},
+    (into|to) (an upright|a vertical) (position|pose|orientation)
+"""
+"""Behind what is turned."""
 FITTING = "so [that] (it|they) (fits|fit) [in|inside] [there|it]"
-HORIZONTAL = """
-    horizontally, in a horizontal (pose|grasp), sideways,
-    [with|using] [a] horizontal [grasp|grip|pose], (with|using) a side (grasp|grip),
-    (from|by) (the|its|a|one) (side|sides), from one side
+GRASP = "grasp|grip|pose|pick|hold|approach"
+GRIPPER = "gripper|hand|fingers|wrist"
+_THE_HAND = f"(the|your|its) ({GRIPPER}) [held|kept|being|pointing]"
+HAND_LEVEL = f"{_THE_HAND} (horizontal|horizontally|level|sideways)"
+HAND_DOWN = f"{_THE_HAND} (vertical|vertically|[straight] (down|downward|downwards))"
+HORIZONTAL = f"""
+    horizontally, sideways,
+    [with|using|in|by] [a] (horizontal|sideways|side) ({GRASP}), [a] horizontal,
+    (from|by) (the|its|a|one) (side|sides), from one side,
+    with a horizontal ({GRIPPER}), with {HAND_LEVEL}
 """
-VERTICAL = """
-    vertically, in a vertical (pose|grasp), top down,
-    [with|using] [a] vertical [grasp|grip|pose], (with|using) a (top|top down) (grasp|grip),
+VERTICAL = f"""
+    vertically, top down,
+    [with|using|in|by] [a] (vertical|top|top down|rim) ({GRASP}), [a] vertical,
     [from] (above|straight above|overhead), from (the|its) top, from the top,
-    by (the|its) (rim|edge|top) [from above]
+    by (the|its) (rim|edge|top) [from above],
+    with a vertical ({GRIPPER}), with {HAND_DOWN}
 """

@@ -43,7 +43,7 @@ CONTRAST = "not, just not, only not, and not, but not, rather than, instead of, 
 AS_YOU_LIKE = """
     [that|which] you (like|want|prefer|wish|please|choose),
     [that|which] is (easiest|easier|handy|handier|handiest|simplest|[more|most] convenient)
-    [to (reach|get|grab|get at)|for you],
+    [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)|for you],
     [that|which] you (can reach|find|get) (easiest|first|most easily)
 """
 """Behind what is left open anyway."""

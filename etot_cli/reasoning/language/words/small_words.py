@@ -9,7 +9,10 @@ NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 """What a place begins with, as a regular expression."""
 _WHICH = "which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]"
-_EASIER = "(easier|easiest|best|better|possible|simpler|simplest|[more|most] convenient)"
+_EASIER = """
+    (easier|easiest|best|better|possible|simpler|simplest|[more|most] convenient)
+    [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)]
+"""
 _WILL_DO = "(is|are|would be) (fine|ok|okay|good)|will do|would do|works|work"
 ANY_WILL_DO = f"({_WILL_DO}) [for me]"
 """Behind any of several things, before what is to be done with one of them."""
@@ -35,7 +38,8 @@ WITHOUT_MEANING = f"""
     [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four)], whichever,
     if you can,
     (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
-    in any (orientation|pose|way|manner) [you (like|can|want)], any way you can, no matter how,
+    (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
+    [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
     however you (like|can|want),
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
@@ -249,7 +253,8 @@ _ONCE = "[only|right|straight|just|directly|immediately] (once|after|when|as soo
 BY_THEN = f"[but] ({_ONCE}|not (before|until))"
 AFTER = f"({BY_THEN}) [you have|having|you]"
 GONE = """
-    (has|have) (gone|landed), (has|have) been (put|placed|moved|brought|set|laid) [down|away],
+    (has|have) (gone|landed),
+    (has|have) been (put|placed|moved|brought|set|laid|stood) [down|away],
     (is|are) (put|set|laid) down
 """
 """Between a thing and where it is by then ("after the tuna has gone into the basket")."""

@@ -1,0 +1,253 @@
+"""Rules for how things are grasped: from above, from the side, or by whichever grasp."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.common import (
+    EMPTY_WORDS,
+    OPTIONAL_COMMA,
+    alternatives,
+)
+from etot_cli.reasoning.language.grammar.input import Input, Result
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
+    either,
+    optional,
+    phrase,
+    quiet,
+    sequence,
+    spanned,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.syntax import GraspClause, Things
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.reasoning.language.words.patterns import words_of
+from etot_cli.skills.action import GraspPose
+
+_WAY = either(
+    phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
+)
+_HAND = words_of((manner.GRIPPER,))
+
+
+def _grasped(given: Input, at: int) -> list[Result]:
+    """A way to grasp; "with the hand level" where nothing in the scene is called "hand"."""
+    found = _WAY.find(given, at)
+    return [(end, way) for end, way in found if not _HAND & given.nouns & {*given.words[at:end]}]
+
+
+_POSE = Parser(_grasped, lambda: _WAY.first)
+
+
+def _other(pose: GraspPose) -> GraspPose:
+    """The pose that is left where one is ruled out."""
+    return next(item for item in GraspPose if item is not pose)
+
+
+def _ruled_out(given: Input, at: int) -> list[Result]:
+    """A way not to grasp; behind "from the shelf" "not from the top" may say from where instead."""
+    said = {"from", "off", "out"} & {*given.words[:at]}
+    return [
+        (end, _other(pose))
+        for end, pose in _POSE.find(given, at)
+        if not (said and given.words[at] == "from" and given.words[at + 1] in ("the", "its"))
+    ]
+
+
+_OTHER_POSE = sequence("not", Parser(_ruled_out, lambda: _POSE.first))
+POSE = either(
+    sequence(optional("only, just"), _POSE, optional("only")),
+    _OTHER_POSE,
+    sequence(
+        _POSE,
+        OPTIONAL_COMMA,
+        optional("and, but"),
+        _OTHER_POSE,
+        build=lambda pose, left: pose if pose is left else None,
+    ),
+)
+_BOTH = (GraspPose.VERTICAL, GraspPose.HORIZONTAL)
+POSES = either(alternatives(POSE, 1), phrase("[either] upright or (sideways|horizontally)", _BOTH))
+_OR_BOTH = either(
+    POSES,
+    sequence("both", _POSE, "and", _POSE, build=lambda one, other: (one, other)),
+)
+_GRASPS = word_set("grasp grip pick approach")
+_SAID = _GRASPS | {"from", "by", "down"}
+
+
+def _in_so_many_words(text: str, poses: Any) -> Any:
+    """What is said of a grasp; "vertically" alone may be how something is put down."""
+    return poses if _SAID & {*text.split()} else None
+
+
+def _written(text: str, clause: GraspClause) -> GraspClause:
+    return replace(clause, text=text)
+
+
+def _with_a_grasp(text: str, poses: Any) -> Any:
+    """The grasp that something is done with; "insert it from above" says no such thing."""
+    told = _GRASPS & {*text.split()} and text.startswith(("with ", "using ", "by "))
+    return GraspClause(None, poses) if told else None
+
+
+def _told(parser: Parser) -> Parser:
+    return sequence(spanned(parser, _in_so_many_words), build=lambda poses: poses)
+
+
+_NOT_WITH = sequence(
+    verbs.WITHOUT,
+    either(
+        sequence(
+            "grasping, gripping, holding, picking, lifting, taking, approaching",
+            optional("it, them"),
+            optional("up"),
+            _POSE,
+        ),
+        sequence("using", _POSE),
+    ),
+    build=lambda pose: (_other(pose),),
+)
+GRASPED = sequence(
+    OPTIONAL_COMMA,
+    either(
+        sequence(
+            optional(
+                "but, with, using, being, [being] (grasped|gripped|held|approached),"
+                "[while|by] (grasping|gripping|holding|approaching) (it|them)"
+            ),
+            POSES,
+        ),
+        _NOT_WITH,
+        sequence(
+            "[while|by] (keeping|holding)",
+            either(
+                phrase(manner.HAND_LEVEL, (GraspPose.HORIZONTAL,)),
+                phrase(manner.HAND_DOWN, (GraspPose.VERTICAL,)),
+            ),
+        ),
+    ),
+)
+"""Behind what is picked up."""
+WITH_A_GRASP = spanned(
+    either(
+        sequence(spanned(POSES, _with_a_grasp), build=lambda clause: clause),
+        valued(_NOT_WITH, lambda poses: GraspClause(None, poses)),
+    ),
+    _written,
+)
+"""Behind what is put somewhere."""
+HELD_SO = either(
+    sequence("us(e|ing), try[ing]", POSES),
+    sequence(
+        "[by|while] (keep|keeping|hold|holding)",
+        either(
+            phrase(manner.HAND_LEVEL, (GraspPose.HORIZONTAL,)),
+            phrase(manner.HAND_DOWN, (GraspPose.VERTICAL,)),
+        ),
+    ),
+)
+"""Before what is picked up ("use a vertical grasp to …", "keep the gripper level while you …")."""
+
+
+def _so(poses: tuple[GraspPose, ...], things: Things | None = None) -> GraspClause:
+    """How things are grasped; "it" is what is taken, wherever it goes."""
+    again = things is None or all(np.pronoun for np in things.phrases)
+    return GraspClause(None if again else things, poses)
+
+
+def _asked(things: Things, poses: tuple[GraspPose, ...]) -> GraspClause:
+    return GraspClause(things, poses, asks=True)
+
+
+def _not_so(things: Things, pose: GraspPose) -> GraspClause:
+    return _so((_other(pose),), things)
+
+
+def _anyhow(things: Things) -> GraspClause:
+    return _so((), things)
+
+
+_BY_THE_HAND = "grasped, gripped, held, grabbed"
+_HOW = sequence(
+    "how, in (what|which) way",
+    either(
+        sequence(
+            ALL_THINGS,
+            "(is|are|gets|get) [to be] (grasped|gripped|held|grabbed|picked up|taken|lifted)",
+        ),
+        sequence("you [are to|should]", verbs.PICK, THINGS, optional("up")),
+    ),
+)
+GRASP = quiet(
+    spanned(
+        either(
+            # "Use a side grasp on the holder"
+            sequence(
+                "us(e|ing), try[ing]",
+                _told(POSES),
+                "on, for, with",
+                ALL_THINGS,
+                build=lambda poses, things: _asked(things, poses),
+            ),
+            sequence("us(e|ing), try[ing]", _told(POSES), build=_so),
+            sequence(_told(_OR_BOTH), small_words.ANY_WILL_DO, build=_so),
+            sequence(
+                "the (grasp|grip)", "(should|must|may|can|has to|needs to) be", POSES, build=_so
+            ),
+            sequence(_told(valued(_OTHER_POSE, lambda pose: (pose,))), build=_so),
+            sequence(
+                f"{verbs.DO_NOT}, {verbs.WITHOUT}, avoid[ing]",
+                optional("us(e|ing)"),
+                _told(_POSE),
+                build=lambda pose: _so((_other(pose),)),
+            ),
+            sequence(
+                ALL_THINGS,
+                verbs.NOT_TO_BE,
+                f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
+                _POSE,
+                build=_not_so,
+            ),
+            sequence(_BY_THE_HAND, POSES, build=_so),
+            sequence(
+                "approach[ing]", THINGS, POSES, build=lambda things, poses: _so(poses, things)
+            ),
+            sequence(
+                f"{verbs.DO_NOT}, {verbs.WITHOUT}",
+                verbs.PICK,
+                THINGS,
+                optional("up"),
+                _POSE,
+                build=_not_so,
+            ),
+            sequence(
+                either(
+                    sequence(ALL_THINGS, verbs.TO_BE_DONE),
+                    sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+                    sequence(ALL_THINGS, OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA),
+                ),
+                f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
+                POSES,
+                build=_asked,
+            ),
+            sequence(
+                "[i] do not (care|mind), [(it|that)] does not matter, no matter",
+                _HOW,
+                build=_anyhow,
+            ),
+            sequence(
+                _HOW,
+                "does not matter, is up to you, is your (choice|decision), is not important,"
+                "is (irrelevant|unimportant)",
+                build=_anyhow,
+            ),
+        ),
+        _written,
+    )
+)
+"""How things are grasped, and no more."""
