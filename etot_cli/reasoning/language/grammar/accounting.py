@@ -85,7 +85,7 @@ _FIXED = """
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
     only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
     (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
-    a little open, before (you touch|touching|you do anything|doing anything) [to|with],
+    (when|once|after|by the time) all is, a little open, before (you touch|touching|you do anything|doing anything) [to|with],
     (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on)
 """
 """Phrases in which such words say something else, or nothing of their own."""
@@ -191,7 +191,10 @@ def _said(node: object) -> Iterator[str]:
             yield _DENIAL
         case RemoveClause(without=without):
             yield from ("empty", *((_DENIAL,) if without else ()))
-        case AvoidClause(avoid=avoid):
+        case AvoidClause(avoid=avoid, things=things):
+            said = things.phrases if things else ()
+            all_but = any(item.prep is Prep.EXCEPT for np in said for item in np.modifiers)
+            yield from ("only",) if all_but else ()
             yield from (_DENIAL, "other", "any", "after", "afterwards")
             yield from ("empty",) if avoid is Avoid.PUT else ()
         case Beside(text=text) if "other side of" in text:

@@ -118,7 +118,7 @@ _BEING = "standing|lying|sitting|located|resting"
 BEING = f"({_BEING}|being)"
 _MUST = """
     should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had better|
-    (is|are) (supposed|meant) to
+    (is|are) (supposed|meant) to, will (have|need) to
 """
 _SIMPLY = "[simply|[just] as well|just|also|please|best]"
 _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
@@ -281,6 +281,10 @@ DISTURBED = """
     removed, taken [away|out|off], knocked over
 """
 """Behind what must not be."""
+MAY = "may, can, could, should, must, (is|are) to, (is|are) (allowed|permitted|supposed) to"
+"""Before what may be done with some things alone."""
+MOVED_ONLY = "moved [around|about|away]|disturbed|lifted [up]|picked up|shifted|displaced"
+TOUCHED_ONLY = "touched"
 WITHOUT = """
     without, [while] (making|being) sure not to, [while] being careful not to,
     [while] taking care not to, so as not to
