@@ -11,7 +11,7 @@ WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 _WHICH = "which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]"
 _EASIER = "(easier|easiest|best|better|possible|simpler|simplest|[more|most] convenient)"
 _WILL_DO = "(is|are|would be) (fine|ok|okay|good)|will do|would do|works|work"
-ANY_WILL_DO = f"({_WILL_DO}) [for me]"
+ANY_WILL_DO = f"({_WILL_DO}) [(for|with|by) (me|us)]"
 """Behind any of several things, before what is to be done with one of them."""
 WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
@@ -30,7 +30,7 @@ WITHOUT_MEANING = f"""
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
-    (either|any|each|both) [one] [of (them|these|those|the two)] ({_WILL_DO}),
+    (either|any|each|both) [one] [of (them|these|those|the two)] ({ANY_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
     [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four)], whichever,
     if you can,
@@ -102,6 +102,8 @@ FRAMES = f"""
     [is there] any (chance|way) [that] you (can|could|would),
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is,
+    (all|what|the only thing) ([that] you (have|need) to do|
+    [that] (i|we) (want|need|would like) you to do|[[that] there is] to do) is [to],
     i [only] (want|need|would like|d like) you to,
     i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
     [the] robot (should|must|has to|needs to), make sure to,
