@@ -156,8 +156,11 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     if plain is None:
         raise UnreadableError(instruction, "")
     goal = _read(plain.text, scene, vocabulary)
-    said = (_as_written(aside, instruction) for aside in plain.asides)
-    notes = (f"{text!r} is not asked for: the rest is done" for text in said)
+    notes = (
+        f"{_as_written(aside, instruction)!r} is "
+        + ("done where it has to be" if aside in plain.anyway else "not asked for: the rest is done")
+        for aside in plain.asides
+    )
     return replace(goal, notes=(*notes, *goal.notes))
 
 

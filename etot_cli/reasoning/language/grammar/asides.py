@@ -8,8 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from etot_cli.reasoning.language.grammar.left_open import (
+    done_where_needed,
+    is_left_open,
+    is_wondering,
+    leaves_choice,
+)
 from etot_cli.reasoning.language.grammar.remarks import (
     BEFORE_NAMES,
     PEOPLE,
@@ -17,7 +23,9 @@ from etot_cli.reasoning.language.grammar.remarks import (
     asks_besides,
     is_comment,
     is_doing,
+    is_not_to_stay,
     is_of_people,
+    is_plan,
     is_purpose,
     is_reason,
     is_remark,
@@ -48,7 +56,8 @@ ASIDE = "~aside"
 MOST = 4
 """Remarks of one instruction; who has more to tell may be asking for something by it."""
 _WITHIN = re.compile(
-    r"(?P<reason>because|since|now that|although|even though|in case"
+    r"(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
+    r"|(?P<reason>because|since|now that|although|even though|even if|in case"
     rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
     rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
     rf"|or(?= (?:{PEOPLE}|it|they) \w+))\b"
@@ -76,9 +85,14 @@ SAYS_NOTHING = frozenset(
 """Sentences and clauses that ask for nothing."""
 _BEFORE = {
     "so": word_set("is are was were am not feel feels look looks get gets got"),
-    "where": word_set("is"),
+    "where": word_set("is care mind matter difference important"),
 }
 """Words behind which others begin no clause ("my hands are so dry", "that is where I like it")."""
+_GRANTED = ("make sure that", "but not")
+"""In place of "as long as", where that asks for something."""
+_OF_ANY = re.compile(r"\b(?:any|either|whichever|one of|an?) (?:\w+ ){0,3}\w+$")
+_OTHER_THAN = re.compile(r"it is not (?P<one>(?:the|my|our) (?:\w+ ){0,3}\w+)$")
+_TO_ME = ["to", "me"]
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 _LIKED = [["favourite"], ["favorite"], ["best"]]
 IsSentence = Callable[[str], bool]
@@ -92,6 +106,8 @@ class Plain:
 
     text: str
     asides: tuple[str, ...]
+    anyway: tuple[str, ...]
+    """Of these, what is done where it has to be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +126,11 @@ class _Clause:
     def text(self) -> str:
         """As it stands."""
         return " ".join(filter(None, (COMMA * self.comma, self.joint, self.said)))
+
+    @property
+    def whole(self) -> str:
+        """The clause with the joint that belongs to it."""
+        return self.said if self.kind == "plain" else f"{self.joint} {self.said}".strip()
 
     @property
     def is_polite(self) -> bool:
@@ -146,6 +167,7 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     rest = [part.rest for part in parted if part.rest]
     asides = [aside for part in parted for aside in part.asides]
     cut = any(part.before or part.after for part in parted)
+    cut = cut or rest != sentences_of(text)
     if not cut or not rest or len(asides) > MOST or _mistakable(parted, is_name):
         return None
     told = [item.said for item in asides if item.kind in ("", "plain")]
@@ -161,24 +183,30 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     return Plain(
         ". ".join(said.replace(f" {COMMA}", ",") for said in kept if said),
         tuple(_as_told(item, part) for part in parted for item in part.asides),
-    )
+        tuple(_as_told(item, part) for part in parted for item in part.asides
+              if item.kind == "anyway"),
+    )  # fmt: skip
 
 
 def _as_told(aside: _Clause, part: _Parted) -> str:
     """An aside, with the word for why where it stands behind a request."""
-    whole = aside.kind != "plain" and aside in part.after
+    whole = is_left_open(aside.whole) or (aside.kind != "plain" and aside in part.after)
     return spaced(f"{aside.joint if whole else ''} {aside.said}".split())
 
 
 def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     """A sentence and its asides."""
     said = (word for word in words_in(sentence) if word != QUESTION)
-    clauses = list(_clauses(" ".join(said).replace(COLON, COMMA)))
+    clauses = list(_with_what_is_done(list(_clauses(" ".join(said).replace(COLON, COMMA)))))
+    if QUESTION in sentence and is_wondering(sentence):
+        return _Parted("", tuple(clauses))
     cut = [at for at in range(len(clauses)) if _is_aside(clauses, at, is_name)]
+    clauses = [_asked_for(clauses, at) for at in range(len(clauses))]
     # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
     outside = len(cut) == len(clauses) and not is_of_people(sentence)
     forced = outside or any(_is_no_phrase(clauses[at], is_name) for at in cut)
-    if not cut or (is_sentence(sentence) and not forced):
+    granted = any(clause.joint in _GRANTED for clause in clauses)
+    if not (cut or granted) or (is_sentence(sentence) and not forced):
         return _Parted(sentence)
     left = [at for at in range(len(clauses)) if at not in cut]
     rest = " ".join(clauses[at].text for at in left)
@@ -192,6 +220,28 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     )
 
 
+def _with_what_is_done(clauses: Sequence[_Clause]) -> Iterator[_Clause]:
+    """Clauses, those of them in one that call for what is done without them."""
+    at = 0
+    while at < len(clauses):
+        count = done_where_needed([item.said for item in clauses[at:]])
+        said = f" {COMMA} ".join(item.said for item in clauses[at : at + count])
+        yield replace(clauses[at], kind="anyway", said=said) if count else clauses[at]
+        at += count or 1
+
+
+def _asked_for(clauses: Sequence[_Clause], at: int) -> _Clause:
+    """What is asked for by "as long as" where all else is left open; else the clause as it is."""
+    clause = clauses[at]
+    if clause.kind != "provided" or not at:
+        return clause
+    denied = _OTHER_THAN.match(clause.said)
+    if denied and _OF_ANY.search(clauses[at - 1].said):
+        return replace(clause, kind="", joint="but not", said=denied["one"])
+    granted = leaves_choice(clauses[at - 1].whole)
+    return replace(clause, kind="", joint="make sure that") if granted else clause
+
+
 def _is_no_phrase(aside: _Clause, is_name: IsName) -> bool:
     """Whether an aside is one even where the grammar finds a phrase in it, such as a thing called
     "seed box leaks".
@@ -201,6 +251,7 @@ def _is_no_phrase(aside: _Clause, is_name: IsName) -> bool:
     first, verb = (*aside.said.split(), "", "")[:2]
     outside = first not in ALL_WORDS and not is_name(first) and verb in ("is", "are", "has", "have")
     told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
+    told = told or is_not_to_stay(aside.said)
     return told or strange or outside
 
 
@@ -239,8 +290,9 @@ def _clauses(sentence: str) -> Iterator[_Clause]:
         ahead = " ".join(words[at + mark :])
         begun = mark or at == 0
         found = _WITHIN.match(ahead) or (_AHEAD.match(ahead) if begun else None)
-        if found and not begun and words[at - 1] in _BEFORE.get(found[0], ()):
-            found = None
+        if found and not begun:
+            behind = words[at - 1] in _BEFORE.get(found[0], ()) or words[at - 2 : at] == _TO_ME
+            found = None if behind else found
         if (mark or found) and (said or joint):
             yield _Clause(comma, kind, joint, " ".join(said))
             comma, kind, joint, said = mark, "", "", []
@@ -262,8 +314,12 @@ def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
         trailing = clauses[at + 1].comma and clauses[at + 1].said.startswith(_PLACES)
     if clause.is_polite and len(clauses) > 1:
         return not clause.said or clause.kind != "polite"
+    if clause.kind == "anyway" or is_left_open(clause.whole):
+        return True
     match clause.kind, clause.joint:
         case _ if not clause.said:
+            return False
+        case "provided", _:
             return False
         case (("reason" | "meanwhile"), _):
             reason = is_reason(clause.said, is_name)
@@ -280,6 +336,9 @@ def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
             return trailing and is_warning(clause.said)
         case "comment", _:
             return clause.comma and is_comment(clause.said, is_name)
+    if at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so"):
+        if is_plan(clause.said, is_name):
+            return True
     return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
 
 

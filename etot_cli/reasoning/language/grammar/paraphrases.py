@@ -79,8 +79,8 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     *WHEREABOUTS,
     (_WISHED, _as_asked),
     (
-        r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood|(?:would|will|could|can) you"
-        r"(?: please)?)(?:\?|(?=[.!]*$))",
+        r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood"
+        r"|(?:would|will|could|can) you(?: please)?)(?:\?|(?=[.!]*$))",
         ".",
     ),
     (

@@ -63,6 +63,11 @@ _HAPPENED = re.compile(
     r"(?!(?:want|lik|wish|ask|hop|expect|prefer)\w*ed\b|need)\w+ed|forget|lose|spill)\b"
 )
 """What somebody did, is or is about to do."""
+_PLANNED = re.compile(
+    r"(?:i|we) (?:(?:just|also|still|soon) )?(?:(?:have|need|want|would like|plan|hope) to"
+    r"|(?:am|are) (?:going|about) to|will(?: have to| need to)?) (?P<did>\w+(?: [^~]+)?)$"
+)
+"""What somebody is about to do."""
 _HABIT = re.compile(
     r"^(?:take|have|drink|eat|like|love|prefer)s? (?:my|our|his|her|their) (?P<what>\w+) "
 )
@@ -138,11 +143,16 @@ _PREDICATE = re.compile(
     r"(?= |$)"
 )
 _TOO_SO = re.compile(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
+_NOT_STAYING = (
+    r"(?:can|must|should|may) not (?:be (?:left|kept)|stay|remain)"
+    r"(?: (?:like (?:this|that)|as (?:it is|they are)|that way|so))?"
+)
 _NO_PLACE = re.compile(
     rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
     rf"|^(?:is|are) (?:going|turning) (?:{TURNED})$"
+    rf"|^{_NOT_STAYING}$"
     r"|^(?:must|should) (?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
     r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "
     r"(?:warm|cold|cool|dry|fresh|clean|safe)$"
@@ -182,6 +192,11 @@ _OR_WILL = re.compile(
     rf"^(?:{PEOPLE}|it|they) \w+|^{_THING} (?:will |might |may )?(?:get|go|turn)s? (?:{TURNED})$"
 )
 _COMMENT = re.compile(r"^(?:is|are|was|were|has|have) ")
+
+
+def is_not_to_stay(said: str) -> bool:
+    """Whether something cannot stay as or where it is, of which is not said how that is."""
+    return bool(re.search(rf"^(?:it|they|{_THING}) {_NOT_STAYING}(?: here| there)?$", said))
 
 
 def is_doing(word: str) -> bool:
@@ -230,6 +245,20 @@ def is_comment(said: str, is_name: IsName) -> bool:
     if is_of_people(said):
         return is_remark(said, is_name) and not any(map(is_name, said.split()))
     return bool(_COMMENT.match(said)) and _is_idle(said, is_name)
+
+
+def is_plan(said: str, is_name: IsName) -> bool:
+    """Whether somebody is about to do something himself with what is not in the scene, before "so"
+    ("I have to put my lunch in the microwave").
+    """
+    found = _PLANNED.match(said)
+    if not found or asks_besides(said):
+        return False
+    words = found["did"].split()
+    at = next((at for at, word in enumerate(words) if word in _PLACED), len(words))
+    told = words[1:at]
+    vague = (_REFERRING | _ASKING | {*THING_NOUNS}) - {"something"}
+    return not (any(map(is_name, told)) or vague & {*words})
 
 
 def is_reason(said: str, is_name: IsName) -> bool:

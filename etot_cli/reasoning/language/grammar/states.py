@@ -313,7 +313,7 @@ ENSURE = either(
                 ),
             ),
             either(OPEN_OR_CLOSED, DESTINATIONS),
-            optional(small_words.ANY_MORE),
+            optional(f"{small_words.ANY_MORE}, like (this|that)"),
             build=lambda nps, so: _ensured(opposite(nps, so)),
         )
     ),

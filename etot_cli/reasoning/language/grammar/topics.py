@@ -48,8 +48,9 @@ from etot_cli.reasoning.language.words.places import Prep
 
 
 def _topic(things: Things) -> ReorientClause | None:
-    """What is named; "milk out of the fridge" rather says what is to be done."""
-    return None if sources(things) else ReorientClause(things, only_named=True)
+    """What is named, be it with "or"; "milk out of the fridge" rather says what is to be done."""
+    named = replace(things, either=False)
+    return None if sources(things) else ReorientClause(named, only_named=True)
 
 
 def sources(things: Things) -> list[Modifier]:
