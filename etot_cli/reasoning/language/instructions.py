@@ -156,9 +156,9 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     if plain is None:
         raise UnreadableError(instruction, "")
     goal = _read(plain.text, scene, vocabulary)
+    ways = ("not asked for: the rest is done", "done where it has to be")
     notes = (
-        f"{_as_written(aside, instruction)!r} is "
-        + ("done where it has to be" if aside in plain.anyway else "not asked for: the rest is done")
+        f"{_as_written(aside, instruction)!r} is {ways[aside in plain.anyway]}"
         for aside in plain.asides
     )
     return replace(goal, notes=(*notes, *goal.notes))

@@ -8,14 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from etot_cli.reasoning.language.grammar.left_open import (
-    done_where_needed,
-    is_left_open,
-    is_wondering,
-    leaves_choice,
-)
+from etot_cli.reasoning.language.grammar.aside_clauses import GRANTED, Clause, clauses_of
+from etot_cli.reasoning.language.grammar.left_open import is_left_open, is_plan, is_wondering
 from etot_cli.reasoning.language.grammar.remarks import (
     BEFORE_NAMES,
     PEOPLE,
@@ -25,7 +21,6 @@ from etot_cli.reasoning.language.grammar.remarks import (
     is_doing,
     is_not_to_stay,
     is_of_people,
-    is_plan,
     is_purpose,
     is_reason,
     is_remark,
@@ -43,56 +38,13 @@ from etot_cli.reasoning.language.grammar.text import (
 )
 from etot_cli.reasoning.language.words.known import ALL_WORDS
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, is_descriptive, word_set
-from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.small_words import (
-    ANNOUNCED,
-    ANY_ONE,
-    TIDYING,
-    WITHOUT_MEANING,
-)
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
 MOST = 4
 """Remarks of one instruction; who has more to tell may be asking for something by it."""
-_WITHIN = re.compile(
-    r"(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
-    r"|(?P<reason>because|since|now that|although|even though|even if|in case"
-    rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
-    rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
-    rf"|or(?= (?:{PEOPLE}|it|they) \w+))\b"
-    r"|(?P<meanwhile>while(?= (?:i|we|my|our)\b))\b"
-    r"|(?P<polite>if (?:you (?:do not|would not) mind|i may|(?:it|that) is (?:all right|alright"
-    r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
-    r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
-    rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
-    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA})))\b"
-)
-"""Words that a clause begins with wherever they stand."""
-_AHEAD = re.compile(
-    r"(?P<reason>as(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
-    r"|though)\b"
-    r"|(?P<comment>which)\b|(?P<purpose>otherwise)\b"
-    r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b"
-)
-"""Words that one begins with behind a comma, or as the first of a sentence."""
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
 _LEADING = re.compile(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
-SAYS_NOTHING = frozenset(
-    said.removeprefix(f"{COMMA} ").replace(f" {COMMA}", ",")
-    for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}")
-)
-"""Sentences and clauses that ask for nothing."""
-_BEFORE = {
-    "so": word_set("is are was were am not feel feels look looks get gets got"),
-    "where": word_set("is care mind matter difference important"),
-}
-"""Words behind which others begin no clause ("my hands are so dry", "that is where I like it")."""
-_GRANTED = ("make sure that", "but not")
-"""In place of "as long as", where that asks for something."""
-_OF_ANY = re.compile(r"\b(?:any|either|whichever|one of|an?) (?:\w+ ){0,3}\w+$")
-_OTHER_THAN = re.compile(r"it is not (?P<one>(?:the|my|our) (?:\w+ ){0,3}\w+)$")
-_TO_ME = ["to", "me"]
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 _LIKED = [["favourite"], ["favorite"], ["best"]]
 IsSentence = Callable[[str], bool]
@@ -111,43 +63,15 @@ class Plain:
 
 
 @dataclass(frozen=True, slots=True)
-class _Clause:
-    """A piece of a sentence.
-
-    ``comma``: one stands before it. ``joint``: what it begins with, of some ``kind``.
-    """
-
-    comma: bool
-    kind: str
-    joint: str
-    said: str
-
-    @property
-    def text(self) -> str:
-        """As it stands."""
-        return " ".join(filter(None, (COMMA * self.comma, self.joint, self.said)))
-
-    @property
-    def whole(self) -> str:
-        """The clause with the joint that belongs to it."""
-        return self.said if self.kind == "plain" else f"{self.joint} {self.said}".strip()
-
-    @property
-    def is_polite(self) -> bool:
-        """Whether there is nothing to be told in it."""
-        return self.kind == "polite" or f"{self.joint} {self.said}".strip() in SAYS_NOTHING
-
-
-@dataclass(frozen=True, slots=True)
 class _Parted:
     """A sentence: what is left of it, and the asides before and behind that."""
 
     rest: str
-    before: tuple[_Clause, ...] = ()
-    after: tuple[_Clause, ...] = ()
+    before: tuple[Clause, ...] = ()
+    after: tuple[Clause, ...] = ()
 
     @property
-    def asides(self) -> tuple[_Clause, ...]:
+    def asides(self) -> tuple[Clause, ...]:
         """Those that tell something."""
         return tuple(item for item in (*self.before, *self.after) if not item.is_polite)
 
@@ -188,7 +112,7 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     )  # fmt: skip
 
 
-def _as_told(aside: _Clause, part: _Parted) -> str:
+def _as_told(aside: Clause, part: _Parted) -> str:
     """An aside, with the word for why where it stands behind a request."""
     whole = is_left_open(aside.whole) or (aside.kind != "plain" and aside in part.after)
     return spaced(f"{aside.joint if whole else ''} {aside.said}".split())
@@ -197,15 +121,14 @@ def _as_told(aside: _Clause, part: _Parted) -> str:
 def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     """A sentence and its asides."""
     said = (word for word in words_in(sentence) if word != QUESTION)
-    clauses = list(_with_what_is_done(list(_clauses(" ".join(said).replace(COLON, COMMA)))))
+    clauses = clauses_of(" ".join(said).replace(COLON, COMMA))
     if QUESTION in sentence and is_wondering(sentence):
         return _Parted("", tuple(clauses))
     cut = [at for at in range(len(clauses)) if _is_aside(clauses, at, is_name)]
-    clauses = [_asked_for(clauses, at) for at in range(len(clauses))]
     # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
     outside = len(cut) == len(clauses) and not is_of_people(sentence)
     forced = outside or any(_is_no_phrase(clauses[at], is_name) for at in cut)
-    granted = any(clause.joint in _GRANTED for clause in clauses)
+    granted = any(clause.joint in GRANTED for clause in clauses)
     if not (cut or granted) or (is_sentence(sentence) and not forced):
         return _Parted(sentence)
     left = [at for at in range(len(clauses)) if at not in cut]
@@ -220,29 +143,7 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     )
 
 
-def _with_what_is_done(clauses: Sequence[_Clause]) -> Iterator[_Clause]:
-    """Clauses, those of them in one that call for what is done without them."""
-    at = 0
-    while at < len(clauses):
-        count = done_where_needed([item.said for item in clauses[at:]])
-        said = f" {COMMA} ".join(item.said for item in clauses[at : at + count])
-        yield replace(clauses[at], kind="anyway", said=said) if count else clauses[at]
-        at += count or 1
-
-
-def _asked_for(clauses: Sequence[_Clause], at: int) -> _Clause:
-    """What is asked for by "as long as" where all else is left open; else the clause as it is."""
-    clause = clauses[at]
-    if clause.kind != "provided" or not at:
-        return clause
-    denied = _OTHER_THAN.match(clause.said)
-    if denied and _OF_ANY.search(clauses[at - 1].said):
-        return replace(clause, kind="", joint="but not", said=denied["one"])
-    granted = leaves_choice(clauses[at - 1].whole)
-    return replace(clause, kind="", joint="make sure that") if granted else clause
-
-
-def _is_no_phrase(aside: _Clause, is_name: IsName) -> bool:
+def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     """Whether an aside is one even where the grammar finds a phrase in it, such as a thing called
     "seed box leaks".
     """
@@ -280,32 +181,7 @@ def _are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> bo
     )
 
 
-def _clauses(sentence: str) -> Iterator[_Clause]:
-    """The pieces of a sentence."""
-    words = sentence.split()
-    comma, kind, joint, said = False, "", "", list[str]()
-    at = 0
-    while at < len(words):
-        mark = words[at] == COMMA
-        ahead = " ".join(words[at + mark :])
-        begun = mark or at == 0
-        found = _WITHIN.match(ahead) or (_AHEAD.match(ahead) if begun else None)
-        if found and not begun:
-            behind = words[at - 1] in _BEFORE.get(found[0], ()) or words[at - 2 : at] == _TO_ME
-            found = None if behind else found
-        if (mark or found) and (said or joint):
-            yield _Clause(comma, kind, joint, " ".join(said))
-            comma, kind, joint, said = mark, "", "", []
-        if found:
-            kind, joint = str(found.lastgroup), found[0]
-            at += mark + len(joint.split())
-        else:
-            said += [] if mark else [words[at]]
-            at += 1
-    yield _Clause(comma, kind, joint, " ".join(said))
-
-
-def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
+def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     """Whether one of a sentence's clauses asks for nothing."""
     clause = clauses[at]
     last = at + 1 == len(clauses) or is_doing((clauses[at + 1].said.split() or [""])[0])
@@ -336,13 +212,13 @@ def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
             return trailing and is_warning(clause.said)
         case "comment", _:
             return clause.comma and is_comment(clause.said, is_name)
-    if at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so"):
-        if is_plan(clause.said, is_name):
-            return True
+    so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
+    if so and is_plan(clause.said, is_name):
+        return True
     return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
 
 
-def _named(asides: Sequence[_Clause], is_name: IsName) -> str:
+def _named(asides: Sequence[Clause], is_name: IsName) -> str:
     """What asides name in the scene, as a remark."""
     phrases = [phrase for aside in asides for phrase in _phrases(aside.said.split(), is_name)]
     return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""

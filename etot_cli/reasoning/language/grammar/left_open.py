@@ -1,11 +1,20 @@
-"""Whether a clause leaves something open, wonders at how things are, or calls for what is done
-anyway where it has to be: none of them asks for anything.
+"""Whether a clause leaves something open, wonders at how things are, tells what somebody is about
+to do, or calls for what is done anyway where it has to be: none of them asks for anything.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+
+from etot_cli.reasoning.language.grammar.remarks import (
+    ASKING,
+    PLACED,
+    REFERRING,
+    IsName,
+    asks_besides,
+)
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS
 
 _I = r"(?:i|we)"
 _NOT_CARING = (
@@ -32,13 +41,18 @@ _LEFT_OPEN = re.compile(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
     rf"|{_WHAT} {_NO_MATTER}|the (?:exact )?{_MANNER} {_NO_MATTER}"
     rf"|any {_MANNER} (?:is fine|is ok|is okay|will do|would do|works)(?: (?:for|with|by) me)?"
-    r"|(?:the|my|our) (?:(?!not\b)\w+ ){1,3}(?:can|may|might|could) (?:go|be|end up|stand|lie|be put)"
-    r" (?:just )?(?:anywhere|wherever)(?: (?:you (?:like|want)|else))?"
+    r"|(?:the|my|our) (?:(?!not\b)\w+ ){1,3}(?:can|may|might|could)"
+    r" (?:go|be|end up|stand|lie|be put) (?:just )?(?:anywhere|wherever)(?: you (?:like|want))?"
     r"|do (?:what|as|it how|it however|whatever) you (?:like|want|please)"
 )
 _ANY_WILL_DO = re.compile(
     r"(?:any|either) (?:\w+ ){1,4}?(?:will do|would do|is (?:fine|ok|okay)|works)(?: for me)?"
 )
+_PLANNED = re.compile(
+    r"(?:i|we) (?:(?:just|also|still|soon) )?(?:(?:have|need|want|would like|plan|hope) to"
+    r"|(?:am|are) (?:going|about) to|will(?: have to| need to)?) (?P<did>\w+(?: [^~]+)?)$"
+)
+"""What somebody is about to do."""
 _WONDERING = re.compile(
     r"(?:why (?:is|are|was|were|has|have|did)|how come|who (?:left|put|opened|closed|moved|took"
     r"|forgot|has left|has put|has moved|has opened|has closed))\b(?!.*\b(?:not|you)\b)"
@@ -54,22 +68,19 @@ _IN_THE_WAY = r"(?:is|are|gets?|stands?|happens? to be|should be) in the way"
 _IF_IN_THE_WAY = re.compile(
     rf"if (?:{_THING}|it|something|anything|one of them) {_IN_THE_WAY}(?: of (?:it|that|{_THING}))?"
 )
-_TAKE_IT_AWAY = re.compile(
-    rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|(?:remove|move) {_IT}){_FIRST}"
-)
+_TAKE_IT_AWAY = re.compile(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|(?:remove|move) {_IT}){_FIRST}")
 _NEEDED = (
     rf"if (?:(?:it is |that is |they are )?(?:necessary|needed|required)|you (?:need|have) to"
     rf"|(?:it|they) {_IN_THE_WAY})"
 )
+_MAY_HAVE_TO = "(?:may|might|could) (?:have|need) to"
+_TAKEN = rf"(?:moved|taken|put|removed)(?: {_OUT})?"
 _WHERE_NEEDED = re.compile(
     rf"{_YOU}(?:(?:{_TAKE}|{_TAKING}) {_THING} {_OUT}|(?:remove|removing|move|moving) {_THING})"
     rf"{_FIRST} {_NEEDED}"
-    rf"|{_THING} (?:may|might|can|could) (?:have to |need to )?be (?:moved|taken|put|removed)"
-    rf"(?: {_OUT})?{_FIRST} {_NEEDED}"
-    rf"|you (?:may|might|could) (?:have|need) to (?:{_TAKE} {_THING} {_OUT}|(?:remove|move) {_THING})"
-    rf"{_FIRST}"
-    rf"|{_THING} (?:may|might|could) (?:have|need) to be (?:moved|taken|put|removed)(?: {_OUT})?"
-    rf"{_FIRST}"
+    rf"|{_THING} (?:may|might|can|could) be {_TAKEN}{_FIRST} {_NEEDED}"
+    rf"|(?:you {_MAY_HAVE_TO} (?:{_TAKE} {_THING} {_OUT}|(?:remove|move) {_THING})"
+    rf"|{_THING} {_MAY_HAVE_TO} be {_TAKEN}){_FIRST}(?: {_NEEDED})?"
 )
 
 
@@ -81,6 +92,20 @@ def is_left_open(said: str) -> bool:
 def leaves_choice(said: str) -> bool:
     """Whether behind a clause "as long as" says what is asked for, of whatever is left open."""
     return is_left_open(said) or bool(_ANY_WILL_DO.fullmatch(said))
+
+
+def is_plan(said: str, is_name: IsName) -> bool:
+    """Whether somebody is about to do something himself with what is not in the scene, before "so"
+    ("I have to put my lunch in the microwave").
+    """
+    found = _PLANNED.match(said)
+    if not found or asks_besides(said):
+        return False
+    words = found["did"].split()
+    at = next((at for at, word in enumerate(words) if word in PLACED), len(words))
+    told = words[1:at]
+    vague = (REFERRING | ASKING | {*THING_NOUNS}) - {"something"}
+    return not (any(map(is_name, told)) or vague & {*words})
 
 
 def is_wondering(sentence: str) -> bool:

@@ -223,9 +223,7 @@ PUT = either(
     ),
     sequence(
         # With what is opened next it is rather out of the way of that.
-        either(
-            sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS), sequence(ALL_THINGS, verbs.MODAL)
-        ),
+        either(sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS), sequence(ALL_THINGS, verbs.MODAL)),
         places.SAFELY,
         build=lambda things: replace(put_to(things, DOWN), far_fetched=1),
     ),

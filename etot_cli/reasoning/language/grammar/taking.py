@@ -270,9 +270,7 @@ EMPTY = either(
     ),
     sequence(
         verbs.NOTHING_IS,
-        one_of(
-            {(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}
-        ),
+        one_of({(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}),
         ALL_THINGS,
         silent(optional(small_words.ANY_MORE)),
         build=lambda at, things: emptied(things, held=at[0], part=at[1]),
