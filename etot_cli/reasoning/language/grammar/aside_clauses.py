@@ -6,7 +6,11 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from etot_cli.reasoning.language.grammar.left_open import done_where_needed, leaves_choice
+from etot_cli.reasoning.language.grammar.left_open import (
+    done_where_needed,
+    is_left_open,
+    leaves_choice,
+)
 from etot_cli.reasoning.language.grammar.remarks import PEOPLE
 from etot_cli.reasoning.language.grammar.text import COMMA
 from etot_cli.reasoning.language.words.lexicon import word_set
@@ -127,8 +131,11 @@ def _with_what_is_done(clauses: Sequence[Clause]) -> Iterator[Clause]:
 def _asked_for(clauses: Sequence[Clause], at: int) -> Clause:
     """What is asked for by "as long as" where all else is left open; else the clause as it is."""
     clause = clauses[at]
-    if clause.kind != "provided" or not at:
+    if clause.kind != "provided" or len(clauses) < 2:
         return clause
+    if not at:  # "As long as it is open, I don't care where the cup goes"
+        granted = is_left_open(clauses[1].whole)
+        return replace(clause, kind="", joint=GRANTED[0]) if granted else clause
     denied = _OTHER_THAN.match(clause.said)
     if denied and _OF_ANY.search(clauses[at - 1].said):
         return replace(clause, kind="", joint=GRANTED[1], said=denied["one"])

@@ -66,7 +66,9 @@ _YOU = r"(?:(?:please|then|just|simply|you (?:can|may|could|should|must|have to)
 _THING = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
 _IN_THE_WAY = r"(?:is|are|gets?|stands?|happens? to be|should be) in the way"
 _IF_IN_THE_WAY = re.compile(
-    rf"if (?:{_THING}|it|something|anything|one of them) {_IN_THE_WAY}(?: of (?:it|that|{_THING}))?"
+    rf"if (?:{_THING}|it|something|anything|one of them) (?:{_IN_THE_WAY}"
+    rf"(?: of (?:it|that|{_THING}))?"
+    rf"|(?:blocks|obstructs|is blocking|is obstructing) (?:it|that|{_THING}))"
 )
 _TAKE_IT_AWAY = re.compile(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|(?:remove|move) {_IT}){_FIRST}")
 _NEEDED = (

@@ -327,6 +327,9 @@ def any_of_them(topic: NounPhrase, rest: Reading) -> Reading | None:
     return (put, *rest) if _all_of_any(topic) and "it" in pronouns(rest[0].clause) else None
 
 
+_SUCH_A_ONE = (NounPhrase("one", text="one"), NounPhrase("", ("one",), text="one"))
+
+
 def fit_for(place: NounPhrase, theme: NounPhrase, rest: Reading) -> Reading | None:
     """What is fine for something that is put there ("any cup is fine for the pen, so put it in
     one").
@@ -340,7 +343,7 @@ def fit_for(place: NounPhrase, theme: NounPhrase, rest: Reading) -> Reading | No
                 ),
             ),
             stays=False,
-        ) if all(np.pronoun or np.words == ("one",) for np in where.targets):
+        ) if all(np.pronoun or np in _SUCH_A_ONE for np in where.targets):
             toward = Toward.TO if where.toward is Toward.HERE else where.toward
             put = put_to(Things((theme,)), (Destination(toward, (place,)),))
             return (replace(rest[0], clause=put), *rest[1:])
