@@ -94,7 +94,8 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
 
 
 def _as_end_state(text: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
-    """What is said to be so, of which something is not, and nothing else: that it is to be so.
+    """What is said to be so, of which something is not, and nothing else: that it is to be so; what
+    is "still" so is told of by now.
 
     Raises:
         UnreadableError, ReferenceProblem: something else is said, or all of it holds.
@@ -102,7 +103,8 @@ def _as_end_state(text: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
     sentences = sentences_of(text)
     for sentence in sentences:
         first, *more = sentence.split()
-        if first in VERB_WORDS | OTHER_VERBS or QUESTION in more or not _DECLARED & {*more}:
+        asked = first in VERB_WORDS | OTHER_VERBS or QUESTION in more
+        if asked or not _DECLARED & {*more} or "still" in more:
             raise UnreadableError(sentence, "")
     goal = _read(". ".join(f"in the end {said}" for said in sentences), scene, vocabulary)
     with suppress(InstructionError, ReasonerStopped):
@@ -154,8 +156,11 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     if plain is None:
         raise UnreadableError(instruction, "")
     goal = _read(plain.text, scene, vocabulary)
-    said = (_as_written(aside, instruction) for aside in plain.asides)
-    notes = (f"{text!r} is not asked for: the rest is done" for text in said)
+    ways = ("not asked for: the rest is done", "done where it has to be")
+    notes = (
+        f"{_as_written(aside, instruction)!r} is {ways[aside in plain.anyway]}"
+        for aside in plain.asides
+    )
     return replace(goal, notes=(*notes, *goal.notes))
 
 

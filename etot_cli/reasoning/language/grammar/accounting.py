@@ -92,11 +92,13 @@ _FIXED = """
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     left (open|opened|closed|shut|ajar|empty|alone|untouched),
     left [standing|lying|sitting] (as|where|like) (it|they),
-    closer together, contents and all, 's (top|surface), in any order, (no|any) longer,
+    closer together, contents and all, 's (top|surface), in any order, (no|any) longer, any more,
     only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
     (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
-    a little open, before (you touch|touching|you do anything|doing anything) [to|with],
-    (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on)
+    (when|once|after|by the time) all is, a little open,
+    before (you touch|touching|you do anything|doing anything) [to|with],
+    (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on),
+    all [that] (i|we) [really|just] (need|want|would like)
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
@@ -203,7 +205,10 @@ def _said(node: object) -> Iterator[str]:
             yield _DENIAL
         case RemoveClause(without=without):
             yield from ("empty", *((_DENIAL,) if without else ()))
-        case AvoidClause(avoid=avoid):
+        case AvoidClause(avoid=avoid, things=things):
+            said = things.phrases if things else ()
+            all_but = any(item.prep is Prep.EXCEPT for np in said for item in np.modifiers)
+            yield from ("only",) if all_but else ()
             yield from (_DENIAL, "other", "any", "after", "afterwards")
             yield from ("empty",) if avoid is Avoid.PUT else ()
         case Beside(text=text) if "other side of" in text:
@@ -216,7 +221,8 @@ def _said(node: object) -> Iterator[str]:
             yield "upright"
         case State(denied=True):
             yield from ("open", "closed", "any", _DENIAL)
-        case State(kept=kept, word=word, subjects=subjects):
+        case State(kept=kept, word=word, subjects=subjects, destinations=where):
+            yield from ("either",) if sum(not item.denied for item in where) > 1 else ()
             each = len(subjects) > 1 or subjects[0].determiner.split()[:1] in (["both"], ["all"])
             yield from ("both", "each", "all") if each else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))

@@ -10,6 +10,8 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
+from etot_cli.reasoning.language.grammar.aside_clauses import GRANTED, Clause, clauses_of
+from etot_cli.reasoning.language.grammar.left_open import is_left_open, is_plan, is_wondering
 from etot_cli.reasoning.language.grammar.remarks import (
     BEFORE_NAMES,
     PEOPLE,
@@ -17,6 +19,7 @@ from etot_cli.reasoning.language.grammar.remarks import (
     asks_besides,
     is_comment,
     is_doing,
+    is_not_to_stay,
     is_of_people,
     is_purpose,
     is_reason,
@@ -35,50 +38,13 @@ from etot_cli.reasoning.language.grammar.text import (
 )
 from etot_cli.reasoning.language.words.known import ALL_WORDS
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, is_descriptive, word_set
-from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.small_words import (
-    ANNOUNCED,
-    ANY_ONE,
-    TIDYING,
-    WITHOUT_MEANING,
-)
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
 MOST = 4
 """Remarks of one instruction; who has more to tell may be asking for something by it."""
-_WITHIN = re.compile(
-    r"(?P<reason>because|since|now that|although|even though|in case"
-    rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
-    rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
-    rf"|or(?= (?:{PEOPLE}|it|they) \w+))\b"
-    r"|(?P<meanwhile>while(?= (?:i|we|my|our)\b))\b"
-    r"|(?P<polite>if (?:you (?:do not|would not) mind|i may|(?:it|that) is (?:all right|alright"
-    r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
-    r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
-    rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
-    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA})))\b"
-)
-"""Words that a clause begins with wherever they stand."""
-_AHEAD = re.compile(
-    r"(?P<reason>as(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
-    r"|though)\b"
-    r"|(?P<comment>which)\b|(?P<purpose>otherwise)\b"
-    r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b"
-)
-"""Words that one begins with behind a comma, or as the first of a sentence."""
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
 _LEADING = re.compile(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
-SAYS_NOTHING = frozenset(
-    said.removeprefix(f"{COMMA} ").replace(f" {COMMA}", ",")
-    for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}")
-)
-"""Sentences and clauses that ask for nothing."""
-_BEFORE = {
-    "so": word_set("is are was were am not feel feels look looks get gets got"),
-    "where": word_set("is"),
-}
-"""Words behind which others begin no clause ("my hands are so dry", "that is where I like it")."""
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 _LIKED = [["favourite"], ["favorite"], ["best"]]
 IsSentence = Callable[[str], bool]
@@ -92,29 +58,8 @@ class Plain:
 
     text: str
     asides: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class _Clause:
-    """A piece of a sentence.
-
-    ``comma``: one stands before it. ``joint``: what it begins with, of some ``kind``.
-    """
-
-    comma: bool
-    kind: str
-    joint: str
-    said: str
-
-    @property
-    def text(self) -> str:
-        """As it stands."""
-        return " ".join(filter(None, (COMMA * self.comma, self.joint, self.said)))
-
-    @property
-    def is_polite(self) -> bool:
-        """Whether there is nothing to be told in it."""
-        return self.kind == "polite" or f"{self.joint} {self.said}".strip() in SAYS_NOTHING
+    anyway: tuple[str, ...]
+    """Of these, what is done where it has to be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,11 +67,11 @@ class _Parted:
     """A sentence: what is left of it, and the asides before and behind that."""
 
     rest: str
-    before: tuple[_Clause, ...] = ()
-    after: tuple[_Clause, ...] = ()
+    before: tuple[Clause, ...] = ()
+    after: tuple[Clause, ...] = ()
 
     @property
-    def asides(self) -> tuple[_Clause, ...]:
+    def asides(self) -> tuple[Clause, ...]:
         """Those that tell something."""
         return tuple(item for item in (*self.before, *self.after) if not item.is_polite)
 
@@ -146,6 +91,7 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     rest = [part.rest for part in parted if part.rest]
     asides = [aside for part in parted for aside in part.asides]
     cut = any(part.before or part.after for part in parted)
+    cut = cut or rest != sentences_of(text)
     if not cut or not rest or len(asides) > MOST or _mistakable(parted, is_name):
         return None
     told = [item.said for item in asides if item.kind in ("", "plain")]
@@ -161,24 +107,29 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     return Plain(
         ". ".join(said.replace(f" {COMMA}", ",") for said in kept if said),
         tuple(_as_told(item, part) for part in parted for item in part.asides),
-    )
+        tuple(_as_told(item, part) for part in parted for item in part.asides
+              if item.kind == "anyway"),
+    )  # fmt: skip
 
 
-def _as_told(aside: _Clause, part: _Parted) -> str:
+def _as_told(aside: Clause, part: _Parted) -> str:
     """An aside, with the word for why where it stands behind a request."""
-    whole = aside.kind != "plain" and aside in part.after
+    whole = is_left_open(aside.whole) or (aside.kind != "plain" and aside in part.after)
     return spaced(f"{aside.joint if whole else ''} {aside.said}".split())
 
 
 def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     """A sentence and its asides."""
     said = (word for word in words_in(sentence) if word != QUESTION)
-    clauses = list(_clauses(" ".join(said).replace(COLON, COMMA)))
+    clauses = clauses_of(" ".join(said).replace(COLON, COMMA))
+    if QUESTION in sentence and is_wondering(sentence):
+        return _Parted("", tuple(clauses))
     cut = [at for at in range(len(clauses)) if _is_aside(clauses, at, is_name)]
     # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
     outside = len(cut) == len(clauses) and not is_of_people(sentence)
     forced = outside or any(_is_no_phrase(clauses[at], is_name) for at in cut)
-    if not cut or (is_sentence(sentence) and not forced):
+    granted = any(clause.joint in GRANTED for clause in clauses)
+    if not (cut or granted) or (is_sentence(sentence) and not forced):
         return _Parted(sentence)
     left = [at for at in range(len(clauses)) if at not in cut]
     rest = " ".join(clauses[at].text for at in left)
@@ -192,7 +143,7 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     )
 
 
-def _is_no_phrase(aside: _Clause, is_name: IsName) -> bool:
+def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     """Whether an aside is one even where the grammar finds a phrase in it, such as a thing called
     "seed box leaks".
     """
@@ -201,6 +152,7 @@ def _is_no_phrase(aside: _Clause, is_name: IsName) -> bool:
     first, verb = (*aside.said.split(), "", "")[:2]
     outside = first not in ALL_WORDS and not is_name(first) and verb in ("is", "are", "has", "have")
     told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
+    told = told or is_not_to_stay(aside.said)
     return told or strange or outside
 
 
@@ -229,31 +181,7 @@ def _are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> bo
     )
 
 
-def _clauses(sentence: str) -> Iterator[_Clause]:
-    """The pieces of a sentence."""
-    words = sentence.split()
-    comma, kind, joint, said = False, "", "", list[str]()
-    at = 0
-    while at < len(words):
-        mark = words[at] == COMMA
-        ahead = " ".join(words[at + mark :])
-        begun = mark or at == 0
-        found = _WITHIN.match(ahead) or (_AHEAD.match(ahead) if begun else None)
-        if found and not begun and words[at - 1] in _BEFORE.get(found[0], ()):
-            found = None
-        if (mark or found) and (said or joint):
-            yield _Clause(comma, kind, joint, " ".join(said))
-            comma, kind, joint, said = mark, "", "", []
-        if found:
-            kind, joint = str(found.lastgroup), found[0]
-            at += mark + len(joint.split())
-        else:
-            said += [] if mark else [words[at]]
-            at += 1
-    yield _Clause(comma, kind, joint, " ".join(said))
-
-
-def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
+def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     """Whether one of a sentence's clauses asks for nothing."""
     clause = clauses[at]
     last = at + 1 == len(clauses) or is_doing((clauses[at + 1].said.split() or [""])[0])
@@ -262,8 +190,12 @@ def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
         trailing = clauses[at + 1].comma and clauses[at + 1].said.startswith(_PLACES)
     if clause.is_polite and len(clauses) > 1:
         return not clause.said or clause.kind != "polite"
+    if clause.kind == "anyway" or is_left_open(clause.whole):
+        return True
     match clause.kind, clause.joint:
         case _ if not clause.said:
+            return False
+        case "provided", _:
             return False
         case (("reason" | "meanwhile"), _):
             reason = is_reason(clause.said, is_name)
@@ -280,10 +212,13 @@ def _is_aside(clauses: Sequence[_Clause], at: int, is_name: IsName) -> bool:
             return trailing and is_warning(clause.said)
         case "comment", _:
             return clause.comma and is_comment(clause.said, is_name)
+    so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
+    if so and is_plan(clause.said, is_name):
+        return True
     return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
 
 
-def _named(asides: Sequence[_Clause], is_name: IsName) -> str:
+def _named(asides: Sequence[Clause], is_name: IsName) -> str:
     """What asides name in the scene, as a remark."""
     phrases = [phrase for aside in asides for phrase in _phrases(aside.said.split(), is_name)]
     return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""

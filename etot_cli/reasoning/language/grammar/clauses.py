@@ -49,7 +49,13 @@ from etot_cli.reasoning.language.grammar.parsing import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.predicates import BOTH_SO
-from etot_cli.reasoning.language.grammar.prohibitions import AVOID, KEEP_OUT, KEEP_STILL, WITHOUT
+from etot_cli.reasoning.language.grammar.prohibitions import (
+    AVOID,
+    KEEP_OUT,
+    KEEP_STILL,
+    ONLY_THESE_MAY,
+    WITHOUT,
+)
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
 from etot_cli.reasoning.language.grammar.putting import FLANKED, PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
@@ -230,7 +236,7 @@ _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
         *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, HOLD, WISHED, TOLD_APART, BOTH_SO),
-        *(SPREAD, REVERSED, GRASP),
+        *(SPREAD, REVERSED, ONLY_THESE_MAY, GRASP),
     )
 )
 INSTEAD = phrase(small_words.INSTEAD, True)

@@ -79,8 +79,8 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     *WHEREABOUTS,
     (_WISHED, _as_asked),
     (
-        r",? (?:ok|okay|alright|all right|yeah|deal|understood|(?:would|will|could|can) you"
-        r"(?: please)?)(?:\?|(?=[.!]*$))",
+        r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood"
+        r"|(?:would|will|could|can) you(?: please)?)(?:\?|(?=[.!]*$))",
         ".",
     ),
     (
@@ -108,7 +108,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"\1 \2",
     ),
     (rf"\bbut none of (?={NAMED})", "but not "),
-    (r"\bclear the top of (?=the\b)", "clear "),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
     (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),
     (
@@ -354,6 +353,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r"look at \1,",
     ),
     (r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just "),
+    (r"(?<!not )\bonly (?=(?:lift|raise|grab|grasp|fetch|get|pick up|hold) )", "just "),
     (r"\bonly (open|close|shut) ([^.,;]*?) (after|once|when)\b", r"\1 \2 only \3"),
     (_NOTHING_ELSE, r"\1 \2, and nothing else"),
     (r",\s*(?:please\s*,|right (?=at\b))", ", "),

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -22,13 +22,14 @@ from etot_cli.reasoning.language.grammar.syntax import (
     AvoidClause,
     Destination,
     EnsureClause,
+    Modifier,
     NounPhrase,
     State,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.grammar.taking import ANYTHING, stays_empty
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -114,6 +115,55 @@ AVOID = either(
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),
 )
+
+
+def _only_these(nps: tuple[NounPhrase, ...], avoid: Avoid) -> AvoidClause:
+    """Nothing but some things may be moved or touched."""
+    text = f"anything but {' and '.join(np.text for np in nps)}"
+    others = NounPhrase("", ("anything",), (Modifier(Prep.EXCEPT, nps),), text=text)
+    return AvoidClause(avoid, Things((others,)), negated=True)
+
+
+_MAY_BE = sequence(
+    verbs.MAY,
+    one_of(
+        {Avoid.TOUCH: f"be ({verbs.TOUCHED_ONLY})", Avoid.MOVE: f"be ({verbs.MOVED_ONLY}), move"}
+    ),
+)
+ONLY_THESE_MAY = either(
+    sequence("only", NP_LIST, _MAY_BE, build=_only_these),
+    sequence(
+        "nothing",
+        _MAY_BE,
+        OPTIONAL_COMMA,
+        nouns.EXCEPT,
+        exceptions,
+        build=lambda avoid, nps: _only_these(nps, avoid),
+    ),
+    sequence(
+        NP_LIST,
+        "(is|are) the only (thing|things|object|objects|one|ones|item|items)",
+        either(
+            sequence("that, which", _MAY_BE),
+            sequence(
+                f"[that|which] you ({verbs.MAY})",
+                one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move, lift"}),
+            ),
+        ),
+        build=_only_these,
+    ),
+    sequence(
+        # "You may only move the pen"
+        f"you ({verbs.MAY})",
+        either(
+            sequence("only", _MOVES_ONLY := one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move"})),
+            sequence(_MOVES_ONLY, "only, just"),
+        ),
+        NP_LIST,
+        build=lambda avoid, nps: replace(_only_these(nps, avoid), far_fetched=1),
+    ),
+)
+"""What alone may be moved or touched."""
 WITHOUT = sequence(
     OPTIONAL_COMMA,
     either(

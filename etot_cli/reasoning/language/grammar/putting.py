@@ -216,11 +216,14 @@ PUT = either(
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
     sequence(ALL_THINGS, _COMES_AND_GOES, DESTINATIONS, build=put_to),
-    sequence(verbs.PUT, THINGS, "aside, to one side", build=lambda things: put_to(things, DOWN)),
+    sequence(
+        either(sequence(verbs.PUT, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
+        "aside, to one side",
+        build=lambda things: put_to(things, DOWN),
+    ),
     sequence(
         # With what is opened next it is rather out of the way of that.
-        f"{verbs.PUT}, {verbs.FETCH}",
-        THINGS,
+        either(sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS), sequence(ALL_THINGS, verbs.MODAL)),
         places.SAFELY,
         build=lambda things: replace(put_to(things, DOWN), far_fetched=1),
     ),

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.accounting import unaccounted
-from etot_cli.reasoning.language.grammar.asides import SAYS_NOTHING
+from etot_cli.reasoning.language.grammar.aside_clauses import SAYS_NOTHING
 from etot_cli.reasoning.language.grammar.input import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.normalizing import normalized
 from etot_cli.reasoning.language.grammar.sentences import readings

@@ -84,7 +84,7 @@ _PROPOSING = word_set(
     """
 )
 """What somebody does who asks for something in a roundabout way."""
-_ASKING = word_set(
+ASKING = word_set(
     """
     want wants need needs wanted needed wish like prefer should must shall would could may let ought
     go goes belong belongs hoping wondering please not never no none nothing without if
@@ -125,7 +125,7 @@ _IN_GENERAL = re.compile(
     r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b"
 )
 _YONDER = re.compile(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
-_REFERRING = word_set(
+REFERRING = word_set(
     "it they them this that these those one ones two three other others another rest everything "
     "anything all both each every any same here there first last which whichever whatever whoever"
 )
@@ -138,11 +138,16 @@ _PREDICATE = re.compile(
     r"(?= |$)"
 )
 _TOO_SO = re.compile(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
+_NOT_STAYING = (
+    r"(?:can|must|should|may) not (?:be (?:left|kept)|stay|remain)"
+    r"(?: (?:like (?:this|that)|as (?:it is|they are)|that way|so))?"
+)
 _NO_PLACE = re.compile(
     rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
     rf"|^(?:is|are) (?:going|turning) (?:{TURNED})$"
+    rf"|^{_NOT_STAYING}$"
     r"|^(?:must|should) (?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
     r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "
     r"(?:warm|cold|cool|dry|fresh|clean|safe)$"
@@ -154,10 +159,10 @@ _DONE_TO_THINGS = VERB_WORDS | words_of(
 """What a thing may need of the robot; whatever else it needs, such as chilling, is a reason."""
 _TELLING = (
     word_set("full free clear ready taken occupied") | set(STATES) | set(LEVELS) | set(SIDES)
-    | set(NUMBERS) | set(THING_NOUNS) | _REFERRING
+    | set(NUMBERS) | set(THING_NOUNS) | REFERRING
 )  # fmt: skip
 """They tell one thing from another, or say how one is to be."""
-_PLACED = word_set("in on into onto at next beside near off out")
+PLACED = word_set("in on into onto at next beside near off out")
 _GONE_WRONG = re.compile(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
 _THING = r"(?:the|my|our) (?:\w+ )?\w+"
 _SO_OF_ITSELF = re.compile(
@@ -182,6 +187,11 @@ _OR_WILL = re.compile(
     rf"^(?:{PEOPLE}|it|they) \w+|^{_THING} (?:will |might |may )?(?:get|go|turn)s? (?:{TURNED})$"
 )
 _COMMENT = re.compile(r"^(?:is|are|was|were|has|have) ")
+
+
+def is_not_to_stay(said: str) -> bool:
+    """Whether something cannot stay as or where it is, of which is not said how that is."""
+    return bool(re.search(rf"^(?:it|they|{_THING}) {_NOT_STAYING}(?: here| there)?$", said))
 
 
 def is_doing(word: str) -> bool:
@@ -221,7 +231,7 @@ def is_turning(said: str) -> bool:
 def is_warning(said: str) -> bool:
     """Whether this tells, behind "or", what else would happen ("it will fall")."""
     return bool(_OR_WILL.match(said)) and not (
-        _DOING - {"get"} | _ASKING - {"will", "would", "not"}
+        _DOING - {"get"} | ASKING - {"will", "would", "not"}
     ) & {*said.split()}
 
 
@@ -237,9 +247,9 @@ def is_reason(said: str, is_name: IsName) -> bool:
     said = _GONE_WRONG.sub(" fails", said)
     words = {*said.split()}
     if not is_of_people(said):
-        return not (_ASKING | _CHANGING - {"to", "by", "than"} | _WORK) & words
+        return not (ASKING | _CHANGING - {"to", "by", "than"} | _WORK) & words
     wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words
-    return not (wanted and _PLACED & words and any(map(is_name, words)))
+    return not (wanted and PLACED & words and any(map(is_name, words)))
 
 
 def is_remark(said: str, is_name: IsName) -> bool:
@@ -261,29 +271,29 @@ def is_remark(said: str, is_name: IsName) -> bool:
             return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
         if happened[0].startswith(("would hate", "do not want")):
             return not any(map(is_name, words))
-        placed = _PLACED & {*did} and any(map(is_name, did))
+        placed = PLACED & {*did} and any(map(is_name, did))
         if did[:1] == ["to"] or (placed and happened[0].startswith(("like", "love", "hate"))):
             return False  # "nobody is to use it", "she likes the cup on the tray"
         if did[:1] in _TIDYING and not any(map(is_name, words)):
             return True
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
-        return not ((_WORK | _ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
+        return not ((_WORK | ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
     outside = _TOO.search(said) or (_OUTSIDE.search(said) and not any(map(is_name, words)))
     told = _TOO.sub("", said).split()  # "too close" is no "close"
-    asking = (_WORK | _ASKING | _REFERRING) & {*told}
+    asking = (_WORK | ASKING | REFERRING) & {*told}
     return bool(_IN_GENERAL.match(said) or (outside and not asking))
 
 
 def _is_of_no_thing(habit: re.Match[str], words: Sequence[str], is_name: IsName) -> bool:
     """Whether what somebody has as he likes it is no thing of the scene, nor is to be at one."""
     strange = not is_name(habit["what"]) and habit["what"] not in ALL_WORDS
-    return strange and not (_PLACED & {*words} and any(map(is_name, words)))
+    return strange and not (PLACED & {*words} and any(map(is_name, words)))
 
 
 def _does_nothing(did: str) -> bool:
     """Whether this is what somebody does that is nothing to the robot ("trips over it")."""
     verb, more = _DOES.match(did), {*did.split()}
-    asking = _ASKING - {"will", "would", "could", "may", "not"}
+    asking = ASKING - {"will", "would", "could", "may", "not"}
     if verb is None or (_WORK - OTHER_VERBS | asking) & more:
         return False
     stems = {verb["verb"], verb["verb"].removesuffix("s"), verb["verb"].removesuffix("es")}
@@ -327,7 +337,7 @@ def _is_idle(predicate: str, is_name: IsName) -> bool:
     verb, *_ = found[0].split()
     more = {*predicate[found.end() :].split()}
     stems = {verb, *(verb.removesuffix(ending) for ending in ("s", "es", "d", "ed"))}
-    asking = (_ASKING | _CHANGING | _WORK) - {"not"}
+    asking = (ASKING | _CHANGING | _WORK) - {"not"}
     if asking & more or (asking - {"get", "keep"}) & stems or _TELLING & more:
         return False
     if any(is_name(word) or is_descriptive(word) for word in more):

@@ -116,6 +116,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     about,
     any_of_them,
     done_there,
+    fit_for,
     for_a_reason,
     one_of_them,
 )
@@ -234,6 +235,14 @@ _WITH_MORE_BEFORE_IT = either(
         either(COMMA, "so, ~comma so"),
         CHAIN,
         build=any_of_them,
+    ),
+    sequence(
+        noun_phrase,
+        f"({small_words.ANY_WILL_DO}) for",
+        noun_phrase,
+        either(COMMA, "so, ~comma so"),
+        CHAIN,
+        build=fit_for,
     ),
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma [and]", CHAIN, build=add),
     sequence(AS_IT_STANDS, "[~comma] [and] so", CHAIN, build=add),

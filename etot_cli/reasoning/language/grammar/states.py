@@ -50,14 +50,19 @@ OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
 _NOT_SO = sequence(
     "not [left|kept]", either(OPEN_OR_CLOSED, DESTINATIONS), build=lambda found: ("not", found)
 )
+_STILL_SO = sequence("still", WHERE, build=lambda where: ("still", where))
+"""Where things are to stay."""
 SO = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, DESTINATIONS)
 """How things are."""
-PREDICATE = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, WHERE)
+PREDICATE = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, WHERE, _STILL_SO)
 """How things are to be."""
 
 
 def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
     """What is to be so: a word for a state, or where things are to be."""
+    if "still" in predicate:
+        denied = any(np.determiner in NONE for np in subjects)
+        return None if denied else State(subjects, predicate[1], kept=True)
     if all(np.determiner in NONE for np in subjects) and "not" not in predicate:
         every = tuple(replace(np, determiner=NONE[np.determiner]) for np in subjects)
         return _opposite(every, predicate)
@@ -188,10 +193,14 @@ def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
     return EnsureClause(said) if plain else None
 
 
+# "…, the ball in the cup": the verb is left out.
+_AND_SO = sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of)
 _ALL_SO = sequence(
     PREDICATE,
-    # "…, the ball in the cup": the verb is left out.
-    some(sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of), most=4),
+    either(
+        some(_AND_SO, most=4),
+        sequence(small_words.BY_THE_END, some(_AND_SO, least=1, most=4)),
+    ),
     build=lambda predicate, more: lambda nps: (state_of(nps, predicate), *more),
 )
 
@@ -304,7 +313,7 @@ ENSURE = either(
                 ),
             ),
             either(OPEN_OR_CLOSED, DESTINATIONS),
-            optional(small_words.ANY_MORE),
+            optional(f"{small_words.ANY_MORE}, like (this|that)"),
             build=lambda nps, so: _ensured(opposite(nps, so)),
         )
     ),

@@ -46,7 +46,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
 
@@ -135,17 +135,23 @@ REMOVE = either(
 )
 
 
-def contents_of(np: NounPhrase, where: Prep) -> NounPhrase:
-    """What is in or on something, whatever it is."""
-    modifier = Modifier(where, (np,), CLEARED if where is Prep.FROM else ())
+def contents_of(np: NounPhrase, where: Prep, part: tuple[str, ...] = ()) -> NounPhrase:
+    """What is in or on something, or on a ``part`` of it, whatever it is."""
+    modifier = Modifier(where, (np,), part if where is Prep.ON else CLEARED)
     upon = where is Prep.ON or np.words[-1:] in _DESKS
     text = f"everything {'on' if upon else 'in'} {np.text}"
     return NounPhrase("all", ("objects",), (modifier,), text=text)
 
 
-def emptied(things: Things, where: Any = None, *, held: Prep = Prep.FROM) -> Clause:
-    """What takes all out of things, and brings it somewhere."""
-    contents = Things(tuple(contents_of(np, held) for np in things.phrases))
+def emptied(
+    things: Things, where: Any = None, *, held: Prep | None = None, part: tuple[str, ...] = ()
+) -> Clause:
+    """What takes all out of things, or off a ``part`` of them, and brings it somewhere; a drawer is
+    empty whatever stands on it.
+    """
+    inside = [np.words and matches_any(np.head, ("drawer",)) for np in things.phrases]
+    ways = [held or (Prep.IN if drawer else Prep.FROM) for drawer in inside]
+    contents = Things(tuple(map(partial(contents_of, part=part), things.phrases, ways)))
     if where is None:
         return RemoveClause(contents)
     # "Empty the box on the right" rather says which box.
@@ -188,6 +194,8 @@ def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutC
     return replace(put_to(things, where), far_fetched=0 if things_said else cost)
 
 
+_TOP = ("top",)
+_TOP_OF = sequence("the (top|surface) of", ALL_THINGS)
 _ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
 EMPTY = either(
     sequence(
@@ -218,7 +226,22 @@ EMPTY = either(
         DIRECTED,
         build=lambda things, where: put_to(things, where) if things.are_any else None,
     ),
-    sequence(verbs.CLEAR, ALL_THINGS, optional(DESTINATIONS, None), build=emptied),
+    sequence(
+        verbs.CLEAR,
+        ALL_THINGS,
+        optional(DESTINATIONS, None),
+        build=partial(emptied, held=Prep.FROM),
+    ),
+    sequence(
+        either(
+            sequence(verbs.CLEAR, _TOP_OF),
+            sequence(_TOP_OF, verbs.MODAL, manner.EMPTIED),
+            sequence(verbs.ENSURE, _TOP_OF, verbs.BE, manner.EMPTIED),
+            sequence(verbs.WANTED, _TOP_OF, optional("to be"), manner.EMPTIED),
+        ),
+        optional(DESTINATIONS, None),
+        build=partial(emptied, held=Prep.ON, part=_TOP),
+    ),
     sequence(
         verbs.GET_OUT,
         "everything, it all, all things",
@@ -248,7 +271,13 @@ EMPTY = either(
         ),
         to_be_empty,
     ),
-    sequence(verbs.NOTHING_IS, ALL_THINGS, silent(optional(small_words.ANY_MORE)), build=emptied),
+    sequence(
+        verbs.NOTHING_IS,
+        one_of({(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}),
+        ALL_THINGS,
+        silent(optional(small_words.ANY_MORE)),
+        build=lambda at, things: emptied(things, held=at[0], part=at[1]),
+    ),
 )
 
 IS_EMPTY = variants(

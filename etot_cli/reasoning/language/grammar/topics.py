@@ -28,13 +28,17 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax import (
     Clause,
+    Destination,
     Modifier,
     MoveClause,
     NounPhrase,
+    PutClause,
+    PutGroup,
     RemoveClause,
     ReorientClause,
     Things,
     Toward,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
@@ -48,8 +52,9 @@ from etot_cli.reasoning.language.words.places import Prep
 
 
 def _topic(things: Things) -> ReorientClause | None:
-    """What is named; "milk out of the fridge" rather says what is to be done."""
-    return None if sources(things) else ReorientClause(things, only_named=True)
+    """What is named, be it with "or"; "milk out of the fridge" rather says what is to be done."""
+    named = replace(things, either=False)
+    return None if sources(things) else ReorientClause(named, only_named=True)
 
 
 def sources(things: Things) -> list[Modifier]:
@@ -320,3 +325,26 @@ def any_of_them(topic: NounPhrase, rest: Reading) -> Reading | None:
     """Any of some things will do for what is to be done with "it"."""
     put = Spoken(ReorientClause(Things((topic,)), only_named=True), -1)
     return (put, *rest) if _all_of_any(topic) and "it" in pronouns(rest[0].clause) else None
+
+
+_SUCH_A_ONE = (NounPhrase("one", text="one"), NounPhrase("", ("one",), text="one"))
+
+
+def fit_for(place: NounPhrase, theme: NounPhrase, rest: Reading) -> Reading | None:
+    """What is fine for something that is put there ("any cup is fine for the pen, so put it in
+    one").
+    """
+    match rest[0].clause:
+        case PutClause(
+            groups=(
+                PutGroup(
+                    things=Things(phrases=(NounPhrase(pronoun="it" | "them"),)),
+                    destinations=(Destination(beside=()) as where,),
+                ),
+            ),
+            stays=False,
+        ) if all(np.pronoun or np in _SUCH_A_ONE for np in where.targets):
+            toward = Toward.TO if where.toward is Toward.HERE else where.toward
+            put = put_to(Things((theme,)), (Destination(toward, (place,)),))
+            return (replace(rest[0], clause=put), *rest[1:])
+    return None

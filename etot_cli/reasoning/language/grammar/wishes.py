@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, FILLE
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    one_of,
     optional,
     phrase,
     sequence,
@@ -139,6 +140,11 @@ def _belonging(things: Things, where: tuple[Destination, ...]) -> EnsureClause:
     return EnsureClause((State(things.phrases, where),))
 
 
+_THE_ONE = "is the one [that|which]"
+_POINTED_OUT = either(
+    phrase("that, it, this", NounPhrase(pronoun="it", text="that")),
+    noun_phrase,
+)
 TOLD_APART = either(
     # "The cup is the only thing that goes on the tray", "what belongs there is the cup"
     sequence(ALL_THINGS, _IS, _WHAT_GOES, DESTINATIONS, build=_there),
@@ -150,6 +156,27 @@ TOLD_APART = either(
         build=lambda only, where, things: _there(things, only, where),
     ),
     sequence("it is, it 's", ALL_THINGS, "that, which", verbs.MODAL, DESTINATIONS, build=put_to),
+    sequence(
+        # "The left ball is the one that you should pick up"
+        either(sequence(_POINTED_OUT, _THE_ONE), sequence("it is", noun_phrase, "that, which")),
+        verbs.TO_BE_DONE_BY_YOU,
+        verbs.PICK,
+        build=lambda np: PickClause(Things((np,))),
+    ),
+    sequence(
+        _POINTED_OUT,
+        _THE_ONE,
+        "i want, i need, we want, we need, to be picked up, to be lifted",
+        build=lambda np: PickClause(Things((np,)), wanted=True),
+    ),
+    sequence(
+        _POINTED_OUT,
+        _THE_ONE,
+        ALL_THINGS,
+        verbs.MODAL,
+        one_of({Toward.INSIDE: "in, into, inside", Toward.ON: "on, onto"}),
+        build=lambda np, things, toward: put_to(things, (Destination(toward, (np,)),)),
+    ),
     sequence(
         # "The spoon's home is the drawer"
         ALL_THINGS,

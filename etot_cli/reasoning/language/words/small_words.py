@@ -14,7 +14,7 @@ _EASIER = """
     [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)]
 """
 _WILL_DO = "(is|are|would be) (fine|ok|okay|good)|will do|would do|works|work"
-ANY_WILL_DO = f"({_WILL_DO}) [for me]"
+ANY_WILL_DO = f"({_WILL_DO}) [(for|with|by) (me|us)]"
 """Behind any of several things, before what is to be done with one of them."""
 WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
@@ -33,7 +33,7 @@ WITHOUT_MEANING = f"""
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
-    (either|any|each|both) [one] [of (them|these|those|the two)] ({_WILL_DO}),
+    (either|any|each|both) [one] [of (them|these|those|the two)] ({ANY_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
     [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four)], whichever,
     if you can,
@@ -106,6 +106,8 @@ FRAMES = f"""
     [is there] any (chance|way) [that] you (can|could|would),
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is,
+    (all|what|the only thing) ([that] you (have|need) to do|
+    [that] (i|we) (want|need|would like) you to do|[[that] there is] to do) is [to],
     i [only] (want|need|would like|d like) you to,
     i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
     [the] robot (should|must|has to|needs to), make sure to,
@@ -125,9 +127,15 @@ _AT_END = """
     (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn|day|session|shift|
     experiment|exercise|game|lesson|test|demo|process))], in the end
 """
-END_STATE = f"""
-    ({_AT_END}) [~comma], (when|once) you are [all] (done|finished) [~comma]
+_WHEN_DONE = """
+    (when|once|after|by the time)
+    (you are [all] (done|finished|through)|you (finish|have finished|finished)|
+    (everything|all) is (said and done|done|finished)),
+    (when|once) (done|finished)
 """
+"""Only then; as what is asked for comes to an end then, it is asked for of the end."""
+BY_THE_END = f"{_AT_END}, {_WHEN_DONE}"
+END_STATE = f"({BY_THE_END}) [~comma]"
 """Before how things are to be by then."""
 ANY_MORE = "anymore, any more, any longer, yet, so far"
 TURNED = "warm|hot|cold|wet|dry|dirty|dusty|stale|soft|hard|bad|off|flat|mouldy|sour|old"
@@ -201,14 +209,13 @@ LEADING_LAST = f"""
     [as a|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
     (finish|end) [up|off] by
 """
-LEADING_THEN = """
+LEADING_THEN = f"""
     then, next, after [all [of]] (that|this), afterwards, afterward, after which,
     second, secondly, third, thirdly,
     after doing so,
     [the|as a] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
     the (next|second|third|fourth) is to,
-    (once|when) (that is|it is|this is) done, once done, (when|once) you are [all] (done|finished),
-    when (done|finished),
+    (once|when) (that is|it is|this is) done, {_WHEN_DONE},
     and then, subsequently, later
 """
 TRAILING_FIRST = """
@@ -216,10 +223,9 @@ TRAILING_FIRST = """
     before you do [so|that|this], before doing (so|that|this)
 """
 TRAILING_LAST = f"""
-    last, {_AT_END}, finally, at last,
-    (when|once) [you are|we are] [all] (done|finished|through), when (that|this) is done,
-    (by the time|when|once) you (finish|are (done|finished)|have finished),
-    (when|once|after) (everything|all) is (done|finished|in place|put away|sorted|set),
+    last, {BY_THE_END}, finally, at last,
+    (when|once) we are [all] (done|finished|through), when (that|this) is done,
+    (when|once|after) (everything|all) is (in place|put away|sorted|set),
     (when|once) you have (put everything (in|away)|everything (in|away))
 """
 TRAILING_THEN = "afterwards, afterward, after, after that, next, then, later"

@@ -100,14 +100,15 @@ ARRANGE = """
     lay|prepare|sort)
 """
 NOTHING_IS = """
-    nothing (should|must|may|can|is to|has to) (be|stay|remain)
-    [left|lying|standing|sitting] (in|on),
-    there (should|must|has to|needs to|is to) be nothing [left] (in|on),
-    there (should|must|may|can) (not|no longer) be anything [left] (in|on),
-    (ensure|make sure|see to it) [that] (nothing is|there is nothing) [left] (in|on),
-    (ensure|make sure|see to it) [that] nothing remains [left] (in|on),
-    (i|we) (do not want anything|want nothing) [to be] [left|lying|standing|sitting] (in|on)
+    (nothing (should|must|may|can|is to|has to) (be|stay|remain)|
+    (i|we) (do not want anything|want nothing) [to be]) [left|lying|standing|sitting],
+    (nothing (should|must|may|can|is to|has to)|(ensure|make sure|see to it) [that] nothing)
+    (stay|remain|stays|remains) [left],
+    there (should|must|has to|needs to|is to) be nothing [left],
+    there (should|must|may|can) (not|no longer) be anything [left],
+    (ensure|make sure|see to it) [that] (nothing is|there is nothing) [left]
 """
+"""Before where there is to be nothing."""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down
@@ -118,7 +119,7 @@ _BEING = "standing|lying|sitting|located|resting"
 BEING = f"({_BEING}|being)"
 _MUST = """
     should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had better|
-    (is|are) (supposed|meant) to
+    (is|are) (supposed|meant) to, will (have|need) to
 """
 _SIMPLY = "[simply|[just] as well|just|also|please|best]"
 _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
@@ -144,6 +145,8 @@ BELONG = f"{MODAL}, (is|are) (kept|stored)"
 TO_BE_DONE = f"({_MUST}) {_SIMPLY} (be|get), (can|could|may|might) {_SIMPLY} be"
 """Before what is done with a thing, in the passive."""
 WERE_DONE = "is, are, was, were, (could|would|can|should) be"
+TO_BE_DONE_BY_YOU = f"to, you ({_MUST}), (i|we) (want|need|would like) you to"
+"""Behind what the robot is to do something with, before what that is."""
 TAKEN_AWAY = """
     removed, extracted, withdrawn,
     (taken|lifted|pulled|moved|cleared|got|gotten|brought) (out|away),
@@ -164,7 +167,7 @@ WANT = """
     i d like, (can|could|may|might) (i|we) (have|get), let (us|me) have,
     (would|is) it [be] possible to have,
     (i|we) would rather (have|see),
-    what (i|we) [really|just] (want|need|would like) [to (have|see)] is
+    (what|all [that]) (i|we) [really|just] (want|need|would like) [to (have|see)] is
 """
 OTHERS_WANT = f"""
     (the|my|our) ({RELATIONS}) (wants|needs|would like [to have]),
@@ -282,6 +285,10 @@ DISTURBED = """
     removed, taken [away|out|off], knocked over
 """
 """Behind what must not be."""
+MAY = "may, can, could, should, must, (is|are) to, (is|are) (allowed|permitted|supposed) to"
+"""Before what may be done with some things alone."""
+MOVED_ONLY = "moved [around|about|away]|disturbed|lifted [up]|picked up|shifted|displaced"
+TOUCHED_ONLY = "touched"
 WITHOUT = """
     without, [while] (making|being) sure not to, [while] being careful not to,
     [while] taking care not to, so as not to
