@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from etot_cli.world.state import PartInfo, SceneState
@@ -1894,3 +1895,24 @@ def pot_galley() -> SceneState:
         item("pot", "bowl", (0.62, 0.07), size=(0.18, 0.18, 0.1), color="black"),
         item("pot_lid", "box", (0.62, -0.12), size=(0.16, 0.16, 0.02), color="black"),
     )  # fmt: skip
+
+
+def turned_fronts() -> SceneState:
+    """A microwave whose front faces the right and a drawer that faces the left, each with a ball
+    before it, two mugs.
+    """
+    plain = scene(
+        cabinet("microwave", (0.39, 0.45), 0.1, color="gray"),
+        ball("tennis_ball", (0.29, 0.14), label="tennis ball", color="yellow"),
+        drawers("drawer", (0.45, -0.42), {"top": 0.0}, color="white"),
+        ball("golf_ball", (0.49, -0.20), label="golf ball", color="white"),
+        cup("red_mug", (0.20, -0.35), color="red"),
+        cup("blue_mug", (0.15, 0.40), color="blue"),
+    )
+    half = math.sqrt(0.5)
+    turns = {"microwave": -half, "drawer": half}
+    states = {
+        name: replace(state, quaternion=(half, 0.0, 0.0, turns[name])) if name in turns else state
+        for name, state in plain.states.items()
+    }
+    return replace(plain, states=states)

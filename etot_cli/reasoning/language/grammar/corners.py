@@ -25,6 +25,15 @@ CORNERS_AND_SIDES: tuple[tuple[str, str], ...] = (
         r"\bon the (left|right) side,? (?:at|in|towards) the (front|back|rear)\b(?! of the)",
         r"in the \2 \1 part",
     ),
+    # On a picture of the table its far side is on top.
+    *(
+        (
+            rf"\b(in|at|to|into|on|onto|towards?) the (?:{high}) (left|right)"
+            rf"(?: (?:side|part|area|end))? of the (?={TABLE}\b)",
+            rf"\1 the {side} \2 part of the ",
+        )
+        for high, side in (("top|upper", "back"), ("bottom|lower", "front"))
+    ),
     # "From the right to the left" is about the sides of the table.
     (
         rf"\b(?:away )?from the {_SIDE}(?: of the {TABLE})?"

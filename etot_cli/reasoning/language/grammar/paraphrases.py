@@ -9,6 +9,7 @@ from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
+from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
 from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.known import VERB_WORDS
@@ -77,6 +78,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     *OBSTACLES,
     *LISTINGS,
     *WHEREABOUTS,
+    *PLACEMENTS,
     (_WISHED, _as_asked),
     (
         r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood"
@@ -209,7 +211,7 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
         r", (?:say|for example|e\.g\.),? (?=(?:to|in|on|into|onto|at|next|beside|near|behind)\b)",
         ", ",
     ),
-    (r"(?<=\w) please(?=, )", ""),
+    (r"(?<=\w) (?:please|pls|plz)(?=, )", ""),
     (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"the only \1 that is "),
     (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
     (r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already))?\b", r"\1 it"),
@@ -221,7 +223,6 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
     (rf"(^|[.!?;,]\s*|\band )({_DOING}) (?:also|please) (?={NAMED})", r"\1\2 "),
     (r"\b(left|right) from (?=(?:the|my|that|this|it)\b)", r"\1 of "),
     (r"(^|[.!?;]\s*)would be (?=(?:good|nice|great|lovely) to have\b)", r"\1it would be "),
-    (r"\bwith the (\w+s) still in it\b", r"with the \1 that are in it in it"),
     (r"\bhidden (?=(?:in|inside|behind) )", ""),
     (r"\bstacked (?:on|upon)(?: top of)? (?:each other|one another)\b", "stacked"),
     (r"\bone (?:beside|next to) the other\b", "next to each other"),

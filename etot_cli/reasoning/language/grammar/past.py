@@ -100,7 +100,7 @@ _HAVING_DONE = either(
     ),
     sequence(verbs.PICKED_UP, THINGS, build=PickClause),
     sequence(
-        "(taken|took|lifted|pulled) (out|off|away)",
+        "(taken|took|lifted|pulled) (out|off|away), removed",
         ALL_THINGS,
         optional(SOURCE, None),
         build=RemoveClause,

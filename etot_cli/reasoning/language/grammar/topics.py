@@ -73,8 +73,8 @@ def _identified(
 
 def _all_of_any(np: NounPhrase) -> Things | None:
     """All of which any will do."""
-    any_one = np.determiner in ("any", "either") and np.words
-    return Things((np.called(f"{np.head}s"),)) if any_one else None
+    any_one = np.determiner.split()[:1] in (["any"], ["either"]) and np.words
+    return Things((np.called(f"{singular(np.head)}s"),)) if any_one else None
 
 
 def _remark(said: str, things: Things) -> ReorientClause | None:

@@ -9,6 +9,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.blocking import before_fronts
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.usual_form import GENERAL
 from etot_cli.reasoning.language.words.lexicon import singular
@@ -82,6 +83,14 @@ def related(
             (things, []) if modifier.denied else ([], [])
         )  # it says where something goes, not which fridge
     landmark_things = [mark for several in landmarks for mark in several]
+    if prep is Prep.FRONT and not plainly:
+        before = before_fronts(things, landmark_things, scene)
+        if before and {*before} != {*fitting} and (fitting or modifier.denied):
+            raise AmbiguousReference(text, [thing.name for thing in (*fitting, *before)])
+        if len(before) == 1 and not modifier.denied:
+            mark = " and ".join(mark.name for mark in landmark_things)
+            notes.append(f"in front of {mark}: {before[0].name}, before the front of its own")
+            return before, []
     upon = [
         thing
         for thing in fitting

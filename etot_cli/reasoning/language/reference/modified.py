@@ -23,11 +23,13 @@ from etot_cli.reasoning.language.reference.nouns import with_quality
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
+    DESK_NOUNS,
     NUMBERS,
     SIDES,
     SIZES,
     STATES,
     basic_color,
+    matches_any,
     singular,
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
@@ -95,6 +97,9 @@ def modified(
             named = [thing.name for way in ways for thing in way]
             raise UnclearLandmark(phrase.text, sorted(named))
         found = [thing for way in ways for thing in way]
+        if not found and _is_atop(things, modifier, scene):
+            found = things
+            ways = {tuple(things): ([], [_atop(things[0], scene)])}
         if not found:
             raise ReferenceProblem(*_untrue(phrase, modifier, things), 1)
         bare = modifier.denied and (
@@ -112,6 +117,25 @@ def modified(
         things, others = found, tuple(more)
         notes += said
     return things, others
+
+
+def _is_atop(things: Sequence[Thing], modifier: Modifier, scene: SceneState) -> bool:
+    """Whether the only thing of its name is "on the desk" as what stands on top of a piece of
+    furniture is that stands there itself.
+    """
+    if modifier.denied or modifier.prep not in (Prep.ON, Prep.FROM) or len(things) != 1:
+        return False
+    if not all(np.words and matches_any(np.head, DESK_NOUNS) for np in modifier.phrases):
+        return False
+    state = scene.states.get(things[0].name)
+    below = set() if state is None or state.inside or things[0].part else {*state.on}
+    fixed = {name for name, info in scene.infos.items() if not info.movable}
+    return bool(below) and below <= fixed
+
+
+def _atop(thing: Thing, scene: SceneState) -> str:
+    below = " and ".join(scene.states[thing.name].on)
+    return f"on the {DESK}: {thing.name}, which stands on {below} there"
 
 
 _ALONE = "there is no other one that this would tell it from"

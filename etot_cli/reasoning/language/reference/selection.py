@@ -194,6 +194,10 @@ def _nth(
     return chosen
 
 
+_DARKNESS = {"white": 1.0, "black": 4.0}
+"""Of two other colours who knows which is darker."""
+
+
 def _by_size(
     word: str, things: list[Thing], count: int | None, scene: SceneState, phrase: str
 ) -> list[Thing]:
@@ -265,7 +269,8 @@ def _measure(word: str, scene: SceneState, things: list[Thing]) -> Callable[[Thi
         info = scene.infos[thing.name]
         x, y, z = info.size
         values = {"volume": x * y * z, "height": z, "width": max(x, y), "girth": min(x, y, z)}
-        return -sign * (info.mass if quantity == "mass" else values[quantity])
+        values |= {"mass": info.mass, "darkness": _DARKNESS.get(info.color or "", 2.0)}
+        return -sign * values[quantity]
 
     return measure
 

@@ -224,9 +224,7 @@ def holds_at(
             aside = aside if prep in (Prep.LEFT, Prep.BEHIND) else -aside
             return aside > OFFSET and abs(askew) <= ASKEW * aside
         case Prep.BLOCKING:
-            along = to_the_back(thing, scene), to_the_back(first, scene)
-            across = abs(to_the_left(thing, scene) - to_the_left(first, scene))
-            return blocks(thing, first, along, across, scene)
+            return blocks(thing, first, scene)
         case Prep.NEXT_TO:
             return first == ROBOT or is_plainly(Prep.NEAR, thing, landmarks, scene)
         case Prep.NEAR:

@@ -44,7 +44,7 @@ OTHER_VERBS = word_set(
     juggling shake shaking spin spinning roll rolling squeeze squeezing fold folding fill
     filling peel drink eat light plug unplug screw unscrew twist pinch poke break crush drag
     dragging sweep sweeping dust polish paint draw write hit hammer count find look search
-    wait stop follow show tell describe explain say measure weigh heat cool mix blend scoop
+    wait stop follow show tell describe explain say measure weigh heat warm cool mix blend scoop
     feed water inspect scan balance hang catch wave point dance walk drive fly jump
     sing toggle activate knock topple tip bump touch chuck chucking discard
     discarding dispose disposing fling flinging

@@ -226,6 +226,7 @@ SIZES = {
     **dict.fromkeys(("long", "longer", "longest"), ("width", 1)),
     **dict.fromkeys(("heavy", "heavier", "heaviest"), ("mass", 1)),
     **dict.fromkeys(("lighter", "lightest"), ("mass", -1)),
+    **dict.fromkeys(("darker", "darkest"), ("darkness", 1)),
 }
 """Comparisons: the quantity, and whether more (1) or less (-1) of it is meant."""
 STATES = {

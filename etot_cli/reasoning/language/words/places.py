@@ -121,7 +121,7 @@ STANDS_AT: dict[Prep, str] = {
 }
 """Behind "the tray that the cup is": where what is meant is to the cup."""
 PREPOSITIONS: dict[Prep, str] = {
-    Prep.BLOCKING: "blocking, obstructing",
+    Prep.BLOCKING: "blocking, obstructing, [right] in the way of",
     Prep.ON: "on, upon, (standing|lying|sitting) on",
     Prep.IN: "inside [of], in, within",
     Prep.FROM: "from, off of, off, out of",

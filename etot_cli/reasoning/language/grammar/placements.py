@@ -1,0 +1,96 @@
+"""Ways of saying what goes where in other words than those of putting, put into plain ones."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.grammar.listings import ASKED
+from etot_cli.reasoning.language.words.categories import CATEGORIES
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.reasoning.language.words.verbs import PAST
+from etot_cli.world.colors import BASIC_COLORS
+
+_COLOR = "|".join(BASIC_COLORS)
+_FINE = r"(?:is|would be|will be) (?:fine|ok|okay|good|all right|alright)"
+_OF_TWO = r"one of (?:the two|them|these|those)"
+_NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
+_ONCE_DONE = re.compile(
+    rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
+)
+"""All that is told of what was done, as under a picture."""
+
+
+def _to_do(told: re.Match[str]) -> str:
+    """What is told as done for what is to be done ("moved the cup to the left of the plate")."""
+    done = re.sub(
+        rf"\b(and(?: then)?) ({'|'.join(PAST)})\b",
+        lambda said: f"{said[1]} {PAST[said[2]]}",
+        told[2],
+    )
+    return f"{PAST[told[1]]} {done}"
+
+
+PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+    (_ONCE_DONE, _to_do),
+    # What a set of things "needs on the tray" is needed there by whoever asks for it.
+    (
+        r"(^|[.;!] )(?:this|the|each|our|my) (?:kit|set|assembly|order|customer|guest|recipe) "
+        rf"needs (?={NAMED}[^.;]* (?:in|on)\b)",
+        r"\1we need ",
+    ),
+    (
+        rf"(^|[.;!] )(?:and )?one (?:more|last) (?:thing|item) for ({NAMED} [^.,:;]*): "
+        rf"(?={NAMED}|a\b|an\b)([^.:;]*)",
+        r"\1bring \3 to \2",
+    ),
+    (
+        rf"(^|[.;!] )({NAMED} [^.,:;]*?) should (?:trade|swap|switch|change|exchange) places: ",
+        r"\1swap \2: ",
+    ),
+    # "So red is in the cup and green on the tray"
+    (
+        rf"\b(so(?: that)?|and) ({_COLOR}) (?=(?:is|goes|ends up) (?:in|on|next|to)\b)",
+        r"\1 the \2 one ",
+    ),
+    # Of two things that are named there "one" is either, "the other one" the other.
+    (
+        rf"\b{_OF_TWO}(?:,| -)? ?\(?({_NOUNS}) or ({_NOUNS})(?:\)|, |(?= (?:should|goes|has)\b))",
+        r"either \1 or \2 ",
+    ),
+    # What has room in something, where it is put there
+    (
+        rf"(^|[.;!] )({NAMED} [^.,:;]*?) (?:will |would |should |can )?fits? "
+        rf"(in|into|inside|on|onto) ({NAMED} [^.,:;]*?)[.,;](?: so)?(?: please)? "
+        r"(put|place|set|drop) it (?:in |inside |on )?(?:there|it)(?=[.,;!?]|$)",
+        r"\1\5 \2 \3 \4",
+    ),
+    (rf", (?=(?:anywhere|somewhere) [^.,:;]* {_FINE}[.!]?$)", ". "),
+    (r"\bwith the (\w+s) still in it\b", r"with the \1 that are in it in it"),
+    # Of several of which any will do "one" is what is spoken of.
+    (
+        r"\b((?:either|any)(?: one)? of the [^.,;]*? (?:will do|would do|works|"
+        rf"{_FINE})[.,;] (?:so |just |please )*(?:put|place|take|pick up|bring|drop)) one\b"
+        r"(?! of\b)",
+        r"\1 it",
+    ),
+    # The rest of some things, of which one is where they go
+    (
+        r"\b(?:the rest of the|the (?:other|remaining)) (\w+s) "
+        rf"((?:in|into|on|onto) {NAMED} \w+(?: \w+)?) with the (\w+) one\b(?! (?:in|on)\b)",
+        r"all the \1 except the \3 one \2 with the \3 one in it",
+    ),
+    (
+        rf"\b(?:the|these|those) ({'|'.join(NUMBERS)}) (?:{'|'.join(CATEGORIES)})s?,? "
+        rf"(?=((?:the|my) [\w ]+?)(?:, (?:the|my) [\w ]+?)*,? and (?:the|my) [\w ]+,)",
+        r"all \1 things, ",
+    ),
+    (r"\b((?:after|once|when) the (?:\w+ )?\w+s are) all (?=(?:in|on)\b)", r"\1 "),
+    (rf"^({ASKED})(just|only) ({NAMED} [^.,:;]*? (?:in|into|on|onto) {NAMED} [^.,:;]*?),? "
+     r"(?:and )?nothing else\b", r"\1put just \3, nothing else"),
+    (r"\bwill have to (?=(?:go|be)\b)", "must "),
+    (rf"\bneither (?:of the )?(\w+?)s? should (?:have|hold|contain) ({NAMED} [^.,:;]*?)"
+     r"(?: in (?:it|them))?(?=[.,;!?]|$| and\b)", r"\2 should not be in either \1"),
+)  # fmt: skip
+"""In order."""
