@@ -274,6 +274,8 @@ class Resolver:
         phrase = next(iter(modifier.phrases), NounPhrase())
         if modifier.prep not in (Prep.OF, Prep.FROM, Prep.IN) or not self.names_stack(phrase):
             return []
+        if phrase.without:
+            raise ReferenceProblem(phrase.text, "say which stack by what is in it", 3)
         of = [m for m in phrase.modifiers if m.prep is Prep.OF]
         (inner, *_) = (*(np for m in of for np in m.phrases), NounPhrase())
         there = tuple(m for m in phrase.modifiers if m not in of)  # "the tower on the mat"
