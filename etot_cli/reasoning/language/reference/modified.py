@@ -97,7 +97,10 @@ def modified(
             named = [thing.name for way in ways for thing in way]
             raise UnclearLandmark(phrase.text, sorted(named))
         found = [thing for way in ways for thing in way]
-        if not found and _is_atop(things, modifier, scene):
+        atop = _is_atop(things, modifier, scene)
+        if atop and modifier.denied:
+            raise ReferenceProblem(phrase.text, _ALONE, 2)
+        if not found and atop:
             found = things
             ways = {tuple(things): ([], [_atop(things[0], scene)])}
         if not found:
@@ -123,7 +126,7 @@ def _is_atop(things: Sequence[Thing], modifier: Modifier, scene: SceneState) -> 
     """Whether the only thing of its name is "on the desk" as what stands on top of a piece of
     furniture is that stands there itself.
     """
-    if modifier.denied or modifier.prep not in (Prep.ON, Prep.FROM) or len(things) != 1:
+    if modifier.prep not in (Prep.ON, Prep.FROM) or len(things) != 1:
         return False
     if not all(np.words and matches_any(np.head, DESK_NOUNS) for np in modifier.phrases):
         return False
