@@ -5,7 +5,7 @@ Nothing here is shared with the judge that the planner uses, so that an error of
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from etot_cli.errors import SpecError
@@ -57,19 +57,34 @@ class HarmWatch:
             elif after.infos[name].container and now.toppled and not (was.toppled or now.in_hand):
                 self.found[name] = f"{name} was knocked over"
 
-    def harm(self, final: SceneState) -> tuple[str, ...]:
-        """What still stands at the end: what was set right again is no harm."""
+    def harm(self, final: SceneState, laid: Sequence[str] = ()) -> tuple[str, ...]:
+        """What still stands at the end: what was set right again is no harm.
+
+        Args:
+            final: the true state at the end.
+            laid: objects that were to be laid down.
+        """
         kept = []
         for name, words in self.found.items():
             state = final.states.get(name)
-            if state is None or state.lost or state.toppled or not state.reachable:
+            toppled = state is not None and state.toppled and name not in laid
+            if state is None or state.lost or toppled or not state.reachable:
                 kept.append(words)
         return tuple(kept)
 
 
 def evaluate(success: Sequence[Condition], final: SceneState, watch: HarmWatch) -> Evaluation:
     """Reads the task's conditions and the harm in the true final state."""
-    return Evaluation(tuple(_holds(item, final) for item in success), watch.harm(final))
+    laid = tuple(_laid(success))
+    return Evaluation(tuple(_holds(item, final) for item in success), watch.harm(final, laid))
+
+
+def _laid(conditions: Sequence[Condition]) -> Iterator[str]:
+    """Objects that are to lie in the end, or may."""
+    for condition in conditions:
+        if condition.lying is not None:
+            yield condition.lying
+        yield from _laid((*(condition.any or ()), *(condition.all or ())))
 
 
 def _holds(condition: Condition, scene: SceneState) -> bool:

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from etot_cli.errors import SpecError
 from etot_cli.specs.task import BESIDE_KEYS, Condition
 from etot_cli.world import spatial
-from etot_cli.world.spatial import Whereabouts, whereabouts
+from etot_cli.world.spatial import Nearby, Whereabouts, whereabouts
+from etot_cli.world.stance import NO_SIDE, can_lie
 from etot_cli.world.state import CLOSED_AT, DESK, STAYS_OPEN_AT, ObjectState, PartInfo, SceneState
 
 
@@ -40,6 +41,8 @@ def holds(condition: Condition, scene: SceneState) -> bool:
     if condition.upright is not None:
         state = _object(condition.upright, scene)
         return not (state.toppled or state.lost)
+    if condition.lying is not None:
+        return _lies(condition.lying, scene)
     if condition.present is not None:
         return not _object(condition.present, scene).lost
     for key in BESIDE_KEYS:
@@ -97,6 +100,14 @@ def _stands(name: str, where: Whereabouts, scene: SceneState) -> bool:
     for landmark in where.landmarks:
         _object(landmark, scene)
     return not (state.in_hand or state.lost) and spatial.holds(where, name, scene)
+
+
+def _lies(name: str, scene: SceneState) -> bool:
+    """Whether an object lies; what is held or lost lies nowhere."""
+    _object(name, scene)
+    if not can_lie(scene.infos[name]):
+        raise SpecError(f"lying: {name}: {NO_SIDE}")
+    return spatial.holds(Whereabouts(Nearby.LYING), name, scene)
 
 
 def _object(name: str, scene: SceneState) -> ObjectState:

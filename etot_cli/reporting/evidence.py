@@ -19,7 +19,7 @@ from etot_cli.reporting.models import (
     rounded,
 )
 from etot_cli.skills.action import Action
-from etot_cli.world.relations import TOPPLED_DEG
+from etot_cli.world.stance import TOPPLED_DEG
 from etot_cli.world.state import DESK, ContactEvent, ObjectState, RolloutRecord, owner_of
 
 SEEN_MOVE_M = 0.005

@@ -56,8 +56,8 @@ class Action:
         safe: a PUT ON that must also stay clear of everything that moved or swept (a safe place).
         keepout: the discs that such a place, or one that is to leave room for another thing,
             avoids, from the failed rollout; base frame.
-        where: of a PUT ON, where on that surface; of a PUT, that it is to stand upright there. All
-            of it must hold afterwards.
+        where: of a PUT ON, where on that surface; of a PUT, that it is to stand upright or to lie
+            there. All of it must hold afterwards.
     """
 
     verb: Verb
@@ -146,8 +146,9 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             if place is None or not _says_where(verb, place):
                 raise PlanSyntaxError(
                     f"unknown note ({plain}) after [{verb.value}, {target}]; expected "
-                    "(horizontal), (vertical), (safe place) or, after a PUT, (upright) or a place "
-                    "such as (left of plate) or (between cup and box), after PUT ON (at edge), too"
+                    "(horizontal), (vertical), (safe place) or, after a PUT, (upright), (lying) or "
+                    "a place such as (left of plate) or (between cup and box), after PUT ON "
+                    "(at edge), too"
                 )
             _check_landmarks(place, allowed, f"[{verb.value}, {target}] ({plain})")
             where.append(place)
@@ -156,7 +157,7 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
 
 def _says_where(verb: Verb, place: Whereabouts) -> bool:
     """Whether an action may ask for a place: in a container beside what else is in there."""
-    told = place.landmarks or place.relation is Nearby.UPRIGHT
+    told = place.landmarks or place.relation.is_stance
     return verb is Verb.PUT_ON or (verb is Verb.PUT_INTO and bool(told))
 
 
@@ -172,7 +173,7 @@ def read_whereabouts(text: str) -> Whereabouts | None:
     """
     if text.lower().startswith("not "):
         there = read_whereabouts(text[len("not ") :])
-        known = there is not None and not there.denied and there.relation is not Nearby.UPRIGHT
+        known = there is not None and not there.denied and not there.relation.is_stance
         return replace(there, denied=True) if there is not None and known else None
     point = _POINT.fullmatch(text.lower())
     if point is not None:

@@ -16,6 +16,7 @@ from etot_cli.specs.objects import (
     Mjcf,
     ObjectBase,
     Shelf,
+    Sphere,
     is_fastened,
 )
 from etot_cli.specs.problems import Problem, show, unknown
@@ -174,9 +175,15 @@ def _above_desk(point: tuple[float, float], scene: Scene) -> bool:
     )
 
 
+def _with_a_side(scene: Scene) -> list[str]:
+    """What may be laid down, as far as the scene alone tells: no balls."""
+    return [name for name, item in scene.objects.items() if not isinstance(item, Sphere)]
+
+
 _SINGLE: Mapping[str, tuple[str, Callable[[Scene], list[str]]]] = {
     "in_hand": ("object", lambda scene: list(scene.objects)),
     "upright": ("object", lambda scene: list(scene.objects)),
+    "lying": ("object that has a side to lie on", _with_a_side),
     "present": ("object", lambda scene: list(scene.objects)),
     "open": ("part that opens", openable),
     "closed": ("part that opens", openable),

@@ -49,6 +49,9 @@ class Condition(Spec):
     upright: Reference | None = None
     """It stands: a vessel on its foot, and what is taller than wide with its own z axis up, however
     they were at the start; all else as it stood then, boxes and cylinders either way round."""
+    lying: Reference | None = None
+    """It lies: a vessel, and what is taller than wide, on its side, and a rod by its length, to
+    within 40°; all else on a side that makes it rather low than high. A ball and a cube cannot."""
     present: Reference | None = None
     """It is still on the desk or on something."""
     left_of: Pair | None = None
@@ -82,7 +85,7 @@ class Condition(Spec):
         if len(given) != 1 or len(self.model_fields_set) != 1:
             raise ValueError(
                 "a condition has exactly one key of on, inside, in_hand, open, closed, upright, "
-                f"present, {', '.join(BESIDE_KEYS)}, at, any, all, not"
+                f"lying, present, {', '.join(BESIDE_KEYS)}, at, any, all, not"
             )
         return self
 

@@ -12,6 +12,7 @@ from etot_cli.world.index import ObjectEntry, Region
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.snapshot import Memory
+from etot_cli.world.stance import RIGHTED_DEG, TOPPLED_DEG, has_top
 from etot_cli.world.state import (
     OPEN_AT,
     STAYS_OPEN_AT,
@@ -22,8 +23,6 @@ from etot_cli.world.state import (
 )
 from etot_cli.world.viewpoint import forward_of
 
-TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
-"""Tilt from which an object counts as toppled, and below which it no longer does."""
 SYMMETRIC_KINDS = frozenset({"box", "cylinder"})
 """Kinds that are the same when they are turned over."""
 INSIDE_MARGIN = 0.010
@@ -58,14 +57,7 @@ def standing_axis(entry: ObjectEntry, rotation: NDArray[np.float64]) -> tuple[fl
         entry: the object.
         rotation: its orientation (3, 3) in the base frame.
     """
-    return (0.0, 0.0, 1.0) if has_top(entry) else triple(rotation[2])
-
-
-def has_top(entry: ObjectEntry) -> bool:
-    """Whether an object is made to stand along its own z axis: it is hollow, its mouth that way, or
-    longest that way, as bottles, cans and cartons are.
-    """
-    return entry.info.container or entry.info.size[2] > max(entry.info.size[:2])
+    return (0.0, 0.0, 1.0) if has_top(entry.info) else triple(rotation[2])
 
 
 def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[SceneState, Memory]:
@@ -82,7 +74,7 @@ def read_scene(world: World, data: mujoco.MjData, memory: Memory) -> tuple[Scene
         body = data.body(entry.body)
         rotation = body.xmat.reshape(3, 3)
         tilt = _tilt_deg(rotation, memory.up.get(name, (0.0, 0.0, 1.0)))
-        if entry.info.kind in SYMMETRIC_KINDS and not has_top(entry):
+        if entry.info.kind in SYMMETRIC_KINDS and not has_top(entry.info):
             tilt = min(tilt, 180.0 - tilt)
         has_toppled = entry.upright_matters and tilt > (
             RIGHTED_DEG if name in memory.toppled else TOPPLED_DEG

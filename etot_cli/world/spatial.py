@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from etot_cli.specs.base import heading_of
 from etot_cli.world.arrays import Vector
+from etot_cli.world.stance import lies
 from etot_cli.world.state import DESK, SceneState
 
 Mask = NDArray[np.bool_]
@@ -65,14 +66,20 @@ class Nearby(StrEnum):
     AT_CORNER = "at corner"
     AT_POINT = "at"
     UPRIGHT = "upright"
-    """Says nothing of the place but of how it stands there."""
+    LYING = "lying"
+    """These two say nothing of the place but of how it is there."""
 
     @property
     def landmarks(self) -> int:
         """How many things it relates to."""
         if self is Nearby.BETWEEN:
             return 2
-        return 0 if self is Nearby.UPRIGHT or self.value.startswith("at") else 1
+        return 0 if self.is_stance or self.value.startswith("at") else 1
+
+    @property
+    def is_stance(self) -> bool:
+        """It says how a thing is there, not where."""
+        return self in (Nearby.UPRIGHT, Nearby.LYING)
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -169,7 +176,7 @@ def fits(
         case Nearby.AT_POINT:
             point = np.array(where.point or area.center)
             return np.asarray(np.linalg.norm(points - point, axis=1) <= AT)
-        case Nearby.UPRIGHT:
+        case Nearby.UPRIGHT | Nearby.LYING:
             return np.ones(len(points), dtype=np.bool_)
         case Nearby.AT_EDGE:
             return np.asarray((area.border(points) - radius <= EDGE).any(axis=1))
@@ -187,6 +194,8 @@ def holds(where: Whereabouts, name: str, scene: SceneState) -> bool:
     state = scene.states[name]
     if where.relation is Nearby.UPRIGHT:
         return not (state.toppled or state.lost)
+    if where.relation is Nearby.LYING:
+        return lies(scene.infos[name], state.quaternion) and not (state.in_hand or state.lost)
     outlines = [outline_of(landmark, scene) for landmark in where.landmarks]
     surface = state.on[0].partition(".")[0] if state.on else DESK
     area = outline_of(surface if surface in scene.states else DESK, scene)

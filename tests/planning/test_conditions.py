@@ -79,6 +79,11 @@ def test_states_of_one_object() -> None:
     assert not check({"in_hand": "cup"}, scene())
     assert check({"upright": "cup"}, scene())
     assert not check({"upright": "cup"}, changed(toppled=True))
+    on_its_side = changed(quaternion=(0.7071068, 0.7071068, 0.0, 0.0))
+    assert check({"lying": "cup"}, on_its_side) and not check({"lying": "cup"}, scene())
+    assert not check(
+        {"lying": "cup"}, changed(quaternion=on_its_side.states["cup"].quaternion, in_hand=True)
+    )
     assert check({"present": "cup"}, scene())
     assert not check({"present": "cup"}, changed(lost=True))
 

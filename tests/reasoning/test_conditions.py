@@ -122,6 +122,20 @@ def test_what_is_not_to_be_there_goes_elsewhere(
     assert plans(state, condition) == wanted
 
 
+def test_what_stands_is_laid_down_and_what_lies_is_left() -> None:
+    name, mug = scenes.cup("mug", (0.4, 0.2))
+    state = scenes.scene((name, mug), scenes.drawers("unit", (0.5, 0.0), {}, on=""))
+    assert plans(state, {"lying": "mug"}) == ["[PICK UP, mug] [PUT ON, desk] (lying)"]
+    assert plans(state, {"lying": "mug"}, {"on": ["mug", "unit"]}) == [
+        "[PICK UP, mug] [PUT ON, unit] (lying)"
+    ]
+    on_its_side = replace(mug, toppled=True, quaternion=(0.7071068, 0.7071068, 0.0, 0.0))
+    state = scenes.scene((name, on_its_side))
+    assert plans(state, {"lying": "mug"}) == []
+    with pytest.raises(InstructionError, match="no skill makes 'lying'"):
+        plans(state, {"not": {"lying": "mug"}})
+
+
 def test_what_lies_is_stood_up_before_it_takes_something_in() -> None:
     name, mug = scenes.cup("mug", (0.4, 0.2))
     state = scenes.scene((name, replace(mug, toppled=True)), scenes.ball("nut", (0.4, -0.2)))
@@ -145,6 +159,9 @@ def test_what_lies_is_stood_up_before_it_takes_something_in() -> None:
         ({"open": "drawer.bottom"}, "no such part; it has top"),
         ({"in_hand": "drawer"}, "cannot be picked up"),
         ({"not": {"upright": "holder"}}, "no skill"),
+        ({"lying": "apple"}, "apple: no side of it is one to lie on"),
+        ({"all": [{"lying": "holder"}, {"upright": "holder"}]}, "cannot both stand and lie"),
+        ({"all": [{"lying": "holder"}, {"in_hand": "holder"}]}, "what is held does not lie"),
     ],
 )
 def test_refusals(condition: dict[str, Any], named: str) -> None:

@@ -107,6 +107,10 @@ def test_landmarks_must_exist() -> None:
             Action(Verb.PUT_INTO, "bin", where=(Whereabouts(Nearby.NEXT_TO, ("cup",)),)),
         ),
         (
+            "[PUT INTO, bin] (lying)",
+            Action(Verb.PUT_INTO, "bin", where=(Whereabouts(Nearby.LYING),)),
+        ),
+        (
             "[PUT INTO, bin] (Upright)",
             Action(Verb.PUT_INTO, "bin", where=(Whereabouts(Nearby.UPRIGHT),)),
         ),

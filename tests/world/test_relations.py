@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from etot_cli.world.relations import RIGHTED_DEG, TOPPLED_DEG
+from etot_cli.world.stance import RIGHTED_DEG, TOPPLED_DEG
 from etot_cli.world.state import OPEN_AT
 from tests.world.helpers import BALL, BOX, CABINET, CUP, PEN, SHELF, UNIT, about_y, make_scene
 from tests.world.helpers import set_up as set_up_stage

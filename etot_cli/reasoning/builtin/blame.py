@@ -75,8 +75,9 @@ def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[
         text = f"{target} toppled when {held} was put into it"
         return Cause(CauseKind.TOPPLED, (owner,), text, _first_touch(record, owner))
     joint = "in" if action.verb is Verb.PUT_INTO else "on"
-    if _is_there_but_lies(action, record, held):
-        text = f"{held} does not stand {joint} {target}"
+    if (stance := _stance_missed(action, record)) is not None:
+        does = "stand" if stance is Nearby.UPRIGHT else "lie"
+        text = f"{held} does not {does} {joint} {target}"
         return Cause(CauseKind.REBOUND, (held,), text)
     struck = _struck_by({held}, record, excluding={owner, *ROBOT})
     resident = [name for name in struck if _is_at(name, action, record)]
@@ -106,11 +107,12 @@ def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[
     return Cause(CauseKind.REBOUND, blamed, f"{held} did not stay {joint} {target}")
 
 
-def _is_there_but_lies(action: Action, record: RolloutRecord, held: str) -> bool:
-    """Whether all that what was put down lacks is that it stands."""
-    unsaid = tuple(where for where in action.where if where.relation is not Nearby.UPRIGHT)
+def _stance_missed(action: Action, record: RolloutRecord) -> Nearby | None:
+    """How what was put down should stand or lie, where that is all it lacks."""
+    wanted = [where.relation for where in action.where if where.relation.is_stance]
+    unsaid = tuple(where for where in action.where if not where.relation.is_stance)
     anyhow = replace(action, where=unsaid)
-    return unsaid != action.where and effect_holds(anyhow, record)
+    return wanted[0] if wanted and effect_holds(anyhow, record) else None
 
 
 def _is_at(name: str, action: Action, record: RolloutRecord) -> bool:

@@ -28,11 +28,13 @@ from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.specs.task import BESIDE_KEYS, Condition
 from etot_cli.world import spatial
 from etot_cli.world.spatial import Nearby, Whereabouts, whereabouts
+from etot_cli.world.stance import NO_SIDE, can_lie
 from etot_cli.world.state import DESK, SceneState, owner_of
 
 BESIDE = "beside"
 """Stands for all keys on where an object is with respect to others."""
-_LAST = {BESIDE: 1, "upright": 2}
+_STANCES = {"upright": Nearby.UPRIGHT, "lying": Nearby.LYING}
+_LAST = {BESIDE: 1, **dict.fromkeys(_STANCES, 2)}
 """Conditions on how something stands come after those on where."""
 _CONVERSE = {
     Nearby.LEFT: Nearby.RIGHT,
@@ -90,11 +92,17 @@ def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
     stands on a plate in a cupboard is in the cupboard, and not on the desk.
 
     Raises:
-        ReferenceProblem: one object is to be at two places, or on or in itself.
+        ReferenceProblem: one object is to be at two places, in two ways, or on or in itself.
     """
     wanted = [atom for atom in atoms if atom.key in ("on", "inside") and not atom.denied]
     places = {a.names[0]: [b for b in wanted if b.names[0] == a.names[0]] for a in wanted}
     implied: list[_Atom] = []
+    stances = [atom for atom in atoms if atom.key in _STANCES and not atom.denied]
+    for atom in stances:
+        if any(a.names == atom.names and a.key != atom.key for a in stances):
+            raise ReferenceProblem(atom.names[0], "it cannot both stand and lie")
+        if atom.key == "lying" and _Atom("in_hand", atom.names) in atoms:
+            raise ReferenceProblem(atom.names[0], "what is held does not lie anywhere")
     for name in places:
         # What bears it now and goes nowhere itself is freed of it before.
         if name in map(owner_of, _around(name, places)):
@@ -170,7 +178,7 @@ def _alternatives(
             # Where it lies on the desk now it does not get off it by being left alone.
             stays = not (elsewhere and pair[0] in scene.states and is_on(scene, *pair))
             return [*([(atom,)] if stays else []), *elsewhere]
-    for key in ("in_hand", "open", "closed", "upright", "present"):
+    for key in ("in_hand", "open", "closed", *_STANCES, "present"):
         name: str | None = getattr(condition, key)
         if name is not None:
             return [(_Atom(key, (name,), denied),)]
@@ -245,7 +253,8 @@ class _Draft:
             "in_hand": self._in_hand,
             "open": self._open,
             "closed": self._open,
-            "upright": self._upright,
+            "upright": self._stance,
+            "lying": self._stance,
             "present": self._state,
             BESIDE: self._beside,
         }
@@ -276,18 +285,24 @@ class _Draft:
             surface = None if landmarks else self._refer(DESK, Role.SURFACE)
             self.steps.append(Put((theme,), (Place(Relation.ON, surface, (near,)),)))
 
-    def _upright(self, atom: _Atom) -> None:
-        """Standing where it is put; on the desk where it lies now and is put nowhere else."""
-        name = atom.names[0]
+    def _stance(self, atom: _Atom) -> None:
+        """Standing, or lying, where it is put; on the desk where it does not yet and is put nowhere
+        else.
+        """
+        name, stance = atom.names[0], _STANCES[atom.key]
         state = self.scene.states.get(name)
-        if atom.denied or state is None or state.lost:
+        if atom.denied or state is None or state.lost or not self.scene.infos[name].movable:
             self._state(atom)
             return
-        if self.scene.infos[name].kind in ROLLING_KINDS or not self.scene.infos[name].movable:
+        info = self.scene.infos[name]
+        if stance is Nearby.LYING and not can_lie(info):
+            raise ReferenceProblem(name, NO_SIDE)
+        if stance is Nearby.UPRIGHT and info.kind in ROLLING_KINDS:
             self._state(atom)
             return
-        theme, near = self._refer(name, Role.THEME), Near(Nearby.UPRIGHT)
-        if not self._add_to_put(theme, near) and state.toppled:
+        theme, near = self._refer(name, Role.THEME), Near(stance)
+        so = spatial.holds(Whereabouts(stance), name, self.scene)
+        if not self._add_to_put(theme, near) and not so:
             desk = self._refer(DESK, Role.SURFACE)
             self.steps.append(Put((theme,), (Place(Relation.ON, desk, (near,)),)))
 
@@ -318,7 +333,9 @@ class _Draft:
         name = atom.names[0]
         self._refer(name, Role.ANY)
         state = self.scene.states.get(name)
-        holds = state is None or not (state.lost or (atom.key == "upright" and state.toppled))
+        holds = state is None or not state.lost
+        if state is not None and atom.key in _STANCES:
+            holds = spatial.holds(Whereabouts(_STANCES[atom.key]), name, self.scene)
         if holds == atom.denied:
             raise ReferenceProblem(name, f"no skill makes '{atom.key}' true or false")
 

@@ -14,6 +14,7 @@ from etot_cli.reasoning.builtin.effects import acted_object, carried_along
 from etot_cli.reasoning.builtin.relations import can_topple, contents, enclosing
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.carrying import carried_by
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import CLOSED_AT, CauseKind, ObjectState, RolloutRecord, owner_of
 
 SHOVED = 0.03
@@ -116,8 +117,9 @@ def _harm(name: str, action: Action, record: RolloutRecord) -> HarmKind | None:
         return HarmKind.LOST
     if info.movable and before.reachable and not after.reachable and not after.in_hand:
         return HarmKind.STRANDED
-    # What was put down may lie as it likes unless it has to hold something.
-    upright = can_topple(info) and (info.container or not acted)
+    # What was put down may lie as it likes unless it has to hold something, and was not laid down.
+    laid = any(where.relation is Nearby.LYING for where in action.where)
+    upright = can_topple(info) and not (acted and (laid or not info.container))
     if upright and after.toppled and not before.toppled and not after.in_hand:
         return HarmKind.TOPPLED
     if acted:

@@ -52,7 +52,6 @@ from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sharing import lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, GraspPose, Verb
-from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import (
     DESK,
     STAYS_OPEN_AT,
@@ -347,16 +346,16 @@ class _Case:
 
     def _grasped_anew(self, pick: int) -> Iterator[Correction]:
         """What was taken out of somewhere is set down and grasped where the hand has room all
-        round: what does not stand as it was held; and from above, what has no room beside a level
-        hand.
+        round: what does not stand, or lie, as it was held; and from above, what has no room beside
+        a level hand.
         """
         level = self.actions[pick].pose is GraspPose.HORIZONTAL
-        stands = any(where.relation is Nearby.UPRIGHT for where in self.action.where)
+        has_stance = any(where.relation.is_stance for where in self.action.where)
         name = self.acted
         if name is None or self.action.safe or relocations(self.actions, name):
             return
         ways: list[tuple[GraspPose | None, str]] = []
-        if stands:
+        if has_stance:
             ways.append((None, "anew"))
         if level and self.is_full:
             ways.append((GraspPose.VERTICAL, "from above"))

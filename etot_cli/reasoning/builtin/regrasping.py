@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.relocation import Correction
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import PUTS, GraspPose, Verb
 from etot_cli.specs.footprint import rotated
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import CauseKind, owner_of
 
 _NO_ROOM_ABOVE = frozenset(
@@ -24,7 +25,7 @@ _STANDS = 0.5
 def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Correction]:
     """The branch with the object grasped from above where it slipped; from the side where the hand
     has no room above it, does not reach that far or that high from above, or where a rod stands in
-    the hand, which lays it down from there.
+    the hand, which lays it down from there, as it does all that is to lie.
 
     Args:
         failed: the failed step.
@@ -41,6 +42,7 @@ def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Corre
         (cause in _NO_ROOM_ABOVE and _is_roofed(failed))
         or _is_out_of_reach(failed, cause)
         or _stands_in_hand(failed)
+        or _is_to_lie(failed)
     ):
         pose, how = GraspPose.HORIZONTAL, "from the side"
     else:
@@ -69,6 +71,14 @@ def _is_roofed(failed: FailedStep) -> bool:
         for name in (owner_of(target), *carriers(scene, owner_of(target))):
             places |= {*scene.states[name].on, scene.states[name].inside or name}
     return any(has_front(scene, place) for place in places)
+
+
+def _is_to_lie(failed: FailedStep) -> bool:
+    """Whether something was to be laid down: a level hand points down once it has done so, the
+    hand that came from above is level then, and low.
+    """
+    action = failed.branch.actions[failed.index]
+    return any(where.relation is Nearby.LYING for where in action.where)
 
 
 def _stands_in_hand(failed: FailedStep) -> bool:

@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.relations import is_closed, is_open
 from etot_cli.reasoning.builtin.rules import in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.skills.action import PUTS, Action, Verb
-from etot_cli.world.spatial import Nearby, Whereabouts
+from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import SceneState
 
 Actions = tuple[Action, ...]
@@ -160,7 +160,7 @@ def without_idle(actions: Actions, scene: SceneState) -> Actions:
         waits = again == 2 * [(Verb.PICK_UP, action.target)] and actions[index + 1].safe
         poses = {action.pose, actions[index + 2].pose if waits else None} - {None}
         put = actions[index + 3 : index + 4]
-        stands = any(where.relation is Nearby.UPRIGHT for one in put for where in one.where)
+        stands = any(where.relation.is_stance for one in put for where in one.where)
         if waits and len(poses) < 2 and not stands:  # else it is grasped anew
             return without_idle((*actions[:index], *actions[index + 2 :]), scene)
         part = scene.part(action.target)

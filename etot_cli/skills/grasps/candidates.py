@@ -33,7 +33,7 @@ from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.pose import LEVEL, UP, Pose, turn_about
-from etot_cli.world.relations import has_top
+from etot_cli.world.stance import has_top
 
 SUPPORT_GAP = 0.002
 """Distance kept between fingertips and what the object stands on [m]."""
@@ -78,7 +78,7 @@ def sample_grasps(
     return replace(
         found.ranked(),
         lies_round=entry.info.kind == "cylinder" and abs(rise) < LEVEL,
-        on_its_head=has_top(entry) and rise <= -LEVEL,
+        on_its_head=has_top(entry.info) and rise <= -LEVEL,
     )
 
 

@@ -31,6 +31,7 @@ from etot_cli.skills.placements.undersides import HAND_MARGIN, Stamps, Underside
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
 from etot_cli.world.relations import SUPPORT_SLOPE
+from etot_cli.world.spatial import Nearby
 
 Cells = NDArray[np.int64]
 Preference = Callable[[Vector], Vector]
@@ -100,7 +101,7 @@ class Request:
         at: places x, y that are looked at besides those of a grid, base frame [m].
         absent: objects taken for not being there, such as what the held one carries.
         rehearsed: where it was let go in a scene much like this one; looked at first.
-        upright: it has to stand.
+        stance: it has to stand, or to lie; None where either will do.
         bare: the hand is thought away.
     """
 
@@ -112,7 +113,7 @@ class Request:
     at: tuple[tuple[float, float], ...] = ()
     absent: frozenset[str] = field(default_factory=frozenset)
     rehearsed: Pose | None = None
-    upright: bool = False
+    stance: Nearby | None = None
     bare: bool = False
 
 

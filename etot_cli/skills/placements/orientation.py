@@ -1,4 +1,4 @@
-"""How an object is turned when it is put down: level, or upright where it must stand."""
+"""How an object is turned when it is put down: level, or as it must stand or lie."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
-from etot_cli.world.pose import LEVEL, UP, cross, rotation_between, turn_about
-from etot_cli.world.relations import RIGHTED_DEG, has_top
+from etot_cli.world.pose import LEVEL, UP, cross, quaternion_of, rotation_between, turn_about
+from etot_cli.world.spatial import Nearby
+from etot_cli.world.stance import RIGHTED_DEG, has_top, lies
 
 HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
@@ -47,7 +48,7 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
     if not entry.upright_matters:
         return _level_tool(belief) @ attached.in_tool.rotation
     columns = pose.rotation.T @ UP
-    if has_top(entry) and -ON_ITS_HEAD < columns[2] < 0.0:
+    if has_top(entry.info) and -ON_ITS_HEAD < columns[2] < 0.0:
         columns[2] = 0.0  # it hangs in the hand; only what stood on its head may do so again
     nearest = int(np.argmax(np.abs(columns)))
     up = pose.rotation[:, nearest] * np.sign(columns[nearest])
@@ -93,7 +94,8 @@ def rolled_down(belief: Belief, attached: Attached, lying: Vector) -> Vector:
 class Orientations:
     """Some of the ways to put an object down: one base, turned about the vertical.
 
-    ``rotations``: (3, 3) each, the most comfortable first; ``laid``: it is laid down.
+    ``rotations``: (3, 3) each, the most comfortable first; ``laid``: it is laid down
+    for want of room.
     """
 
     rotations: list[Vector]
@@ -101,7 +103,7 @@ class Orientations:
 
 
 def orientations(
-    belief: Belief, attached: Attached, support: Support, *, upright: bool = False
+    belief: Belief, attached: Attached, support: Support, stance: Nearby | None = None
 ) -> list[Orientations]:
     """Orientations to put an object down with, a few turns at a time, the best first: as it is
     held, then laid down where falling over does it no harm.
@@ -113,29 +115,36 @@ def orientations(
         belief: holds the object.
         attached: the object.
         support: what it is put on or into.
-        upright: it has to stand, even where it lies in the hand.
+        stance: it has to stand, or to lie, however it is held; None where either will do.
     """
     entry = belief.world.entries[attached.name]
     now = belief.object_pose(attached.name).rotation
     base = resting_rotation(belief, attached)
-    lies = has_top(entry) and abs(now[2, 2]) < LEVEL
-    enters_level = support.from_front and lies and _points_down(belief)
+    hangs = has_top(entry.info) and abs(now[2, 2]) < LEVEL
+    enters_level = support.from_front and hangs and _points_down(belief)
     found: list[Orientations] = []
-    if entry.upright_matters and (upright or enters_level):
-        standing = rotation_between(now[:, 2], UP) @ now if has_top(entry) else base
+    if entry.upright_matters and stance is Nearby.LYING:
+        ways = [base, *laid_rotations(belief, attached, base)]
+        flat = [way for way in ways if lies(entry.info, (*quaternion_of(way),))]
+        return [one for way in flat for one in _turned(belief, attached, support, way, laid=False)]
+    if entry.upright_matters and (stance is Nearby.UPRIGHT or enters_level):
+        standing = rotation_between(now[:, 2], UP) @ now if has_top(entry.info) else base
         found = _turned(belief, attached, support, standing, laid=False)
-        if upright:
+        if stance is Nearby.UPRIGHT:
             return found
     if (
         entry.axis is not None
         and support.is_container
         and entry.info.size[0] > 2 * float(support.half.max())
     ):
-        for way in standing_rotations(belief, attached):
+        for way in standing_rotations(belief, attached) if stance is not Nearby.LYING else ():
             found += _turned(belief, attached, support, way, laid=False)
         return found
     is_drawer = support.address in belief.world.parts
-    if support.is_container and not (support.from_front or is_drawer or entry.info.container):
+    may_stand = stance is not Nearby.LYING and not (
+        support.from_front or is_drawer or entry.info.container
+    )
+    if support.is_container and may_stand:
         stood = stood_up(belief, attached, support)
         found = [] if stood is None else _turned(belief, attached, support, stood, laid=False)
     found += _turned(belief, attached, support, base, laid=False)

@@ -14,7 +14,7 @@ from etot_cli.skills.placements.places import Place, PlaceFinder
 from etot_cli.skills.placements.undersides import Stamps
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
-from etot_cli.world.pose import UP, Pose, straight
+from etot_cli.world.pose import LINE_STEP, UP, Pose, straight
 from etot_cli.world.state import DESK, owner_of
 
 HOVER = 0.06
@@ -252,11 +252,14 @@ class _Way:
         """
         arm = self._belief.arm
         approach = tool.rotation[:, 2]
-        for direction in (-approach, UP):
-            path, count = arm.line(straight(tool, tool.moved(RETREAT * direction)), joints)
-            if count >= 2:
+        for direction, step in ((-approach, LINE_STEP), (UP, LOWER_STEP)):
+            poses = straight(tool, tool.moved(RETREAT * direction), step)
+            path, count = arm.line(poses, joints)
+            if count * step >= 2 * LINE_STEP:
                 self._gets_away = True
-                release = self._widest_release([joints, path[count // 2], path[-1]], 0.0)
+                # A finger that goes up inside what lies around it would take that along.
+                rows = path if direction is UP else [path[count // 2], path[-1]]
+                release = self._widest_release([joints, *rows], 0.0)
                 if release is not None:
                     return path, release
             if approach[2] < -1 + 1e-3:

@@ -89,9 +89,7 @@ class PlaceFinder:
         if rehearsed is not None and not as_held:
             yield from self._again(rehearsed)
         request = self._request
-        groups = orientations(
-            self._belief, request.attached, self._support, upright=request.upright
-        )
+        groups = orientations(self._belief, request.attached, self._support, request.stance)
         if as_held:
             groups = [group for group in groups if not group.laid]
         judge, grid = self._judge, self._judge.grid()

@@ -16,6 +16,7 @@ from etot_cli.skills.placements.support import UPRIGHT, container_support, surfa
 from etot_cli.skills.placements.wanted import wanted_spots
 from etot_cli.world.pose import Pose
 from etot_cli.world.spatial import Nearby
+from etot_cli.world.stance import NO_SIDE, can_lie
 from etot_cli.world.state import CauseKind
 
 
@@ -40,6 +41,10 @@ def put_places(
             text = "is no container"
         yield failed(CauseKind.PRECONDITION, [target], f"{target} {text}")
         return
+    lying = any(where.relation is Nearby.LYING for where in action.where)
+    if lying and not can_lie(belief.world.entries[name].info):
+        yield failed(CauseKind.PRECONDITION, [name], f"{name} cannot be laid down: {NO_SIDE}")
+        return
     request = Request(
         belief.attach(name),
         support,
@@ -51,7 +56,7 @@ def put_places(
             where.point for where in action.where if where.point is not None and not where.denied
         ),
         rehearsed=rehearsed,
-        upright=any(where.relation is Nearby.UPRIGHT for where in action.where),
+        stance=next((w.relation for w in action.where if w.relation.is_stance), None),
     )
     tally = Tally(belief.world)
     found = False

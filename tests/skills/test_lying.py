@@ -1,0 +1,91 @@
+"""PUT with (lying) in physics: what stands is laid on its side."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from etot_cli.world.state import CauseKind
+from tests.skills.helpers import BALL, BOX, PEN, Episode, drawers, episode
+from tests.world.stances import flat_by
+
+SEEDS = range(4)
+THINGS: dict[str, dict[str, Any]] = {
+    "holder": {"kind": "cup", "diameter": 0.09, "height": 0.10, "wall": 0.004, "mass": 0.15},
+    "glass": {"kind": "cup", "diameter": 0.066, "height": 0.11, "mass": 0.2},
+    "bottle": {"kind": "cylinder", "diameter": 0.05, "height": 0.15, "mass": 0.25},
+    "toy": {"kind": "box", "size": [0.05, 0.05, 0.12], "mass": 0.1},
+}
+LIES_WITHIN = 10.0
+"""What is laid down is this far from level at most [deg]: a quarter of what would still do."""
+DRAWER = {"kind": "drawer_unit", "at": [0.56, -0.10], "yaw_deg": 180, "size": [0.26, 0.26, 0.20],
+          "mass": 4, "drawers": [
+              {"name": "top", "travel": 0.22, "open": 0.22, "height": 0.12},
+              {"name": "bottom", "travel": 0.0}]}  # fmt: skip
+LEVEL = " (horizontal)"
+"""A level hand points down once it has laid down what it holds, and gets into drawers with it."""
+
+
+def laid(run: Episode, put: str, grasp: str = "") -> str:
+    """Picks the thing up and puts it down; what it then rests in or on."""
+    state = run.must(f"[PICK UP, thing]{grasp}", f"{put} (lying)").states["thing"]
+    assert not (state.in_hand or state.lost) and state.reachable
+    assert flat_by(run.state, "thing") < LIES_WITHIN
+    return state.inside or ", ".join(state.on)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", THINGS)
+def test_what_stands_is_laid_on_the_desk(name: str, seed: int) -> None:
+    run = episode(seed, thing=THINGS[name] | {"at": [0.40, 0.18]})
+    assert laid(run, "[PUT ON, desk]", LEVEL) == "desk"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_finger_that_holds_a_wall_does_not_take_the_vessel_along(seed: int) -> None:
+    """By the rim it is held from above; laid down, one finger is inside it."""
+    run = episode(seed, thing=THINGS["holder"] | {"at": [0.40, 0.18]})
+    assert laid(run, "[PUT ON, desk]", " (vertical)") == "desk"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", THINGS)
+def test_what_stands_is_laid_in_a_drawer_that_closes_over_it(name: str, seed: int) -> None:
+    run = episode(seed, chest=DRAWER, thing=THINGS[name] | {"at": [0.40, 0.28]})
+    assert laid(run, "[PUT INTO, chest]", LEVEL) == "chest"
+    run.must("[CLOSE, chest]")
+    assert run.state.states["thing"].inside == "chest"
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_what_is_held_from_the_side_is_laid_on_a_chest(seed: int) -> None:
+    chest = {"kind": "drawer_unit", "size": [0.28, 0.28, 0.15], "mass": 4, "at": [0.48, -0.18],
+             "drawers": drawers()}  # fmt: skip
+    run = episode(seed, chest=chest, thing=THINGS["bottle"] | {"at": [0.40, 0.18]})
+    assert laid(run, "[PUT ON, chest]", LEVEL) == "chest"
+
+
+def test_what_lies_stays_lying_and_stands_up_again() -> None:
+    run = episode(thing=THINGS["bottle"] | {"at": [0.40, 0.18]})
+    assert laid(run, "[PUT ON, desk]", LEVEL) == laid(run, "[PUT ON, desk]") == "desk"
+    after = run.must("[PICK UP, thing]", "[PUT ON, desk] (upright)").states["thing"]
+    assert not after.toppled and after.tilt_deg < 5
+
+
+def test_a_rod_that_would_stand_in_a_cup_does_not_lie_in_it() -> None:
+    cup = THINGS["holder"] | {"at": [0.42, -0.15]}
+    run = episode(cup=cup, pen=PEN)
+    run.must("[PICK UP, pen]")
+    cause = run.do("[PUT INTO, cup] (lying)").record.cause
+    assert cause is not None and cause.kind in (CauseKind.NO_ROOM, CauseKind.UNREACHABLE)
+
+
+@pytest.mark.parametrize("thing", [BALL, BOX | {"size": [0.05, 0.05, 0.05]}], ids=["ball", "cube"])
+def test_what_is_as_high_any_way_round_does_not_lie(thing: dict[str, Any]) -> None:
+    run = episode(thing=thing)
+    run.must("[PICK UP, thing]")
+    cause = run.do("[PUT ON, desk] (lying)").record.cause
+    assert cause is not None and cause.kind is CauseKind.PRECONDITION
+    assert cause.text.startswith("thing cannot be laid down: no side of it is one to lie on")
