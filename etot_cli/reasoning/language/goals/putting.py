@@ -56,7 +56,7 @@ from etot_cli.reasoning.language.goals.placing import (
     put_side_by_side,
     side_by_side,
     spread,
-    upright,
+    with_stance,
 )
 from etot_cli.reasoning.language.goals.prohibitions import (
     avoid,
@@ -168,8 +168,8 @@ def put(
         check_taken(context, group, themes, places)
         note_described(context, group, places)
         check_poured(context, group, themes, places)
-        if group.upright:
-            places = upright(context, themes, places)
+        if group.stance is not None:
+            places = with_stance(context, themes, places, group.stance)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(spread(context, place) for place in places)
         for index in () if wherever else themes:

@@ -30,7 +30,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
     NounPhrase,
     PickClause,
     PutClause,
+    PutGroup,
     RemoveClause,
+    ReorientClause,
     State,
     SwapClause,
     Things,
@@ -217,6 +219,8 @@ def _said(node: object) -> Iterator[str]:
             yield from ("either",) if len(poses) > 1 else ("only", _DENIAL)
         case Turns() if node != Turns():
             yield _ORDER
+        case PutGroup(stance=Nearby.LYING) | ReorientClause(stance=Nearby.LYING):
+            yield "flat"
         case SwapClause():
             yield "other"
         case AgainClause():

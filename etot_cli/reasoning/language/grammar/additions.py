@@ -1,4 +1,4 @@
-"""Rules for what is said behind a place: together, upright, in which order, with what inside."""
+"""Rules for what is said behind a place: together, upright, lying, in which order, with what."""
 
 from __future__ import annotations
 
@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
 
 GROUPING = either(
     phrase(manner.ANYHOW, Grouping.ANY),
@@ -67,7 +68,8 @@ EXTRA = sequence(
     either(
         CONDITION,
         _CONDITIONS,
-        phrase(manner.STANDING, ("upright", ())),
+        phrase(manner.STANDING, ("stance", Nearby.UPRIGHT)),
+        phrase(manner.LYING, ("stance", Nearby.LYING)),
         manner.FITTING,
         sequence(optional("but"), either(GROUPING, TURN)),
         BY_COLOR,
@@ -144,8 +146,10 @@ def put_of(
         if (nps == things.phrases and not nps[1:]) or groups[1:]:
             return None
         groups = (replace(groups[0], things=replace(things, phrases=nps)),)
-    if "upright" in named:
-        groups = tuple(replace(group, upright=True) for group in groups)
+    for stance in (item[1] for item in said if item[0] == "stance"):
+        if any(group.stance not in (None, stance) for group in groups):
+            return None
+        groups = tuple(replace(group, stance=stance) for group in groups)
     return PutClause(
         groups,
         grouping,

@@ -1,22 +1,27 @@
-"""Rules for turning things upright, swapping and replacing them."""
+"""Rules for turning things upright or on their side, swapping and replacing them."""
 
 from __future__ import annotations
+
+from functools import partial
 
 from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
     phrase,
     sequence,
+    silent,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
     NounPhrase,
     PutClause,
+    PutGroup,
     ReorientClause,
     SwapClause,
     Things,
@@ -24,6 +29,16 @@ from etot_cli.reasoning.language.grammar.syntax import (
     put_to,
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.world.spatial import Nearby
+
+
+def _in_a_stance(
+    things: Things, stance: Nearby, where: tuple[Destination, ...]
+) -> PutClause | ReorientClause:
+    """How things are to be, and where; without a place it is where they are."""
+    put = PutClause((PutGroup(things, where, stance),))
+    return put if where else ReorientClause(things, stance)
+
 
 REORIENT = either(
     sequence(
@@ -32,17 +47,42 @@ REORIENT = either(
         optional("around, round"),
         optional(
             either(
-                phrase(f"{manner.UPRIGHT}, {manner.STANDING}", True), phrase(manner.FITTING, False)
+                phrase(f"{manner.UPRIGHT}, {manner.STANDING}", Nearby.UPRIGHT),
+                phrase(manner.FITTING, None),
             ),
-            False,
+            None,
         ),
-        build=lambda verb, things, upright: ReorientClause(things, upright or verb == "upright"),
+        build=lambda verb, things, stance: ReorientClause(
+            things, Nearby.UPRIGHT if verb == "upright" else stance
+        ),
     ),
     sequence(
         verbs.TURN,
         THINGS,
         f"back {manner.UPRIGHT}, {manner.UPRIGHT}",
-        build=lambda things: ReorientClause(things, upright=True),
+        build=partial(ReorientClause, stance=Nearby.UPRIGHT),
+    ),
+    sequence(
+        f"{verbs.LAY}, {verbs.TIP}",
+        THINGS,
+        optional("down"),
+        manner.LYING,
+        build=partial(ReorientClause, stance=Nearby.LYING),
+    ),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.WANTED, ALL_THINGS, silent(optional(verbs.DONE))),
+        ),
+        either(phrase("[standing] upright", Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
+        optional(DESTINATIONS, ()),
+        build=_in_a_stance,
+    ),
+    sequence(
+        verbs.PUT_DOWN,
+        THINGS,
+        manner.LYING,
+        build=partial(ReorientClause, stance=Nearby.LYING),
     ),
 )
 _IN_ITS_PLACE = sequence(

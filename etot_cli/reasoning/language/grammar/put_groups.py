@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
 )
 from etot_cli.reasoning.language.words import manner, small_words
 from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.world.spatial import Nearby
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
@@ -53,7 +54,13 @@ def _quantified(things: Things, said: str) -> Things | None:
     return replace(things, phrases=sum(nps, ())) if several and not things.either else None
 
 
-def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> PutGroup | None:
+STANCE = either(phrase(manner.STANDING, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING))
+"""How things are to be where they go, before that place."""
+
+
+def _group(
+    things: Things, how: Nearby | str | None, where: tuple[Destination, ...]
+) -> PutGroup | None:
     """Things and where they go; "everything back" is what has been there, which nobody knows, and
     "back in its place" is its own.
     """
@@ -62,7 +69,7 @@ def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> P
     return (
         None
         if (how == "back" and sweeping) or home
-        else PutGroup(things, where, how is True, back=how == "back")
+        else PutGroup(things, where, how if isinstance(how, Nearby) else None, back=how == "back")
     )
 
 
@@ -81,7 +88,7 @@ def _tabled(things: Things, place: NounPhrase) -> PutGroup | None:
 
 _PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
-    optional(either(phrase(manner.STANDING, True), phrase(_PARTICLE)), False),
+    optional(either(sequence(silent(optional("down")), STANCE), phrase(_PARTICLE)), None),
     _ASIDE,
     WHERE,
     silent(optional(manner.LET_GO, "")),

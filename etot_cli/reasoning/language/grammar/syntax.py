@@ -197,8 +197,8 @@ class PutGroup:
 
     things: Things
     destinations: tuple[Destination, ...]
-    upright: bool = False
-    """They are to stand there."""
+    stance: Nearby | None = None
+    """They are to stand, or to lie, there."""
     back: bool = False
     """They are put back there."""
 
@@ -282,10 +282,12 @@ class EnsureClause:
 
 @dataclass(frozen=True, slots=True)
 class ReorientClause:
-    """Turn something so that it fits, or (``upright``) stand it up; not where it goes."""
+    """Turn something so that it fits, or (``stance``) stand it up or lay it down; not where it
+    goes.
+    """
 
     things: Things
-    upright: bool = False
+    stance: Nearby | None = None
     only_named: bool = False
     """It is but named, or looked for, before something is asked of it."""
     remark: str = ""

@@ -139,6 +139,15 @@ STANDING = """
     so [that] (it|they) (stands|stand) (upright|up), standing [upright|up], upright,
     vertically, on end
 """
+_ON_ITS_SIDE = "[over] (on|onto|on to) (its|their) side[s]"
+LAID = f"""
+    [lying|laid] [down|flat] {_ON_ITS_SIDE}, [lying|laid] [down] flat, flat down, lying down
+"""
+"""Before a place, where "lying" alone rather tells what is there."""
+LYING = f"""
+    {LAID}, lying,
+    so [that] (it|they) (lies|lie|is lying|are lying|is|are) ([down|flat] {_ON_ITS_SIDE}|flat|down)
+"""
 FITTING = "so [that] (it|they) (fits|fit) [in|inside] [there|it]"
 HORIZONTAL = """
     horizontally, in a horizontal (pose|grasp), sideways,
