@@ -35,7 +35,7 @@ WITHOUT_HTTP = (
     "specs", "world", "skills", "control", "reasoning/builtin", "planning", "reporting",
 )  # fmt: skip
 PLAIN_DATA = {
-    "etot_cli.world": {"state", "colors", "spatial", "carrying"},
+    "etot_cli.world": {"state", "colors", "spatial", "stance", "carrying"},
     "etot_cli.skills": {"action", "deadline"},
     "etot_cli.control": {"simulated"},
 }

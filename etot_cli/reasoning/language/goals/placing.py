@@ -23,7 +23,9 @@ from etot_cli.reasoning.language.grammar.syntax import (
 from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.spatial import Nearby
+from etot_cli.world import spatial
+from etot_cli.world.spatial import Nearby, Whereabouts
+from etot_cli.world.stance import NO_SIDE, can_lie
 
 _NO_PLACES = (
     Prep.OF,
@@ -183,7 +185,9 @@ def _tell_where(context: Context, things: Things, named: Sequence[int]) -> None:
 
 
 def reorient(context: Context, clause: ReorientClause) -> None:
-    """Stands up what has toppled, where it lies; any other turning is part of what follows."""
+    """Stands up what has toppled, or lays down what stands, where it is; any other turning is part
+    of what follows.
+    """
     if clause.only_named:
         named: tuple[int, ...] = ()
         if not (clause.remark and all(np.pronoun for np in clause.things.phrases)):
@@ -201,18 +205,25 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         return
     themes = context.phrases.things(clause.things, Role.THEME)
     for index in themes:
-        if not clause.upright or not _can_stand(context, index):
+        lying = clause.stance is Nearby.LYING
+        if clause.stance is None or not (lying or _can_stand(context, index)):
             context.turned.append(index)
             continue
-        if index in context.discourse.put:
+        if lying:
+            _check_lying(context, index)
+        elif index in context.discourse.put:
             context.steps.append(_standing_there(context, index))
             continue
+        near, state = Near(clause.stance), "lies" if lying else "stands upright"
         for thing in context.only(index, "say which one"):
-            if context.scene.states[thing.name].toppled:
-                place = replace(context.home(thing), beside=(Near(Nearby.UPRIGHT),))
-                context.steps.append(Put((context.single(thing, thing.name),), (place,)))
+            if lying and thing in context.discourse.things(*context.discourse.put):
+                why = f"{thing.name} is put somewhere else before; say where it is to lie"
+                raise ReferenceProblem(thing.name, why, 5)
+            if spatial.holds(Whereabouts(clause.stance), thing.name, context.scene):
+                context.discourse.notes.append(f"{thing.name} {state} as it is")
             else:
-                context.discourse.notes.append(f"{thing.name} stands upright as it is")
+                place = replace(context.home(thing), beside=(near,))
+                context.steps.append(Put((context.single(thing, thing.name),), (place,)))
 
 
 def _standing_there(context: Context, index: int) -> Put:
@@ -223,19 +234,25 @@ def _standing_there(context: Context, index: int) -> Put:
     """
     for step in context.done:
         if isinstance(step, Put) and step.what == (index,):
-            return replace(step, places=upright(context, (index,), step.places))
+            there = with_stance(context, (index,), step.places, Nearby.UPRIGHT)
+            return replace(step, places=there)
     text = context.discourse.referents[index].text
     raise ReferenceProblem(text, "say that it is to stand where it is put", 2, word="upright")
 
 
-def upright(context: Context, themes: Sequence[int], places: Sequence[Place]) -> tuple[Place, ...]:
-    """Places where things are to stand; a rod stands as what holds it lets it.
+def with_stance(
+    context: Context, themes: Sequence[int], places: Sequence[Place], stance: Nearby
+) -> tuple[Place, ...]:
+    """Places where things are to stand, or to lie; a rod stands as what holds it lets it.
 
     Raises:
-        ReferenceProblem: nothing makes them stand there.
+        ReferenceProblem: nothing makes them stand, or lie, there.
     """
-    if all(_can_stand(context, index) for index in themes):
-        near = Near(Nearby.UPRIGHT)
+    if stance is Nearby.LYING:
+        for index in themes:
+            _check_lying(context, index)
+    if stance is Nearby.LYING or all(_can_stand(context, index) for index in themes):
+        near = Near(stance)
         return tuple(replace(place, beside=(*place.beside, near)) for place in places)
     held = all(place.relation is Relation.INSIDE for place in places)
     for index in themes:
@@ -245,6 +262,14 @@ def upright(context: Context, themes: Sequence[int], places: Sequence[Place]) ->
             raise ReferenceProblem(referent.text, "it does not stand by itself", 3, word="upright")
         context.discourse.notes.append(f"{referent.text} stands as what holds it lets it")
     return tuple(places)
+
+
+def _check_lying(context: Context, index: int) -> None:
+    """Raises a ReferenceProblem where one of some things has no side to lie on."""
+    for thing in context.discourse.things(index):
+        if not can_lie(context.scene.infos[thing.name]):
+            text = context.discourse.referents[index].text
+            raise ReferenceProblem(text, f"{thing.name}: {NO_SIDE}", 5)
 
 
 def _can_stand(context: Context, index: int) -> bool:

@@ -56,7 +56,7 @@ from etot_cli.reasoning.language.goals.placing import (
     put_side_by_side,
     side_by_side,
     spread,
-    upright,
+    with_stance,
 )
 from etot_cli.reasoning.language.goals.prohibitions import (
     avoid,
@@ -82,6 +82,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     Turns,
     put_to,
+    stance_in,
 )
 from etot_cli.reasoning.language.grammar.taking import ANYTHING, is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
@@ -91,6 +92,7 @@ from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK
 
 
@@ -112,9 +114,9 @@ def put(
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
     for group in clause.groups:
-        stands = group.upright
+        stance = group.stance
         if add_pairs(context, clause, group):
-            _check_stands(group, stands)
+            _check_stance(group, stance)
             continue
         for phrase in group.things.phrases:
             said = {item.prep for item in phrase.modifiers}
@@ -135,7 +137,7 @@ def put(
             any(item.toward in (Toward.HOME, Toward.WITH) for item in group.destinations)
             or replaced
         ):
-            _check_stands(group, stands)
+            _check_stance(group, stance)
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, ruled_out)
             continue
@@ -156,7 +158,7 @@ def put(
         found = context.places.of(destinations, themes, stays=wherever or clause.stays)
         places = not_beside(context, found, ruled_out, themes)
         if clause.stays and _is_left(context, group, themes, places):
-            _check_stands(group, stands)
+            _check_stance(group, stance)
             avoid(context, AvoidClause(Avoid.MOVE, group.things))
             continue
         check_contrasted(context, group.things, themes, places)
@@ -177,8 +179,8 @@ def put(
         check_taken(context, group, themes, places)
         note_described(context, group, places)
         check_poured(context, group, themes, places)
-        if stands:
-            places = upright(context, themes, places)
+        if stance is not None:
+            places = with_stance(context, themes, places, stance)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(spread(context, place) for place in places)
         for index in () if wherever else themes:
@@ -208,14 +210,15 @@ def put(
         raise ReferenceProblem(text, "say where each of them goes", 2)
 
 
-def _check_stands(group: PutGroup, stands: bool) -> None:
-    """Whether what is to stand somewhere is put on or into something that is named.
+def _check_stance(group: PutGroup, stance: Nearby | None) -> None:
+    """Whether what is to stand, or lie, somewhere is put on or into something that is named.
 
     Raises:
         ReferenceProblem: it goes back, or to where something else is.
     """
-    if stands:
-        raise ReferenceProblem(group.things.text, "say on what it is to stand", 2, word="upright")
+    if stance is not None:
+        how, word = ("stand", "upright") if stance is Nearby.UPRIGHT else ("lie", "")
+        raise ReferenceProblem(group.things.text, f"say on what it is to {how}", 2, word=word)
 
 
 def _is_left(
@@ -428,7 +431,7 @@ def _condition(
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
     else:
         places = context.places.of(condition.destinations, subjects)
-    if any(item.upright for item in condition.destinations):
-        places = upright(context, subjects, places)
+    if stance := stance_in(condition.destinations):
+        places = with_stance(context, subjects, places, stance)
     for subject in subjects:
         places_of[subject] = places

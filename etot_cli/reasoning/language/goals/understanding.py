@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Goal, Near, Place, Put, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
@@ -153,6 +152,22 @@ class Understanding:
         one, other = ({(how, thing.name) for how, thing in at} for at in (where, closer))
         return step == replace(after, run=step.run) or (whole and one == other != set())
 
+    def _is_left_so(self, before: Step | None, step: Step) -> bool:
+        """Whether a thing is to be left where it has just been laid down, or stood up ("tip it onto
+        its side, but leave it on the shelf").
+        """
+        if not (isinstance(before, Put) and isinstance(step, Put)):
+            return False
+        things = self.context.discourse.things
+        own, left = (
+            [(p.relation, () if p.where is None else things(p.where)) for p in put.places]
+            for put in (before, step)
+        )
+        stances = [near.relation.is_stance for place in before.places for near in place.beside]
+        plain = not any(place.beside for place in step.places) and all(stances)
+        same = own == left and things(*before.what) == things(*step.what)
+        return bool(stances) and plain and same
+
     def _is_desk(self, place: Place) -> bool:
         return place.where is not None and self.context.discourse.is_desk(place.where)
 
@@ -163,10 +178,11 @@ class Understanding:
             ReferenceProblem: a part is to be both open and closed.
         """
         discourse = self.context.discourse
+        said = tuple(in_order(self.timed, discourse))
         steps = [
             step
-            for step, after in pairwise((*in_order(self.timed, discourse), None))
-            if step is not None and not self._narrowed(step, after)
+            for before, step, after in zip((None, *said), said, (*said[1:], None), strict=False)
+            if not (self._narrowed(step, after) or self._is_left_so(before, step))
         ]
         steps = grasped(steps, self.context.grasps, complete=complete)
         steps, constraints = in_turn(

@@ -40,6 +40,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Toward,
     TowerClause,
     Turns,
+    stance_in,
 )
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.lexicon import (
@@ -71,6 +72,7 @@ _POSTURES = {
     "horizontally": ("horizontal",),
 }  # fmt: skip
 """How things stand, or are grasped."""
+_SAID_OF_STANCE = {Nearby.UPRIGHT: "upright", Nearby.LYING: "flat"}
 _ALIKE = {
     "center": "middle", "centre": "middle", "behind": "back", "far": "back", "near": "front",
     "nearest": "front", "farthest": "back", "opened": "open", "ajar": "open",
@@ -217,8 +219,8 @@ def _said(node: object) -> Iterator[str]:
             yield _canonical("far")
         case Beside(relation=Nearby.AT_FRONT | Nearby.AT_BACK as side):
             yield "bottom" if side is Nearby.AT_FRONT else "top"
-        case PutGroup(upright=True) | ReorientClause(upright=True):
-            yield "upright"
+        case PutGroup(stance=stance) | ReorientClause(stance=stance) if stance is not None:
+            yield _SAID_OF_STANCE[stance]
         case State(denied=True):
             yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects, destinations=where):
@@ -226,7 +228,8 @@ def _said(node: object) -> Iterator[str]:
             each = len(subjects) > 1 or subjects[0].determiner.split()[:1] in (["both"], ["all"])
             yield from ("both", "each", "all") if each else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))
-            yield from ("upright",) if any(item.upright for item in node.destinations) else ()
+            if stance := stance_in(where):
+                yield _SAID_OF_STANCE[stance]
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()

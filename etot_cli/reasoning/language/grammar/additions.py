@@ -1,4 +1,4 @@
-"""Rules for what is said behind a place: together, upright, in which order, with what inside."""
+"""Rules for what is said behind a place: together, upright, lying, in which order, with what."""
 
 from __future__ import annotations
 
@@ -33,12 +33,13 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     State,
     Things,
-    standing,
+    in_a_stance,
 )
 from etot_cli.reasoning.language.grammar.turns import TURN, turns_of
 from etot_cli.reasoning.language.words import manner, nouns
 from etot_cli.reasoning.language.words.lexicon import same_noun
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
 
 GROUPING = either(
     phrase(manner.ANYHOW, Grouping.ANY),
@@ -68,7 +69,8 @@ EXTRA = sequence(
     either(
         CONDITION,
         _CONDITIONS,
-        phrase(manner.STANDING, ("upright", ())),
+        phrase(manner.STANDING, ("stance", Nearby.UPRIGHT)),
+        phrase(manner.LYING, ("stance", Nearby.LYING)),
         manner.FITTING,
         sequence(optional("but"), either(GROUPING, TURN)),
         BY_COLOR,
@@ -145,8 +147,11 @@ def put_of(
         if (nps == things.phrases and not nps[1:]) or groups[1:]:
             return None
         groups = (replace(groups[0], things=replace(things, phrases=nps)),)
-    if "upright" in named:
-        groups = tuple(replace(g, destinations=standing(g.destinations)) for g in groups)
+    for stance in (item[1] for item in said if item[0] == "stance"):
+        there = [in_a_stance(stance, group.destinations) for group in groups]
+        if None in there:
+            return None
+        groups = tuple(replace(g, destinations=w or ()) for g, w in zip(groups, there, strict=True))
     return PutClause(
         groups,
         grouping,

@@ -1,6 +1,8 @@
-"""Rules for turning things upright, swapping and replacing them."""
+"""Rules for turning things upright or on their side, swapping and replacing them."""
 
 from __future__ import annotations
+
+from functools import partial
 
 from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
@@ -12,6 +14,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     phrase,
     sequence,
+    silent,
 )
 from etot_cli.reasoning.language.grammar.syntax import (
     Destination,
@@ -24,12 +27,10 @@ from etot_cli.reasoning.language.grammar.syntax import (
     put_to,
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.world.spatial import Nearby
 
-
-def _stood_up(things: Things) -> ReorientClause:
-    return ReorientClause(things, upright=True)
-
-
+_stood_up = partial(ReorientClause, stance=Nearby.UPRIGHT)
+_laid_down = partial(ReorientClause, stance=Nearby.LYING)
 REORIENT = either(
     sequence(
         phrase(verbs.REORIENT),
@@ -37,11 +38,14 @@ REORIENT = either(
         optional("around, round"),
         optional(
             either(
-                phrase(f"{manner.UPRIGHT}, {manner.TURNED_UP}", True), phrase(manner.FITTING, False)
+                phrase(f"{manner.UPRIGHT}, {manner.TURNED_UP}", Nearby.UPRIGHT),
+                phrase(manner.FITTING, None),
             ),
-            False,
+            None,
         ),
-        build=lambda verb, things, upright: ReorientClause(things, upright or verb == "upright"),
+        build=lambda verb, things, stance: ReorientClause(
+            things, Nearby.UPRIGHT if verb == "upright" else stance
+        ),
     ),
     sequence(
         verbs.TURN,
@@ -50,13 +54,26 @@ REORIENT = either(
         build=_stood_up,
     ),
     sequence(
+        f"{verbs.LAY}, {verbs.TIP}",
+        THINGS,
+        optional("down"),
+        manner.LYING,
+        build=_laid_down,
+    ),
+    sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}"),
-            sequence(verbs.WANTED, ALL_THINGS, optional("to (be|stand)")),
+            sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to (be|stand), {verbs.DONE}"))),
         ),
-        manner.ERECT,
-        build=_stood_up,
+        either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
+        build=ReorientClause,
+    ),
+    sequence(
+        verbs.PUT_DOWN,
+        THINGS,
+        manner.LYING,
+        build=_laid_down,
     ),
 )
 STANDS_UP = sequence(

@@ -38,7 +38,7 @@ from etot_cli.reasoning.language.grammar.syntax import (
     Modifier,
     NounPhrase,
     Toward,
-    standing,
+    in_a_stance,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -241,10 +241,12 @@ destination = Rule(
     )
 )
 _any_of_them = separated(destination, small_words.OR, most=5)
+STANCE = either(phrase(manner.STANDS, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING))
+"""How things are to be where they go, before that place."""
 DESTINATIONS = Rule(
     either(
         _any_of_them,
-        sequence(manner.STANDS, _any_of_them, build=standing),
+        sequence(STANCE, _any_of_them, build=in_a_stance),
         sequence(
             small_words.EITHER, _any_of_them, build=lambda found: found if found[1:] else None
         ),

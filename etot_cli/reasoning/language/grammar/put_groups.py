@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.coordination import all_of
-from etot_cli.reasoning.language.grammar.destinations import FILLED, WHERE
+from etot_cli.reasoning.language.grammar.destinations import FILLED, STANCE, WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
@@ -29,10 +29,11 @@ from etot_cli.reasoning.language.grammar.syntax import (
     PutGroup,
     Things,
     Toward,
-    standing,
+    in_a_stance,
 )
 from etot_cli.reasoning.language.words import manner, small_words
 from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.world.spatial import Nearby
 
 _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
@@ -54,16 +55,21 @@ def _quantified(things: Things, said: str) -> Things | None:
     return replace(things, phrases=sum(nps, ())) if several and not things.either else None
 
 
-def _group(things: Things, how: bool | str, where: tuple[Destination, ...]) -> PutGroup | None:
+def _group(
+    things: Things, how: Nearby | str | None, said: tuple[Destination, ...]
+) -> PutGroup | None:
     """Things and where they go; "everything back" is what has been there, which nobody knows, and
     "back in its place" is its own.
     """
+    where = in_a_stance(how, said) if isinstance(how, Nearby) else said
+    if where is None:
+        return None
     home = how == "back" and any(item.toward is Toward.STEAD for item in where)
     sweeping = any(np.words == ("everything",) and not np.modifiers for np in things.phrases)
     return (
         None
         if (how == "back" and sweeping) or home
-        else PutGroup(things, standing(where) if how is True else where, back=how == "back")
+        else PutGroup(things, where, back=how == "back")
     )
 
 
@@ -82,7 +88,14 @@ def _tabled(things: Things, place: NounPhrase) -> PutGroup | None:
 
 _PUT_GROUP = sequence(
     either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
-    optional(either(phrase("standing [up]", True), phrase(_PARTICLE)), False),
+    optional(
+        either(
+            phrase("standing [up]", Nearby.UPRIGHT),
+            sequence(silent(phrase("down")), STANCE),
+            phrase(_PARTICLE),
+        ),
+        None,
+    ),
     _ASIDE,
     WHERE,
     silent(optional(manner.LET_GO, "")),

@@ -152,8 +152,8 @@ class Destination:
     beside: tuple[Beside, ...] = ()
     denied: bool = False
     """They must not go there ("in a cup, but not in the red one")."""
-    upright: bool = False
-    """They are to stand there."""
+    stance: Nearby | None = None
+    """They are to stand, or to lie, there."""
     around: tuple[Destination, ...] = ()
     """What the target is in or on, as it is said again ("on the tray, in its place")."""
 
@@ -217,9 +217,9 @@ class PutGroup:
     """They are put back there."""
 
     @property
-    def upright(self) -> bool:
-        """Whether they are to stand there."""
-        return any(item.upright for item in self.not_denied.destinations)
+    def stance(self) -> Nearby | None:
+        """Whether they are to stand, or to lie, there."""
+        return stance_in(self.not_denied.destinations)
 
     @property
     def not_denied(self) -> PutGroup:
@@ -261,9 +261,16 @@ class PutClause:
     """By how much the words rather mean something else ("clear X into Y" what is in X)."""
 
 
-def standing(where: tuple[Destination, ...]) -> tuple[Destination, ...]:
-    """Where things are to stand."""
-    return tuple(replace(item, upright=True) for item in where)
+def in_a_stance(stance: Nearby, where: tuple[Destination, ...]) -> tuple[Destination, ...] | None:
+    """Where things are to stand, or to lie; nothing does both."""
+    if stance_in(where) not in (None, stance):
+        return None
+    return tuple(replace(item, stance=stance) for item in where)
+
+
+def stance_in(where: tuple[Destination, ...]) -> Nearby | None:
+    """Whether things are to stand, or to lie, where they go."""
+    return next((item.stance for item in where if item.stance), None)
 
 
 def put_to(things: Things, where: tuple[Destination, ...]) -> PutClause:
@@ -306,10 +313,12 @@ class EnsureClause:
 
 @dataclass(frozen=True, slots=True)
 class ReorientClause:
-    """Turn something so that it fits, or (``upright``) stand it up; not where it goes."""
+    """Turn something so that it fits, or (``stance``) stand it up or lay it down; not where it
+    goes.
+    """
 
     things: Things
-    upright: bool = False
+    stance: Nearby | None = None
     only_named: bool = False
     """It is but named, or looked for, before something is asked of it."""
     remark: str = ""

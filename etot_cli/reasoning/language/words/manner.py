@@ -149,6 +149,15 @@ TURNED_UP = f"""
     (into|to) (an upright|a vertical) (position|pose|orientation)
 """
 """Behind what is turned."""
+_ON_ITS_SIDE = "[over] (on|onto|on to) (its|their) side[s]"
+LAID = f"""
+    [lying|laid] [down|flat] {_ON_ITS_SIDE}, [lying|laid] [down] flat, flat down, lying down
+"""
+"""Before a place, where "lying" alone rather tells what is there."""
+LYING = f"""
+    {LAID}, lying,
+    so [that] (it|they) (lies|lie|is lying|are lying|is|are) ([down|flat] {_ON_ITS_SIDE}|flat|down)
+"""
 FITTING = "so [that] (it|they) (fits|fit) [in|inside] [there|it]"
 GRASP = "grasp|grip|pose|pick|hold|approach"
 GRIPPER = "gripper|hand|fingers|wrist"

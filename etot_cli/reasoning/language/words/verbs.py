@@ -241,6 +241,8 @@ REORIENT = """
     re orientate
 """
 TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], make"
+TIP = "tip[ping] [over], tilt[ing], turn[ing], flip[ping], rotat(e|ing)"
+"""What these do to a thing that comes to lie on its side."""
 STACK = "stack[ing] [up], pil(e|ing) [up]"
 BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
 A_TOWER = "(a|one) [single] (tower|stack|pile)"
