@@ -85,7 +85,9 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
     framed = r"(?i)(i |i'\w+ |could|would|the |my |there\b|some(one|body) |(you )?see |time |"
-    framed += r"don't|never|1\.|one (more|last) |moved |tower |(\w+ )?\w+: |right, |\w+, \w+\. )"
+    framed += (
+        r"don't|never|hi\b|1\.|one (more|last) |moved |tower |(\w+ )?\w+: |right, |\w+, \w+\. )"
+    )
     if re.match(framed, text):
         return  # it has a frame of its own
     if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:

@@ -104,6 +104,7 @@ _STAYS = sequence(
     NP_LIST,
     verbs.STAY,
     PREDICATE,
+    silent(optional(small_words.ALL_ALONG)),
     build=lambda nps, predicate: (
         None if (state := state_of(nps, predicate)) is None else replace(state, kept=True)
     ),
@@ -205,13 +206,31 @@ _ALL_SO = sequence(
 )
 
 
-BESIDES_SO = sequence(
-    "with",
-    NP_LIST,
-    silent(optional(f"[still|left] (lying|standing|sitting|resting), staying, {verbs.DONE}")),
-    _ALL_SO,
-    silent(optional("instead")),
-    build=lambda nps, said: _ensured(*said(nps)),
+def _kept_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
+    """What is to be open or closed all along."""
+    return EnsureClause((State(nps, word=word, kept=True),))
+
+
+BESIDES_SO = either(
+    sequence(
+        "with",
+        NP_LIST,
+        silent(optional(f"[still|left] (lying|standing|sitting|resting), staying, {verbs.DONE}")),
+        _ALL_SO,
+        silent(optional("instead")),
+        build=lambda nps, said: _ensured(*said(nps)),
+    ),
+    sequence(
+        "with",
+        NP_LIST,
+        either(
+            sequence(
+                "kept, staying, remaining", OPEN_OR_CLOSED, silent(optional(small_words.ALL_ALONG))
+            ),
+            sequence(OPEN_OR_CLOSED, small_words.ALL_ALONG),
+        ),
+        build=_kept_so,
+    ),
 )
 """What is said of other things behind what is asked for (", with the cup on the desk")."""
 
@@ -275,8 +294,10 @@ ENSURE = either(
         verbs.KEEP,
         NP_LIST,
         OPEN_OR_CLOSED,
-        build=lambda nps, state: EnsureClause((State(nps, word=state, kept=True),)),
+        silent(optional(small_words.ALL_ALONG)),
+        build=_kept_so,
     ),
+    sequence(NP_LIST, verbs.MODAL, OPEN_OR_CLOSED, small_words.ALL_ALONG, build=_kept_so),
     sequence(
         # "The drawer gets closed"
         NP_LIST,

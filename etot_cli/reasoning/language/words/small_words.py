@@ -43,7 +43,7 @@ WITHOUT_MEANING = f"""
     however you (like|can|want),
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
-    if possible, at all times, the (whole|entire) time, throughout,
+    if possible,
     properly, neatly, directly, straight,
     ~comma if you would, ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
@@ -60,6 +60,8 @@ WITHOUT_MEANING = f"""
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
+ALL_ALONG = "at all times, (all|the (whole|entire)) [the] time, throughout"
+"""Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
 """A sentence alone, after one that left it open anyway."""
 ANNOUNCED = "(two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)]"
