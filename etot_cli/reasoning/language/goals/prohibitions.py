@@ -395,12 +395,26 @@ def rule_out(
         if place.beside or place.where is None:
             text = next(iter(beside), text)
             raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
+        if _is_not_chosen(context, place.where, which=_holds_any(context, place.where)):
+            continue  # no step puts anything there
         for thing in context.discourse.things(place.where):
             on = place.relation is Relation.ON
             meant = (thing.address,) if on else addresses(thing, context.scene)
             places += [(place.relation, item) for item in meant]
-    context.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
+    if places:
+        context.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
     return found
+
+
+def _holds_any(context: Context, index: int) -> bool:
+    """Whether something is in or on any of the things that a referent may be."""
+    infos, scene = context.scene.infos, context.scene
+    return any(
+        touches(Thing(name), at, scene)
+        for at in context.discourse.things(index)
+        for name in infos
+        if infos[name].movable
+    )
 
 
 def keep_as_it_is(context: Context, index: int, word: str, *, every: bool) -> None:

@@ -315,6 +315,15 @@ def _made(index: int, *, opens: bool) -> Open | Close:
     return Open(index, final=True) if opens else Close(index, final=True)
 
 
+def _is_left_over(context: Context, clause: RemoveClause) -> bool:
+    """Whether it is "the other one" of a choice that is to be empty, whichever that leaves."""
+    held = [np for thing in clause.things.phrases for m in thing.modifiers for np in m.phrases]
+    others = [np for np in held if quantity_of(np.determiner).other]
+    return bool(others) and any(
+        len(context.phrases.meaning(np, Role.CONTAINER).options) > 1 for np in others
+    )
+
+
 def remove(context: Context, clause: RemoveClause) -> None:
     """Adds the steps that take things from where they are to the desk."""
     if clause.without and clause.source is not None:
@@ -328,6 +337,11 @@ def remove(context: Context, clause: RemoveClause) -> None:
             return  # the cake is put away without the plate that it stands on
     things = clause.things.taken_from(clause.source)
     if is_emptying(clause):
+        if _is_left_over(context, clause):
+            held = tuple(np for m in things.phrases[0].modifiers for np in m.phrases)
+            inside = Destination(Toward.INSIDE, held)
+            avoid(context, AvoidClause(Avoid.PUT, ANYTHING, (inside,), not_left=True))
+            return
         context.discourse.emptied = context.discourse.clause
     # What stands on the desk is taken out or off of nothing: "put the key in the box, then take it
     # out".

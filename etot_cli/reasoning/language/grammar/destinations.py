@@ -52,6 +52,8 @@ AS_SAID = "there, as was said"
 """The word of a destination that is left out, which the clause before says."""
 ONWARD = "onward"
 """The word of a destination to which something goes from another one, to which it is likened."""
+ACROSS = "over to"
+"""The word of a destination that things are brought over to, be it into it or beside it."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")

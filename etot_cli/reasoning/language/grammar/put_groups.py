@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.coordination import all_of
-from etot_cli.reasoning.language.grammar.destinations import FILLED, STANCE, WHERE
+from etot_cli.reasoning.language.grammar.destinations import ACROSS, FILLED, STANCE, WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
@@ -64,6 +64,9 @@ def _group(
     where = in_a_stance(how, said) if isinstance(how, Nearby) else said
     if where is None:
         return None
+    if how == "over":
+        to = (item.toward is Toward.TO and not item.word for item in where)
+        where = tuple(replace(w, word=ACROSS) if so else w for w, so in zip(where, to, strict=True))
     home = how == "back" and any(item.toward is Toward.STEAD for item in where)
     sweeping = any(np.words == ("everything",) and not np.modifiers for np in things.phrases)
     return (

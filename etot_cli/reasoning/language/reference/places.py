@@ -10,7 +10,7 @@ from functools import partial
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.destinations import FILLED, ONWARD, TOP
+from etot_cli.reasoning.language.grammar.destinations import ACROSS, FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
@@ -132,6 +132,9 @@ class Places:
                 inside = bool(within)
                 if inside and destination.word == FILLED:
                     found = within
+                if inside and destination.word == ACROSS:
+                    names = " or ".join(np.text for np in destination.targets)
+                    self.discourse.notes.append(f"read {ACROSS!r} as into {names}")
                 again = any(np.pronoun for np in destination.targets)
                 if inside and (destination.word == OVER or (destination.word == TOP and again)):
                     text = destination.targets[0].text
