@@ -12,16 +12,14 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.pairing import is_matching
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.putting import put
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
-    Destination,
     EnsureClause,
-    NounPhrase,
     PutClause,
-    Toward,
     TowerClause,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.grammar.trees import nodes
 from etot_cli.reasoning.language.words.lexicon import same_noun
 

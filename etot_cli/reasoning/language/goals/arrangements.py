@@ -10,13 +10,8 @@ from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Put, Relati
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
-from etot_cli.reasoning.language.grammar.syntax import (
-    NounPhrase,
-    PutClause,
-    SwapClause,
-    Things,
-    TowerClause,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, SwapClause, TowerClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.selection import select

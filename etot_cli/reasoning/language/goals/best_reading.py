@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.goals.plausibility import (
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.syntax import PickClause
+from etot_cli.reasoning.language.grammar.syntax.clauses import PickClause
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
 from etot_cli.reasoning.protocol import ReasonerStopped
 

@@ -14,7 +14,8 @@ from etot_cli.reasoning.language.goals.context import Context, InTheWay
 from etot_cli.reasoning.language.grammar.contents import (
     HERE_BEFORE,
 )
-from etot_cli.reasoning.language.grammar.syntax import PutClause, PutGroup, State, Things, Toward
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import State, Things, Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.usual_form import GENERAL

@@ -15,10 +15,11 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.grasps import grasp
 from etot_cli.reasoning.language.goals.placing import cover, reorient
 from etot_cli.reasoning.language.goals.prohibitions import avoid
-from etot_cli.reasoning.language.goals.putting import ensure, put, remove
+from etot_cli.reasoning.language.goals.putting import ensure, put
+from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.putting import DOWN
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,
     Clause,
@@ -26,15 +27,13 @@ from etot_cli.reasoning.language.grammar.syntax import (
     EnsureClause,
     GraspClause,
     MoveClause,
-    NounPhrase,
     PickClause,
     PutClause,
     RemoveClause,
     SwapClause,
-    Things,
-    Toward,
     TowerClause,
 )
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
 from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.by_now import note_placed

@@ -19,7 +19,8 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.syntax import Clause, Destination, NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax.clauses import Clause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.reference.antecedents import Mention
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse

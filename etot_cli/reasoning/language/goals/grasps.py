@@ -8,7 +8,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Pick, Put, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, Grasp
-from etot_cli.reasoning.language.grammar.syntax import GraspClause
+from etot_cli.reasoning.language.grammar.syntax.clauses import GraspClause
 
 
 def grasp(context: Context, clause: GraspClause) -> None:

@@ -10,14 +10,8 @@ from etot_cli.reasoning.builtin.goal import Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.syntax import (
-    Destination,
-    EnsureClause,
-    PutClause,
-    PutGroup,
-    Things,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import carries, touches
 from etot_cli.reasoning.language.words.known import REASONS

@@ -31,7 +31,7 @@ from etot_cli.reasoning.language.goals.left_out import (
 )
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     ReorientClause,
 )
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference

@@ -11,13 +11,8 @@ from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
-from etot_cli.reasoning.language.grammar.syntax import (
-    Destination,
-    NounPhrase,
-    PutClause,
-    PutGroup,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each

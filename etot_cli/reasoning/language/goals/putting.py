@@ -14,10 +14,9 @@ from etot_cli.reasoning.builtin.goal import (
     Place,
     Put,
     Thing,
-    things_in,
 )
-from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.alone import check_alone
 from etot_cli.reasoning.language.goals.choosing import (
     check_contrasted,
     check_describes,
@@ -25,9 +24,6 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_swept,
     check_taken,
     choose_by_place,
-    choose_from_somewhere,
-    choose_stacked,
-    is_off_desk,
     leave_there,
     note_described,
     tell_apart,
@@ -58,42 +54,35 @@ from etot_cli.reasoning.language.goals.placing import (
     spread,
     with_stance,
 )
-from etot_cli.reasoning.language.goals.prohibitions import (
-    avoid,
-    check_alone,
-    keep_as_it_is,
-    leave_out,
-    not_beside,
-    rule_out,
-)
+from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is, leave_out
+from etot_cli.reasoning.language.goals.removing import remove
+from etot_cli.reasoning.language.goals.ruled_out import not_beside, rule_out
+from etot_cli.reasoning.language.goals.sharing import check_stance, is_left, rest_there, shared
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
-    Destination,
-    Modifier,
-    NounPhrase,
     PutClause,
-    PutGroup,
     RemoveClause,
+    Turns,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
     State,
     Things,
     Toward,
-    Turns,
-    put_to,
     stance_in,
 )
 from etot_cli.reasoning.language.grammar.taking import ANYTHING, is_emptying
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
-from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.spatial import Nearby
-from etot_cli.world.state import DESK
 
 
 def put(
@@ -109,14 +98,14 @@ def put(
     clause = replace(clause, groups=tuple(group.not_denied for group in clause.groups))
     check_swept(context, clause)
     if clause.stays:
-        clause = replace(clause, groups=tuple(map(_rest_there, clause.groups)))
+        clause = replace(clause, groups=tuple(map(rest_there, clause.groups)))
     placed: set[Thing | int] = set()
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
     for group in clause.groups:
         stance = group.stance
         if add_pairs(context, clause, group):
-            _check_stance(group, stance)
+            check_stance(group, stance)
             continue
         for phrase in group.things.phrases:
             said = {item.prep for item in phrase.modifiers}
@@ -137,7 +126,7 @@ def put(
             any(item.toward in (Toward.HOME, Toward.WITH) for item in group.destinations)
             or replaced
         ):
-            _check_stance(group, stance)
+            check_stance(group, stance)
         if any(item.toward is Toward.HOME for item in group.destinations):
             put_back(context, themes, group, ruled_out)
             continue
@@ -149,7 +138,7 @@ def put(
             context.discourse.last_places = (in_stead(context, group, themes, replaced),)
             add_put(context, themes, context.discourse.last_places, clause.grouping)
             continue
-        group, grouping = _shared(context, group, themes, clause.grouping)
+        group, grouping = shared(context, group, themes, clause.grouping)
         several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
         if is_different(group) and several == 1:
             group = elsewhere(group)
@@ -157,8 +146,8 @@ def put(
         destinations, grouping = distributed(group, grouping)
         found = context.places.of(destinations, themes, stays=wherever or clause.stays)
         places = not_beside(context, found, ruled_out, themes)
-        if clause.stays and _is_left(context, group, themes, places):
-            _check_stance(group, stance)
+        if clause.stays and is_left(context, group, themes, places):
+            check_stance(group, stance)
             avoid(context, AvoidClause(Avoid.MOVE, group.things))
             continue
         check_contrasted(context, group.things, themes, places)
@@ -208,43 +197,6 @@ def put(
     if chosen:
         text = context.discourse.referents[chosen[-1]].text
         raise ReferenceProblem(text, "say where each of them goes", 2)
-
-
-def _check_stance(group: PutGroup, stance: Nearby | None) -> None:
-    """Whether what is to stand, or lie, somewhere is put on or into something that is named.
-
-    Raises:
-        ReferenceProblem: it goes back, or to where something else is.
-    """
-    if stance is not None:
-        how, word = ("stand", "upright") if stance is Nearby.UPRIGHT else ("lie", "")
-        raise ReferenceProblem(group.things.text, f"say on what it is to {how}", 2, word=word)
-
-
-def _is_left(
-    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
-) -> bool:
-    """Whether "the left one", which is left "there", is left where it is: the other one has gone to
-    where it is not.
-    """
-    there = all(item.toward is Toward.HERE and not item.beside for item in group.destinations)
-    others = all(np.is_elliptic or quantity_of(np.determiner).other for np in group.things.phrases)
-    at = [place.where for place in places if place.where is not None]
-    targets = context.discourse.things(*at)
-    things = context.discourse.things(*themes)
-    away = not any(touches(thing, at, context.scene) for thing in things for at in targets)
-    return there and others and away
-
-
-def _rest_there(group: PutGroup) -> PutGroup:
-    """Who leaves "the rest" on the tray leaves what else is there."""
-    (np, *more), (where, *others) = group.things.phrases, group.destinations
-    prep = {Toward.ON: Prep.ON, Toward.INSIDE: Prep.IN}.get(where.toward)
-    rest = np.words[-1:] in (("the rest",), ("the others",), ("the other ones",))
-    if more or others or prep is None or not rest or np.modifiers or len(where.targets) != 1:
-        return group
-    there = NounPhrase("all other", ("objects",), (Modifier(prep, where.targets),), text=np.text)
-    return replace(group, things=Things((there,)))
 
 
 def ensure(context: Context, state: State) -> None:
@@ -313,108 +265,6 @@ def _not_instead(context: Context, phrase: NounPhrase, index: int, *, opens: boo
 
 def _made(index: int, *, opens: bool) -> Open | Close:
     return Open(index, final=True) if opens else Close(index, final=True)
-
-
-def _is_left_over(context: Context, clause: RemoveClause) -> bool:
-    """Whether it is "the other one" of a choice that is to be empty, whichever that leaves."""
-    held = [np for thing in clause.things.phrases for m in thing.modifiers for np in m.phrases]
-    others = [np for np in held if quantity_of(np.determiner).other]
-    return bool(others) and any(
-        len(context.phrases.meaning(np, Role.CONTAINER).options) > 1 for np in others
-    )
-
-
-def remove(context: Context, clause: RemoveClause) -> None:
-    """Adds the steps that take things from where they are to the desk."""
-    if clause.without and clause.source is not None:
-        for np in clause.things.phrases:
-            if not (np.pronoun or (np.determiner and np.words)):
-                raise ReferenceProblem(np.text, "say without what")
-        above = context.phrases.meaning(clause.source, Role.THEME).options
-        below = [context.phrases.meaning(np, Role.ANY) for np in clause.things.phrases]
-        under = [thing for item in below for thing in things_in(item.options)]
-        if all(any(touches(up, at, context.scene) for at in under) for up in things_in(above)):
-            return  # the cake is put away without the plate that it stands on
-    things = clause.things.taken_from(clause.source)
-    if is_emptying(clause):
-        if _is_left_over(context, clause):
-            held = tuple(np for m in things.phrases[0].modifiers for np in m.phrases)
-            inside = Destination(Toward.INSIDE, held)
-            avoid(context, AvoidClause(Avoid.PUT, ANYTHING, (inside,), not_left=True))
-            return
-        context.discourse.emptied = context.discourse.clause
-    # What stands on the desk is taken out or off of nothing: "put the key in the box, then take it
-    # out".
-    discourse, states = context.discourse, context.scene.states
-    places = [place.where for place in discourse.last_places if place.where is not None]
-    around = [
-        index
-        for index in (*discourse.put_into.values(), *places)
-        if all(t.name == DESK or DESK in states[t.name].on for t in discourse.things(index))
-    ]
-    try:
-        themes = context.phrases.things(things, Role.THEME, around)
-    except NothingThere:
-        return  # "put the pen in the cup to free the tray"
-    if clause.by_then and _is_out_already(context, themes):
-        return
-    if is_off_desk(context, things):
-        discourse.swept |= {*themes}
-    if clause.stacked and len(themes) > 1:
-        # Of two that are to be taken apart the lower one stays.
-        upon = [i for i in themes if _stands_upon(context, i, themes)]
-        themes = upon or themes
-    if clause.source is None and clause.stacked:
-        themes = [one for index in themes for one in choose_stacked(context, index)]
-    elif clause.source is None:
-        for index in themes:
-            choose_from_somewhere(context, index)
-    discourse.last_places = context.source(themes)
-    for place in discourse.last_places:
-        context.mention_part(place)
-    add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
-
-
-def _is_out_already(context: Context, themes: Sequence[int]) -> bool:
-    """Whether things have been moved from what they were in or on, which "once it is out" is about,
-    wherever they are now.
-    """
-    things, states = context.discourse.things(*themes), context.scene.states
-    moved = {*things} <= {*context.discourse.placed}
-    return moved and all(DESK not in states[thing.name].on for thing in things)
-
-
-def _stands_upon(context: Context, index: int, others: Sequence[int]) -> bool:
-    """Whether a thing stands on one of some others."""
-    below = {thing.name for thing in context.discourse.things(*others)}
-    things = context.discourse.things(index)
-    return any(carriers(context.scene, thing.name) & (below - {thing.name}) for thing in things)
-
-
-def _shared(
-    context: Context, group: PutGroup, themes: Sequence[int], grouping: Grouping
-) -> tuple[PutGroup, Grouping]:
-    """Several things into "the same cup" or "one cup": together in any, unless the same was spoken
-    of before.
-    """
-    several = len([thing for i in themes for thing in context.discourse.referents[i].options[0]])
-    each = {"each", "every"} & {*group.things.phrases[0].determiner.split()}
-    destinations = []
-    for item in group.destinations:
-        targets = []
-        for target in item.targets:
-            said = {*target.determiner.split()}
-            role = Role.CONTAINER if item.toward is Toward.INSIDE else Role.PLACE
-            single = several > 1 and not each and said & {"one", "single", "another"}
-            if single and grouping is Grouping.ANY:
-                grouping = Grouping.TOGETHER
-            same = "same" in said and several > 1
-            if same and context.phrases.spoken_of(target, role, themes) is None:
-                target = replace(target, determiner="one")
-                grouping = Grouping.TOGETHER
-            targets.append(target)
-        destinations.append(replace(item, targets=tuple(targets)))
-    return replace(group, destinations=tuple(destinations)), grouping
 
 
 def _condition(

@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.goals.grasps import grasped
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     Clause,
     EnsureClause,

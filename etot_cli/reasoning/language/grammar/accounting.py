@@ -17,29 +17,31 @@ from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.parsing import phrase
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.syntax import (
-    CLEARED,
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     Avoid,
     AvoidClause,
-    Beside,
-    Destination,
     EnsureClause,
     GraspClause,
-    Modifier,
     MoveClause,
-    NounPhrase,
     PickClause,
     PutClause,
     PutGroup,
     RemoveClause,
     ReorientClause,
-    State,
     SwapClause,
-    Things,
-    Toward,
     TowerClause,
     Turns,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    CLEARED,
+    Beside,
+    Destination,
+    Modifier,
+    NounPhrase,
+    State,
+    Things,
+    Toward,
     stance_in,
 )
 from etot_cli.reasoning.language.words import manner, verbs

@@ -26,11 +26,10 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.states import SO, state_of
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Modifier,
     NounPhrase,
-    PutClause,
-    PutGroup,
     State,
     Things,
     in_a_stance,

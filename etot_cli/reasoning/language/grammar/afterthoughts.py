@@ -12,21 +12,23 @@ from dataclasses import replace
 from etot_cli.reasoning.language.grammar.chains import then_done
 from etot_cli.reasoning.language.grammar.clauses import Reading, changed, excluding
 from etot_cli.reasoning.language.grammar.spoken import Spoken
-from etot_cli.reasoning.language.grammar.syntax import (
-    Beside,
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
-    Destination,
     EnsureClause,
-    Modifier,
     MoveClause,
-    NounPhrase,
     PickClause,
     PutClause,
     PutGroup,
     RemoveClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Beside,
+    Destination,
+    Modifier,
+    NounPhrase,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep

@@ -12,12 +12,11 @@ from etot_cli.reasoning.language.grammar.common import (
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, denied, rather
 from etot_cli.reasoning.language.grammar.parsing import Parser, either, optional, sequence, valued
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
-    EnsureClause,
     Modifier,
     NounPhrase,
-    PutClause,
     State,
 )
 from etot_cli.reasoning.language.words import small_words, verbs

@@ -9,15 +9,13 @@ from etot_cli.reasoning.language.grammar.gapping import beside_what, told_beside
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.parsing import either, optional, sequence, silent
 from etot_cli.reasoning.language.grammar.spoken import Spoken
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
-    NounPhrase,
     PutClause,
     PutGroup,
     ReorientClause,
-    State,
-    Things,
 )
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State, Things
 from etot_cli.reasoning.language.grammar.topics import are_several
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.categories import members_of

@@ -16,15 +16,17 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
-    Destination,
-    NounPhrase,
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
     ReorientClause,
     SwapClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
 from etot_cli.world.spatial import Nearby

@@ -43,19 +43,17 @@ from etot_cli.reasoning.language.grammar.states import (
     SHUT,
     states,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,
     Clause,
-    Destination,
     EnsureClause,
-    NounPhrase,
     PickClause,
     PutClause,
     RemoveClause,
-    Things,
     TowerClause,
 )
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.grammar.taking import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.trees import nodes

@@ -60,23 +60,25 @@ from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
 from etot_cli.reasoning.language.grammar.putting import FLANKED, PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import ENSURE
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     Avoid,
     AvoidClause,
     Clause,
-    Destination,
     EnsureClause,
-    Modifier,
     MoveClause,
-    NounPhrase,
     PickClause,
     PutClause,
     PutGroup,
     RemoveClause,
+    TowerClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Modifier,
+    NounPhrase,
     Things,
     Toward,
-    TowerClause,
 )
 from etot_cli.reasoning.language.grammar.taking import (
     COVER,

@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     spanned,
 )
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import nouns, places
 from etot_cli.reasoning.language.words.places import Prep
 

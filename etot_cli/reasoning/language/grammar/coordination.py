@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,

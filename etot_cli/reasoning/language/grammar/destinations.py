@@ -32,7 +32,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.steads import STEAD, WITH, told_by_it
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
     Destination,
     Modifier,

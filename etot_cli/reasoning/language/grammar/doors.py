@@ -15,7 +15,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
 )
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
-from etot_cli.reasoning.language.grammar.syntax import EnsureClause, NounPhrase, State
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import LEVELS, SIDES, is_descriptive, singular
 

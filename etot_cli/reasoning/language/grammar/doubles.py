@@ -19,21 +19,18 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import ENSURE
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
     Clause,
     EnsureClause,
     MoveClause,
-    NounPhrase,
     PutClause,
     PutGroup,
     RemoveClause,
-    State,
-    Things,
-    Toward,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State, Things, Toward
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 

@@ -16,11 +16,11 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     variants,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
     Destination,
     NounPhrase,
-    PutGroup,
     Things,
     Toward,
 )

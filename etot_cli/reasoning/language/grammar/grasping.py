@@ -22,7 +22,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     spanned,
     valued,
 )
-from etot_cli.reasoning.language.grammar.syntax import GraspClause, Things
+from etot_cli.reasoning.language.grammar.syntax.clauses import GraspClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Things
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import words_of

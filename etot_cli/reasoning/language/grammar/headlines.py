@@ -31,18 +31,20 @@ from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, state_of
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
-    Destination,
     EnsureClause,
-    NounPhrase,
     PickClause,
     PutClause,
     RemoveClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
     State,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.topics import sources

@@ -5,7 +5,12 @@ from __future__ import annotations
 from etot_cli.reasoning.language.grammar.common import noun_phrase
 from etot_cli.reasoning.language.grammar.naming import LEVEL
 from etot_cli.reasoning.language.grammar.parsing import either, one_of, sequence, spanned, word
-from etot_cli.reasoning.language.grammar.syntax import Destination, Modifier, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Modifier,
+    NounPhrase,
+    Toward,
+)
 from etot_cli.reasoning.language.words import places
 from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS
 from etot_cli.reasoning.language.words.places import Prep

@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
     word,
 )
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,

@@ -24,10 +24,9 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, MoveClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
-    EnsureClause,
-    MoveClause,
     NounPhrase,
     State,
     Things,

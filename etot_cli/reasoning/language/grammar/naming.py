@@ -35,7 +35,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     spanned,
     word,
 )
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import nouns, small_words
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (

@@ -30,7 +30,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
     word,
 )
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,

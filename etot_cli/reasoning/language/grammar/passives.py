@@ -21,16 +21,14 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
 )
 from etot_cli.reasoning.language.grammar.states import STATE, being
-from etot_cli.reasoning.language.grammar.syntax import (
-    Destination,
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
-    NounPhrase,
     PickClause,
     PutClause,
     RemoveClause,
-    Things,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.grammar.taking import SOURCE, is_emptying
 from etot_cli.reasoning.language.grammar.trees import UNSAID, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs

@@ -20,15 +20,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, brought
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,
     PickClause,
     PutClause,
     RemoveClause,
-    State,
     put_to,
 )
+from etot_cli.reasoning.language.grammar.syntax.phrases import State
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 

@@ -16,10 +16,10 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.states import PREDICATE, STATE, state_of
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     CLEARED,
     Destination,
-    EnsureClause,
     NounPhrase,
     State,
     Toward,

@@ -17,11 +17,9 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
 )
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, not_left
-from etot_cli.reasoning.language.grammar.syntax import (
-    Avoid,
-    AvoidClause,
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, EnsureClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
-    EnsureClause,
     Modifier,
     NounPhrase,
     State,

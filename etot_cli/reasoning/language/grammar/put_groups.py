@@ -22,11 +22,10 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     variants,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
-    PutClause,
-    PutGroup,
     Things,
     Toward,
     in_a_stance,

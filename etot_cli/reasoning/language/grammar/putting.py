@@ -48,15 +48,13 @@ from etot_cli.reasoning.language.grammar.successions import (
     FROM_FIRST_TO_LAST,
     put_in_turn,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
     Destination,
     NounPhrase,
-    PutClause,
-    PutGroup,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.throwing import INSERTED, THROWN

@@ -3,126 +3,62 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from operator import add
 
-from etot_cli.reasoning.language.grammar.afterthoughts import (
-    any_such,
-    but_not,
-    out_of_the_way,
-    told_behind,
-)
-from etot_cli.reasoning.language.grammar.ahead import not_so
-from etot_cli.reasoning.language.grammar.announced import (
-    ONE_FOR_EACH,
-    all_put,
-    each_sorted,
-    in_detail,
-    one_for_each,
-    shared_out,
-)
-from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
+from etot_cli.reasoning.language.grammar.before_requests import WITH_MORE_BEFORE_IT
 from etot_cli.reasoning.language.grammar.chains import (
-    BARE_CHAIN,
     CHAIN,
     GOES_ON,
     JOINED,
-    WITH_MORE_SO,
     Joined,
     chained,
     joint,
     once_more,
-    then_done,
 )
 from etot_cli.reasoning.language.grammar.clauses import (
     LEAD,
-    LED_CLAUSE,
-    LEFT_OUT,
     ORDER_WORDS,
     Reading,
     plain,
 )
 from etot_cli.reasoning.language.grammar.common import (
-    COLON,
     COMMA,
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
-    noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.headlines import (
-    HEADLINE,
     PLACED,
     STARTING,
     lacks_verb,
-    taken_out,
 )
 from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.modifiers import (
-    CONTRASTED,
-    DESCRIBED,
-)
-from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
     complete,
     either,
     optional,
-    phrase,
     sequence,
     silent,
     some,
-    valued,
-    variants,
 )
-from etot_cli.reasoning.language.grammar.past import EARLIER, SO
-from etot_cli.reasoning.language.grammar.predicates import BOTH_ARE
 from etot_cli.reasoning.language.grammar.prohibitions import (
     KEEP_STILL,
-    OTHERS_STILL,
-    UNTOUCHED,
     WITHOUT,
 )
-from etot_cli.reasoning.language.grammar.put_groups import PAIRS
-from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import ENSURE, STATE
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.states import ENSURE
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
-    Destination,
     EnsureClause,
-    MoveClause,
-    NounPhrase,
-    PickClause,
     PutClause,
-    PutGroup,
-    RemoveClause,
-    SwapClause,
-    Things,
-    Toward,
-    Turns,
-    put_to,
 )
-from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY, SOURCE
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
-    AS_IT_IS,
-    AS_IT_STANDS,
-    FREEING,
-    MAKING_ROOM,
-    NAMED,
     SAID,
-    about,
-    any_of_them,
-    done_there,
-    fit_for,
-    for_a_reason,
-    one_of_them,
 )
-from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
-from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import small_words
 
 
 def _verbless(
@@ -141,238 +77,13 @@ def _verbless(
     return None if done is None else sum(avoided, done)
 
 
-def _started_with(first: NounPhrase, done: Reading) -> Reading | None:
-    """What is done with several things, the first of which is told before."""
-    clause = done[0].clause
-    if not isinstance(clause, PutClause | MoveClause) or clause.turns != Turns():
-        return None
-    return (replace(done[0], clause=replace(clause, turns=Turns(first=(first,)))), *done[1:])
-
-
-def _placed_there(np: NounPhrase, things: Things) -> PutClause:
-    """Where the robot goes to put something down is where that goes."""
-    return put_to(things, (Destination(Toward.TO, (np,)),))
-
-
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)
 """What stands before a sentence, without a word for order."""
 
 
-def _swapped(things: Things, rest: Reading) -> Reading | None:
-    """Two things that swap places, as it is said again ("swap them, the cup on the tray, …")."""
-    groups: list[PutGroup] = []
-    for said in rest:
-        match said.clause:
-            case PutClause(groups=placed):
-                groups += placed
-            case EnsureClause(states=states):
-                if not all(so.destinations and not (so.denied or so.kept) for so in states):
-                    return None
-                groups += (PutGroup(Things(so.subjects), so.destinations) for so in states)
-            case _:
-                return None
-    swap = SwapClause(things, placed=PutClause(tuple(groups)))
-    return (replace(rest[0], clause=swap),)
-
-
-def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
-    """What stays so while something else is done; nothing is done with something in the hand."""
-    held = any(isinstance(said.clause, PickClause) for said in first)
-    return None if held else (*first, *rest)
-
-
-IN_THE_END = either(
-    plain(
-        either(
-            sequence(STATE, build=lambda state: EnsureClause((state,))),
-            IS_EMPTY,
-            BOTH_ARE,
-            TOLD_APART,
-        )
-    ),
-    HEADLINE,
-)
-"""How things are, where it is said that they are to be so in the end."""
-_NOW = optional(small_words.BY_NOW)
-_AND = either(COMMA, "and, and then, then")
-_TOLD_BEHIND = either(
-    variants(
-        sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
-        lambda found: told_behind(found[0], found[1].split()[0], found[2]),
-    ),
-    sequence(CHAIN, COMMA, AS_IT_IS, build=add),
-    sequence(CHAIN, COMMA, noun_phrase, small_words.ANY_WILL_DO, build=any_such),
-    sequence(CHAIN, OPTIONAL_COMMA, either(LEFT_OUT, CONTRASTED), build=but_not),
-)
-_WITH_MORE_BEFORE_IT = either(
-    sequence(small_words.LOOK_FOR, NAMED, _AND, CHAIN, build=done_there),
-    sequence(
-        optional(small_words.LOOK_FOR),
-        NAMED,
-        either(COMMA, "[~comma] and, and then, then, [~comma] so"),
-        CHAIN,
-        build=about,
-    ),
-    sequence(
-        # "Here is how the shelf should look: books on the upper board, …"
-        either(
-            sequence("(here|this|that) is how", NAMED, "(should|must|has to|is to) (look|be)"),
-            sequence(NAMED, "(should|must|has to) (look|be) like this"),
-            sequence(small_words.LIKE_THIS, NAMED, "like this, as follows, this way"),
-        ),
-        COMMA,
-        either(CHAIN, PLACED),
-        build=add,
-    ),
-    sequence(NAMED, COLON, BARE_CHAIN, build=about),
-    sequence(plain(either(PUT, ENSURE)), COLON, PLACED, build=in_detail),
-    sequence(ONE_FOR_EACH, COLON, BARE_CHAIN, build=one_for_each),
-    sequence(plain(either(EMPTY, UNSTACK)), COLON, BARE_CHAIN, build=add),
-    sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
-    sequence(
-        noun_phrase,
-        small_words.ANY_WILL_DO,
-        either(COMMA, "so, ~comma so"),
-        CHAIN,
-        build=any_of_them,
-    ),
-    sequence(
-        noun_phrase,
-        f"({small_words.ANY_WILL_DO}) for",
-        noun_phrase,
-        either(COMMA, "so, ~comma so"),
-        CHAIN,
-        build=fit_for,
-    ),
-    sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma [and]", CHAIN, build=add),
-    sequence(AS_IT_STANDS, "[~comma] [and] so", CHAIN, build=add),
-    sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=one_of_them),
-    plain(
-        sequence(
-            "(go|move|drive) [over] (to|towards)",
-            noun_phrase,
-            "and, and then, then, ~comma, ~comma then, ~comma and",
-            f"{verbs.PLACE}, stor(e|ing), leav(e|ing)",
-            ALL_THINGS,
-            build=_placed_there,
-        )
-    ),
-    sequence(
-        f"{verbs.SET_DOWN}, {verbs.FETCH}",
-        ALL_THINGS,
-        "out of the way",
-        _AND,
-        CHAIN,
-        build=out_of_the_way,
-    ),
-    _TOLD_BEHIND,
-    sequence(_TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
-    sequence(plain(either(MAKING_ROOM, FREEING)), "by", CHAIN, build=add),
-    sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
-    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
-    sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
-    sequence(verbs.STACK, NAMED, COMMA, PLACED, build=each_sorted),
-    sequence("[let us] (start|begin) with", NAMED, _AND, CHAIN, build=about),
-    sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
-    sequence(
-        verbs.TIDY,
-        NAMED,
-        optional("by (color|colour|kind|type|size)"),
-        COMMA,
-        either(BARE_CHAIN, CHAIN),
-        build=each_sorted,
-    ),
-    sequence(
-        "mov(e|ing), get[ting], put[ting], tak(e|ing), bring[ing]",
-        NAMED,
-        "(out of the way|closer) by",
-        CHAIN,
-        build=about,
-    ),
-    sequence(
-        "before [you] touch[ing], before [you] do[ing] anything (to|with)",
-        NAMED,
-        OPTIONAL_COMMA,
-        CHAIN,
-        build=add,
-    ),
-    sequence(
-        verbs.SWAP,
-        THINGS,
-        silent(optional("around, round, over")),
-        either(COMMA, sequence(OPTIONAL_COMMA, small_words.SO_THAT)),
-        sequence(
-            either(IN_THE_END, plain(either(PUT, ENSURE))),
-            some(joint("and", LIST, IN_THE_END), most=2),
-            build=chained,
-        ),
-        build=_swapped,
-    ),
-    sequence(verbs.TIDY_AWAY, COMMA, plain(PAIRS)),
-    sequence(
-        "tak(e|ing), get[ting], grab[bing], pick[ing] up",
-        NAMED,
-        either(sequence(COMMA, PLACED), sequence("and, and then, ~comma and", CHAIN)),
-        build=shared_out,
-    ),
-    sequence(
-        f"{verbs.TIDY_AWAY}, put[ting] away, stow[ing] [away]",
-        NAMED,
-        "[away|up] (~comma|and)",
-        CHAIN,
-        build=all_put,
-    ),
-    sequence(
-        f"{small_words.TASK}, {small_words.END_STATE}",
-        IN_THE_END,
-        some(either(joint("and", LIST, IN_THE_END), WITH_MORE_SO), most=6),
-        build=chained,
-    ),
-    sequence(
-        plain(IF_NOT_SO),
-        optional(sequence(OPTIONAL_COMMA, "and, but", plain(OTHERS_STILL)), ()),
-        build=add,
-    ),
-    sequence(
-        "if you (could|would)", CHAIN, COMMA, f"[then] ({small_words.WOULD_BE_NICE}), that would do"
-    ),
-    sequence(
-        "with",
-        plain(
-            either(
-                SO,
-                sequence(ALL_THINGS, build=taken_out),
-                sequence(
-                    ALL_THINGS,
-                    optional(f"{verbs.BE}, out of the way, staying, {verbs.DONE}"),
-                    DESTINATIONS,
-                    build=put_to,
-                ),
-                sequence(ALL_THINGS, verbs.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
-                STANDS_UP,
-                UNTOUCHED,
-            )
-        ),
-        COMMA,
-        valued(CHAIN, then_done),
-        build=add,
-    ),
-    not_so(CHAIN),
-    sequence("while [you]", LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
-    sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
-    sequence(manner.STARTING_WITH, noun_phrase, COMMA, CHAIN, build=_started_with),
-    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, then_done), build=add),
-    sequence(
-        small_words.BEFORE,
-        LED_CLAUSE,
-        OPTIONAL_COMMA,
-        CHAIN,
-        build=lambda later, rest: rest + then_done(later),
-    ),
-)
 SENTENCE = either(
     CHAIN,
-    sequence(UNORDERED, _WITH_MORE_BEFORE_IT),
+    sequence(UNORDERED, WITH_MORE_BEFORE_IT),
     plain(SAID),
     plain(
         sequence(
@@ -389,7 +100,11 @@ SENTENCE = either(
         plain(sequence(THINGS, build=once_more), Order.THEN),
     ),
 )
+
+
 _END = sequence(OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA)
+
+
 _BUT_NO_MORE = sequence(some(plain(WITHOUT), most=1), _END)
 
 
@@ -405,6 +120,8 @@ def _aside(joined: tuple[str, Reading]) -> tuple[str, Reading]:
 
 
 _GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
+
+
 WHOLE = either(
     sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
     sequence(SENTENCE, COMMA, small_words.TRAILING_LAST, _END, build=_in_the_end),

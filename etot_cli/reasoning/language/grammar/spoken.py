@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from etot_cli.reasoning.language.grammar.syntax import Clause
+from etot_cli.reasoning.language.grammar.syntax.clauses import Clause
 
 
 class Order(StrEnum):

@@ -30,11 +30,10 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     valued,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
-    EnsureClause,
     NounPhrase,
-    PutGroup,
     State,
     Things,
     Toward,

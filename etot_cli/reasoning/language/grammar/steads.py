@@ -15,7 +15,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     spanned,
 )
-from etot_cli.reasoning.language.grammar.syntax import Destination, Modifier, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Modifier,
+    NounPhrase,
+    Toward,
+)
 from etot_cli.reasoning.language.words import places
 
 WITH = spanned(

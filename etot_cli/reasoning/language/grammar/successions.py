@@ -22,14 +22,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
-    Destination,
-    NounPhrase,
-    PutClause,
-    PutGroup,
-    Things,
-    put_to,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 

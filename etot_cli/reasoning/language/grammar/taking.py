@@ -28,21 +28,23 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     variants,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
-    CLEARED,
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
     Clause,
     CoverClause,
-    Destination,
-    Modifier,
-    NounPhrase,
     PickClause,
     PutClause,
     RemoveClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    CLEARED,
+    Destination,
+    Modifier,
+    NounPhrase,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs

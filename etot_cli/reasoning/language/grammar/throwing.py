@@ -16,14 +16,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     valued,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
-    PutClause,
-    PutGroup,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.words import places, verbs
 from etot_cli.reasoning.language.words.lexicon import BINS

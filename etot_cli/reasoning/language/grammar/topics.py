@@ -26,19 +26,21 @@ from etot_cli.reasoning.language.grammar.parsing import (
     spanned,
 )
 from etot_cli.reasoning.language.grammar.spoken import Spoken
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
-    Destination,
-    Modifier,
     MoveClause,
-    NounPhrase,
     PutClause,
     PutGroup,
     RemoveClause,
     ReorientClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Modifier,
+    NounPhrase,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.trees import nodes, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs

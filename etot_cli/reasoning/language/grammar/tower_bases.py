@@ -20,12 +20,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
     Things,
     Toward,
-    TowerClause,
 )
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular

@@ -21,12 +21,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     variants,
     word,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
-    Destination,
-    NounPhrase,
-    Things,
-    TowerClause,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.grammar.tower_bases import (
     FIRST_TO_LAST,
     NEXT,

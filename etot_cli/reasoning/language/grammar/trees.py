@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words.places import Prep
 
 _CONTRASTS = (Prep.CONTRAST, Prep.EXCEPT)

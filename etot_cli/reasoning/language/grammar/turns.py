@@ -15,7 +15,8 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     valued,
 )
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase, Turns
+from etot_cli.reasoning.language.grammar.syntax.clauses import Turns
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.words import manner, small_words
 
 

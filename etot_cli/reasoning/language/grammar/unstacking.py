@@ -17,15 +17,17 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    PutClause,
+    RemoveClause,
+    TowerClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Modifier,
     NounPhrase,
-    PutClause,
-    RemoveClause,
     Things,
-    TowerClause,
-    put_to,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular

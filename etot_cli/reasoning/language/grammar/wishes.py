@@ -22,18 +22,20 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.passives import PASSIVE
 from etot_cli.reasoning.language.grammar.states import PREDICATE, being, containing, state_of
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
-    Destination,
     EnsureClause,
-    NounPhrase,
     PickClause,
     PutClause,
     RemoveClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
     State,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.words import small_words, verbs

@@ -24,13 +24,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     valued,
 )
-from etot_cli.reasoning.language.grammar.syntax import (
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
-    PutClause,
     Things,
     Toward,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.turns import TURN
 from etot_cli.reasoning.language.words import manner, verbs

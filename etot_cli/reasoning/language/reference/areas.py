@@ -9,7 +9,7 @@ import numpy as np
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.grammar.syntax import Modifier
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.lexicon import SIDES

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from etot_cli.reasoning.builtin.goal import Place, Referent, Thing, things_in
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import Role
-from etot_cli.reasoning.language.grammar.syntax import Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import Toward
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
 from etot_cli.reasoning.builtin.roles import Role, can_be
-from etot_cli.reasoning.language.grammar.syntax import Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import Toward
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse

@@ -8,7 +8,7 @@ from itertools import combinations, islice
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.matching import Match

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.blocking import before_fronts

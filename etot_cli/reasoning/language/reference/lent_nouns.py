@@ -11,7 +11,7 @@ from functools import partial
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import (
     PERSONAL_PRONOUNS,

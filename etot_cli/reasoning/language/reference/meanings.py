@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.coreference import (
     PERSONAL_PRONOUNS,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax import CLEARED, Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import CLEARED, Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
 from etot_cli.reasoning.language.reference.determiners import Quantity

@@ -8,7 +8,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.relations import is_inside
 from etot_cli.reasoning.builtin.roles import Role
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse

@@ -16,7 +16,7 @@ from itertools import product
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import CLEARED, Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import CLEARED, Modifier, NounPhrase
 from etot_cli.reasoning.language.grammar.trees import pronouns
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.instances import usable_ones

@@ -9,7 +9,7 @@ from itertools import combinations
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.grammar.syntax import Modifier
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.matching import Match
 from etot_cli.reasoning.language.reference.selection import side_word

@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.destinations import ACROSS, FILLED, ONWARD, TOP
-from etot_cli.reasoning.language.grammar.syntax import Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.by_now import is_off

@@ -10,7 +10,7 @@ from functools import partial
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
 from etot_cli.reasoning.language.reference.by_now import is_empty_by_now, there_by_now

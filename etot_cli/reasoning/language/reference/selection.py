@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.grammar.syntax import Modifier
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier
 from etot_cli.reasoning.language.reference import rows, space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.areas import in_area

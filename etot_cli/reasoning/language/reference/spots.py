@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import Beside, Destination
+from etot_cli.reasoning.language.grammar.syntax.phrases import Beside, Destination
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.resolved import Resolved

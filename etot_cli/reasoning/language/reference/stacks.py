@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax import Modifier
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.world.state import SceneState

@@ -9,7 +9,12 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Near, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax import Beside, Destination, Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Beside,
+    Destination,
+    Modifier,
+    NounPhrase,
+)
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.areas import side_across

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.grammar.syntax import Modifier, NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (

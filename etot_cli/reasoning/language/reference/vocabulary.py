@@ -10,7 +10,7 @@ from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.grammar.spelling import may_be_meant
-from etot_cli.reasoning.language.grammar.syntax import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.entries import (
     EXACT,
     HEAD,

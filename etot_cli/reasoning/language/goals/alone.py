@@ -1,0 +1,85 @@
+"""Whether "only the cup" is where only it is to be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin.goal import (
+    Grouping,
+    Place,
+    Put,
+    Relation,
+    Thing,
+)
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.placing import add_put
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
+from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.words.nouns import is_only
+from etot_cli.world.state import DESK
+
+
+def check_alone(
+    context: Context,
+    phrases: Sequence[NounPhrase],
+    themes: Sequence[int],
+    places: Sequence[Place],
+    *,
+    chosen: bool = False,
+    in_the_end: bool = False,
+) -> None:
+    """Whether "only the cup" is where only it is to be: all else would have to go from there.
+    Of several cups "only the red one" says which: what else is there stays, which is told.
+    ``in_the_end``: it is said how it is to be, so that all else goes to the desk.
+    """
+    own = {thing.name for thing in context.discourse.things(*themes)}
+    where = [place.where for place in places if place.where is not None]
+    upon = all(place.relation is Relation.ON for place in places)
+    there = [
+        name
+        for name, info in context.scene.infos.items()
+        for at in context.discourse.things(*where)
+        if info.movable and name not in own and touches(Thing(name), at, context.scene)
+        if not (upon and context.scene.states[name].inside)  # a chest is no less alone for that
+    ]
+    for phrase in phrases if there else ():
+        if is_only(phrase.determiner):
+            more = f"the {len(there) - 1} others" if there[2:] else there[-1]
+            others = f"{there[0]} and {more}" if there[1:] else there[0]
+            alike = {thing.name for thing in context.all_called(phrase, Role.THEME)}
+            of_several = alike - own and not alike & {*there}
+            if chosen and of_several:
+                context.discourse.notes.append(f"{phrase.text!r}: {others} stays there")
+                continue
+            stays = all(
+                touches(Thing(name), at, context.scene)
+                for name in own
+                for at in context.discourse.things(*where)
+            )
+            gone = all(_goes(context, name) for name in there)
+            if in_the_end and of_several and not (stays or gone):
+                # "Only the red pen goes into the box": none of the pens, or nothing else?
+                raise ReferenceProblem(phrase.text, f"say whether {others} is to stay there", 4)
+            if in_the_end and all(thing.name != DESK for thing in context.discourse.things(*where)):
+                alone = [name for name in there if not _goes(context, name)]
+                rest = tuple(context.single(Thing(name), name) for name in alone)
+                desk = (context.places.on_the_desk(),)
+                for index in rest:
+                    add_put(context, (index,), desk, Grouping.ANY, removal=True)
+                # Nobody spoke of them: "the other ones" may be told a place yet.
+                discourse = context.discourse
+                discourse.put -= {*rest}
+                discourse.mentions = [m for m in discourse.mentions if m.referent not in rest]
+                if alone:
+                    names = ", ".join(alone)
+                    context.discourse.notes.append(f"{phrase.text!r}: {names} goes to the desk")
+                return
+            why = f"say where to put {others} that would be there, too"
+            raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+
+
+def _goes(context: Context, name: str) -> bool:
+    """Whether something else that is asked for takes a thing away."""
+    gone = (i for step in context.done if isinstance(step, Put) for i in step.what)
+    return any(thing.name == name for thing in context.discourse.things(*gone))

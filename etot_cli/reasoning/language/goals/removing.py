@@ -1,0 +1,105 @@
+"""Clauses that take things away from where they are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin.goal import (
+    Grouping,
+    things_in,
+)
+from etot_cli.reasoning.builtin.relations import carriers
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.choosing import (
+    choose_from_somewhere,
+    choose_stacked,
+    is_off_desk,
+)
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.placing import (
+    add_put,
+)
+from etot_cli.reasoning.language.goals.prohibitions import avoid
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, RemoveClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
+from etot_cli.reasoning.language.grammar.taking import ANYTHING, is_emptying
+from etot_cli.reasoning.language.reference.antecedents import NothingThere
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.world.state import DESK
+
+
+def _is_left_over(context: Context, clause: RemoveClause) -> bool:
+    """Whether it is "the other one" of a choice that is to be empty, whichever that leaves."""
+    held = [np for thing in clause.things.phrases for m in thing.modifiers for np in m.phrases]
+    others = [np for np in held if quantity_of(np.determiner).other]
+    return bool(others) and any(
+        len(context.phrases.meaning(np, Role.CONTAINER).options) > 1 for np in others
+    )
+
+
+def remove(context: Context, clause: RemoveClause) -> None:
+    """Adds the steps that take things from where they are to the desk."""
+    if clause.without and clause.source is not None:
+        for np in clause.things.phrases:
+            if not (np.pronoun or (np.determiner and np.words)):
+                raise ReferenceProblem(np.text, "say without what")
+        above = context.phrases.meaning(clause.source, Role.THEME).options
+        below = [context.phrases.meaning(np, Role.ANY) for np in clause.things.phrases]
+        under = [thing for item in below for thing in things_in(item.options)]
+        if all(any(touches(up, at, context.scene) for at in under) for up in things_in(above)):
+            return  # the cake is put away without the plate that it stands on
+    things = clause.things.taken_from(clause.source)
+    if is_emptying(clause):
+        if _is_left_over(context, clause):
+            held = tuple(np for m in things.phrases[0].modifiers for np in m.phrases)
+            inside = Destination(Toward.INSIDE, held)
+            avoid(context, AvoidClause(Avoid.PUT, ANYTHING, (inside,), not_left=True))
+            return
+        context.discourse.emptied = context.discourse.clause
+    # What stands on the desk is taken out or off of nothing: "put the key in the box, then take it
+    # out".
+    discourse, states = context.discourse, context.scene.states
+    places = [place.where for place in discourse.last_places if place.where is not None]
+    around = [
+        index
+        for index in (*discourse.put_into.values(), *places)
+        if all(t.name == DESK or DESK in states[t.name].on for t in discourse.things(index))
+    ]
+    try:
+        themes = context.phrases.things(things, Role.THEME, around)
+    except NothingThere:
+        return  # "put the pen in the cup to free the tray"
+    if clause.by_then and _is_out_already(context, themes):
+        return
+    if is_off_desk(context, things):
+        discourse.swept |= {*themes}
+    if clause.stacked and len(themes) > 1:
+        # Of two that are to be taken apart the lower one stays.
+        upon = [i for i in themes if _stands_upon(context, i, themes)]
+        themes = upon or themes
+    if clause.source is None and clause.stacked:
+        themes = [one for index in themes for one in choose_stacked(context, index)]
+    elif clause.source is None:
+        for index in themes:
+            choose_from_somewhere(context, index)
+    discourse.last_places = context.source(themes)
+    for place in discourse.last_places:
+        context.mention_part(place)
+    add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+
+
+def _is_out_already(context: Context, themes: Sequence[int]) -> bool:
+    """Whether things have been moved from what they were in or on, which "once it is out" is about,
+    wherever they are now.
+    """
+    things, states = context.discourse.things(*themes), context.scene.states
+    moved = {*things} <= {*context.discourse.placed}
+    return moved and all(DESK not in states[thing.name].on for thing in things)
+
+
+def _stands_upon(context: Context, index: int, others: Sequence[int]) -> bool:
+    """Whether a thing stands on one of some others."""
+    below = {thing.name for thing in context.discourse.things(*others)}
+    things = context.discourse.things(index)
+    return any(carriers(context.scene, thing.name) & (below - {thing.name}) for thing in things)

@@ -1,0 +1,172 @@
+"""Where things must not be put."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product
+
+from etot_cli.reasoning.builtin.goal import (
+    Constraint,
+    Grouping,
+    Keep,
+    Place,
+    Put,
+    Relation,
+    Thing,
+    things_in,
+)
+from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.placing import add_put
+from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
+from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.space import addresses, touches
+from etot_cli.world.state import DESK
+
+
+def rule_out_things(context: Context, clause: AvoidClause) -> None:
+    """Says where things must not be put; "it" is what was put somewhere, not where that is."""
+    assert clause.things is not None
+    before = [place.where for place in context.discourse.last_places if place.where is not None]
+    indices = _whatever(context, clause) or context.phrases.things(
+        clause.things, Role.THEME, before
+    )
+    places = rule_out(context, indices, clause.destinations, left=clause.not_left)
+    context.discourse.last_places = places
+    where = context.discourse.things(*(p.where for p in places if p.where is not None))
+    marks = [thing for thing in where if thing.name != DESK]
+    puts = (step for step in context.steps if isinstance(step, Put) and not step.removal)
+    gone = {t for step in puts for t in context.discourse.things(*step.what)}
+    gone |= {*context.discourse.placed}  # "in the blue bowl, not in the red one"
+    for at in indices if clause.not_left else ():
+        things = [thing for thing in context.discourse.things(at) if thing not in gone]
+        there = [t for t in things if any(touches(t, m, context.scene) for m in marks)]
+        known = len(context.discourse.referents[at].options) == 1
+        whole = known and [*context.discourse.things(at)] == there
+        taken = (at,) if whole else tuple(context.single(thing, thing.name) for thing in there)
+        for index in taken:
+            add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+        if known and not whole and at not in context.discourse.put:
+            _speak_of_those_there(context, at, taken, where)
+
+
+def _speak_of_those_there(
+    context: Context, index: int, taken: Sequence[int], where: Sequence[Thing]
+) -> None:
+    """In "there should be no blocks on the tray; put them in the box" they are those on the tray,
+    where any are.
+    """
+    discourse, scene = context.discourse, context.scene
+    things = discourse.things(index)
+    below = {t.name for t in things if any(touches(t, at, scene) for at in where)}
+    below |= {at.name for at in where} - {DESK}  # on the desk is not in what stands there
+    there = tuple(t for t in things if {t.name, *bearers(scene, t.name)} & below)
+    if not there:
+        return
+    each = {*there} == {*discourse.things(*taken)}
+    if not each:
+        discourse.referents[index] = replace(discourse.referents[index], options=(there,))
+    unsaid = (index,) if each else taken
+    discourse.mentions = [m for m in discourse.mentions if m.referent not in unsaid]
+
+
+def _whatever(context: Context, clause: AvoidClause) -> list[int]:
+    """In "put nothing into the box" everything that could be put there; none where it is not said
+    of anything.
+    """
+    phrases = clause.things.phrases if clause.things else ()
+    if [np.words for np in phrases] != [("anything",)] or phrases[0].modifiers:
+        return []
+    targets = [np for where in clause.destinations for np in where.targets]
+    options = [context.phrases.meaning(np, Role.PLACE).options for np in targets]
+    around = {thing.name for found in options for thing in things_in(found)}
+    states = context.scene.states
+    things = tuple(
+        Thing(name)
+        for name, info in context.scene.infos.items()
+        if info.movable and name in states and name not in around
+        if clause.not_left or not bearers(context.scene, name) & around
+    )
+    every = Resolved((things,), noun="object", every=True)
+    return [context.discourse.add(every, "anything", Role.THEME, several=True)]
+
+
+def rule_out(
+    context: Context,
+    themes: Sequence[int],
+    destinations: Sequence[Destination],
+    *,
+    left: bool = False,
+) -> tuple[Place, ...]:
+    """Says where things must not be put, or (``left``) be left; returns these places."""
+    for index in themes:
+        is_not_chosen(context, index, which=True)
+    names = dict.fromkeys(thing.name for thing in context.discourse.things(*themes))
+    text = " and ".join(context.discourse.referents[index].text for index in themes)
+    places: list[tuple[Relation, str]] = []
+    beside = [item.text for where in destinations for item in where.beside]
+    for place in (found := context.places.of(destinations, themes, stays=left)):
+        if place.beside or place.where is None:
+            text = next(iter(beside), text)
+            raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)
+        if is_not_chosen(context, place.where, which=_holds_any(context, place.where)):
+            continue  # no step puts anything there
+        for thing in context.discourse.things(place.where):
+            on = place.relation is Relation.ON
+            meant = (thing.address,) if on else addresses(thing, context.scene)
+            places += [(place.relation, item) for item in meant]
+    if places:
+        context.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
+    return found
+
+
+def _holds_any(context: Context, index: int) -> bool:
+    """Whether something is in or on any of the things that a referent may be."""
+    infos, scene = context.scene.infos, context.scene
+    return any(
+        touches(Thing(name), at, scene)
+        for at in context.discourse.things(index)
+        for name in infos
+        if infos[name].movable
+    )
+
+
+def not_beside(
+    context: Context,
+    places: tuple[Place, ...],
+    ruled_out: Sequence[Destination],
+    themes: Sequence[int],
+) -> tuple[Place, ...]:
+    """Places on surfaces, where things are not to stand beside what is said, whichever is meant;
+    what is in a vessel stands beside nothing.
+    """
+    out = [item for item in ruled_out if item.toward is Toward.BESIDE]
+    if not out or any(place.relation is not Relation.ON for place in places):
+        return places
+    denied = tuple(
+        replace(near, landmarks=marks, denied=True)
+        for place in context.places.of(out, themes)
+        for near in place.beside
+        for marks in product(*map(context.discourse.each, near.landmarks))
+    )
+    return tuple(replace(place, beside=(*place.beside, *denied)) for place in places)
+
+
+def is_not_chosen(context: Context, index: int, *, which: bool = False) -> bool:
+    """Whether "the other one" is what a choice leaves, of which is noted; ``which``: it matters.
+
+    Raises:
+        ReferenceProblem: it matters, or the choice leaves several.
+    """
+    referents = context.discourse.referents
+    referent = referents[index]
+    if not referent.distinct_from or len(referent.options) < 2:
+        return False
+    chosen = sum(len(referents[other].options[0]) for other in referent.distinct_from)
+    if which or len(things_in(referent.options)) - chosen > 1:
+        raise ReferenceProblem(referent.text, "say which one", 3)
+    context.discourse.notes.append(f"{referent.text!r} is the one that is not chosen")
+    return True

@@ -1,0 +1,1 @@
+"""The syntax tree of an instruction, before any scene is looked at."""
