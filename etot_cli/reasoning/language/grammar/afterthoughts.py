@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.chains import then_done
-from etot_cli.reasoning.language.grammar.clauses import Reading, changed, excluding
+from etot_cli.reasoning.language.grammar.clauses import Reading
+from etot_cli.reasoning.language.grammar.exclusions import changed, excluding
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,

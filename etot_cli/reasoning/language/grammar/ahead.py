@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.clauses import LEFT_OUT, Reading, changed
+from etot_cli.reasoning.language.grammar.clauses import LEFT_OUT, Reading
 from etot_cli.reasoning.language.grammar.common import (
     COMMA,
     OPTIONAL_COMMA,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, denied, rather
+from etot_cli.reasoning.language.grammar.exclusions import changed
 from etot_cli.reasoning.language.grammar.parsing import Parser, either, optional, sequence, valued
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from itertools import takewhile
 from typing import Any
@@ -24,6 +23,7 @@ from etot_cli.reasoning.language.grammar.doubles import (
     bared,
     with_others,
 )
+from etot_cli.reasoning.language.grammar.exclusions import but_some, excluding, of_the_things
 from etot_cli.reasoning.language.grammar.grasping import GRASP
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.modifiers import (
@@ -66,17 +66,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     Clause,
     EnsureClause,
-    MoveClause,
     PickClause,
     PutClause,
     PutGroup,
-    RemoveClause,
-    TowerClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Modifier,
-    NounPhrase,
     Things,
     Toward,
 )
@@ -93,19 +89,8 @@ from etot_cli.reasoning.language.grammar.towers import TOWER
 from etot_cli.reasoning.language.grammar.unstacking import REVERSED, SPREAD
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART, WANTED, WISHED
 from etot_cli.reasoning.language.words import nouns, small_words, verbs
-from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import LINKS
-from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.patterns import words_of
-from etot_cli.reasoning.language.words.places import Prep
-
-
-def _is_one(np: NounPhrase) -> bool:
-    """Whether a phrase means one thing, of which nothing can be left out."""
-    several = not np.words or singular(np.head) != np.head or matches_any(np.head, THING_NOUNS)
-    known = np.determiner in ("", "the", "this", "that", "my")
-    return known and not (several or is_category(np.head))
-
 
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
@@ -122,51 +107,6 @@ AGAIN = either(
         build=lambda things: AgainClause(things, added=True),
     ),
 )
-
-
-def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None:
-    """A clause without some of the things that it is about ("…, except the blue one"), of those
-    that its last phrase means, or that ``at`` an index.
-    """
-    some = left_out.prep is Prep.EXCEPT and not left_out.denied
-
-    def without(np: NounPhrase) -> NounPhrase | None:
-        # "Any cup, put it there, but not the red one" is said of what "it" was chosen from.
-        return None if np.pronoun == "it" or (some and _is_one(np)) else np.told_by(left_out)
-
-    return changed(clause, without, at)
-
-
-def changed(
-    clause: Clause, change: Callable[[NounPhrase], NounPhrase | None], at: int = -1
-) -> Clause | None:
-    """A clause with one of the phrases for what it is about changed, the last one by default; None
-    where that cannot be changed.
-    """
-
-    def without(things: Things) -> Things | None:
-        phrases = [*things.phrases]
-        new = change(phrases[at])
-        if new is None:
-            return None
-        phrases[at] = new
-        return replace(things, phrases=tuple(phrases))
-
-    match clause:
-        case PutClause(groups=(group,)) if rest := without(group.things):
-            return replace(clause, groups=(replace(group, things=rest),))
-        case EnsureClause(states=(state,)) if rest := without(Things(state.subjects)):
-            return EnsureClause((replace(state, subjects=rest.phrases),))
-        case (
-            PickClause(things=things)
-            | RemoveClause(things=things)
-            | MoveClause(things=things)
-            | TowerClause(things=things)
-            | AgainClause(things=Things() as things)
-            | AvoidClause(things=Things() as things)
-        ) if rest := without(things):
-            return replace(clause, things=rest)
-    return None
 
 
 Reading = tuple[Spoken, ...]
@@ -204,20 +144,9 @@ LEFT_OUT = either(
 )
 
 
-def of_the_things(clause: Clause, said: Modifier) -> Clause | None:
-    """What stands behind a place is said of what goes there only if it cannot be of the place."""
-    found = excluding(clause, said)
-    return replace(found, far_fetched=1) if isinstance(found, PutClause | EnsureClause) else found
-
-
-def _but_some(clause: PutClause, group: PutGroup) -> Clause | None:
-    """All of them go to one place but for some that go to another."""
-    out = excepting(group.things.phrases)
-    found = None if out is None or group.things.either else excluding(clause, out)
-    return replace(found, groups=(*found.groups, group)) if isinstance(found, PutClause) else None
-
-
 _WHICH_GOES = sequence("~comma which", verbs.MODAL, DESTINATIONS)
+
+
 _ELSEWHERE = sequence(
     nouns.EXCEPT,
     exceptions,
@@ -241,7 +170,10 @@ _ASKED = Rule(
         *(SPREAD, REVERSED, ONLY_THESE_MAY, GRASP),
     )
 )
+
+
 INSTEAD = phrase(small_words.INSTEAD, True)
+
 
 CLAUSE = located(
     sequence(
@@ -256,7 +188,7 @@ CLAUSE = located(
                 build=of_the_things,
             ),
             sequence(
-                PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=_but_some
+                PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=but_some
             ),
             sequence(PUT, _WHICH_GOES, build=_making_room),
             SIDE_BY_SIDE,
@@ -277,6 +209,8 @@ CLAUSE = located(
     ),
     lambda at, found: (at, *found),
 )
+
+
 ORDER_WORDS = one_of(
     {
         Order.FIRST: small_words.LEADING_FIRST,
@@ -285,6 +219,8 @@ ORDER_WORDS = one_of(
         Order.THEN: small_words.LEADING_THEN,
     }
 )
+
+
 _OUGHT = {"should", "would", "ought", "could", "needs"}
 
 
@@ -295,12 +231,18 @@ def _is_wish(given: Input, at: int) -> list[Result]:
 
 _OPINION = Parser(_is_wish)
 """Before a wish in such words; that something belongs somewhere is but thought."""
+
+
 _DOING = words_of((verbs.PICK, verbs.PUT, verbs.REMOVE, verbs.TIDY, verbs.FILL)) - LINKS
+
+
 _BEFORE_A_VERB = Parser(
     lambda given, at: (
         [(at, NOTHING)] if given.ahead[at] in {*_DOING, "open", "close", "shut"} else []
     )
 )
+
+
 LEAD = sequence(
     some(
         either(

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.clauses import (
-    INSTEAD,
-    LEFT_OUT,
-    of_the_things,
-    plain,
-)
+from etot_cli.reasoning.language.grammar.clauses import INSTEAD, LEFT_OUT, plain
 from etot_cli.reasoning.language.grammar.common import COMMA, IN_HAND, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doors import STATE_NAMED
+from etot_cli.reasoning.language.grammar.exclusions import of_the_things
 from etot_cli.reasoning.language.grammar.modifiers import (
     CONTRASTED,
 )

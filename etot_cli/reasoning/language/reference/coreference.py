@@ -8,9 +8,14 @@ from contextlib import suppress
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.trees import UNSAID
-from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference, Mention
+from etot_cli.reasoning.language.reference.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.modified import names_of_things
+from etot_cli.reasoning.language.reference.plural_pronouns import (
+    acted_on,
+    emptied_by,
+    meant_by_them,
+)
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.reference.spoken_of import (
     TARGETS,
@@ -19,16 +24,18 @@ from etot_cli.reasoning.language.reference.spoken_of import (
     fits,
     left_unsaid,
     mentioned_in,
-    openable,
 )
 from etot_cli.reasoning.language.words import categories
-from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import owner_of
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
+
+
 PERSONAL_PRONOUNS = frozenset({"he", "him", "she", "her"})
 """Of what is called like an animal or a doll; of people nothing is known."""
+
+
 ROOMY = 2.0
 """What is so many times wider than a thing on it has room for another one beside that."""
 
@@ -59,7 +66,7 @@ def antecedents(
     if pronoun == UNSAID:
         return left_unsaid(discourse, text)
     if pronoun in PLURAL_PRONOUNS:
-        found = _plural(discourse, role, text)
+        found = meant_by_them(discourse, role, text)
         if not found:
             raise ReferenceProblem(text, UNCLEAR, 2)
         return found
@@ -287,87 +294,6 @@ def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
     return all(map(is_flat, own)) and not any(is_flat(info) or info.container for info in rivals)
 
 
-def told_by_them(discourse: Discourse, pronoun: str, text: str) -> list[tuple[int, ...]]:
-    """All that "them" may mean where it tells what something is in, on or beside: behind "empty the
-    bins" what was in them, or these.
-    """
-    latest = max((mention.clause for mention in discourse.mentions), default=-1)
-    said = [mention for mention in discourse.mentions if mention.clause == latest]
-    found = _acted_on(discourse, said, Role.ANY)
-    if found and (emptied := _emptied(discourse, latest, Role.ANY)):
-        return [found, emptied]
-    try:
-        return [antecedents(discourse, pronoun, Role.ANY, text)]
-    except AmbiguousReference:
-        # "Without moving the plates, take the cup off them": what was spoken of before that
-        before = {m.referent for m in discourse.mentions if m.clause < discourse.clause}
-        several = [index for index in before if len(discourse.things(index)) > 1]
-        if len(several) != 1:
-            raise
-        return [(several[0],)]
-
-
-def _plural(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
-    for clause in clauses_of(discourse):
-        if clause in discourse.stacks and role is not Role.CONTAINER:
-            # What stands on the bottom goes with it; what goes on them goes on top.
-            bottom, top = discourse.stacks[clause]
-            return (bottom if role in (Role.THEME, Role.ANY) else top,)
-        found = _acted_on(discourse, [m for m in discourse.mentions if m.clause == clause], role)
-        several = len(found) > 1 or any(are_several(discourse, index) for index in found)
-        emptied = _emptied(discourse, clause, role) if found else ()
-        if emptied:
-            # "Empty the bins and put them on the rack": what was in them, or these.
-            named = [discourse.referents[index].text for index in (*found, *emptied)]
-            raise AmbiguousReference(text, named)
-        if several:
-            return found
-    found = _acted_on(discourse, discourse.mentions, role)
-    said = [mention for mention in discourse.mentions if mention.referent in found]
-    options = [option for index in found for option in discourse.referents[index].options]
-    single = len(found) == 1 and all(len(option) == 1 for option in options)
-    plural = any(singular(mention.noun) != mention.noun for mention in said)  # "the pliers"
-    if single and not plural and not any(item.several or item.whatever for item in said):
-        raise AmbiguousReference(text, [item.text for item in discourse.referents])
-    if not found and role is Role.PART and len(drawers := openable(discourse)) > 1:
-        return drawers  # "a pen in each of two drawers, and close them"
-    return found or _several_named(discourse, role)
-
-
-def _several_named(discourse: Discourse, role: Role) -> tuple[int, ...]:
-    """The only several things of which but something was said ("the cups are dirty; put them")."""
-    named = {
-        mention.referent
-        for mention in discourse.mentions
-        if singular(mention.noun) != mention.noun and fits(discourse, mention.referent, role)
-    }
-    return tuple(named) if len(named) == 1 else ()
-
-
-def _emptied(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:
-    """What a clause took everything out of or off, where it is several things."""
-    said = [mention for mention in discourse.mentions if mention.clause == clause]
-    texts = [discourse.referents[m.referent].text for m in said if m.role is Role.THEME]
-    return tuple(
-        mention.referent
-        for mention in said
-        if mention.role is Role.ANY
-        and all(text.startswith("everything in ") for text in texts)
-        and len(discourse.things(mention.referent)) > 1
-        and fits(discourse, mention.referent, role)
-    )
-
-
-def _acted_on(discourse: Discourse, mentions: Sequence[Mention], role: Role) -> tuple[int, ...]:
-    return tuple(
-        dict.fromkeys(
-            mention.referent
-            for mention in mentions
-            if mention.role in (Role.THEME, Role.PART) and fits(discourse, mention.referent, role)
-        )
-    )
-
-
 def latest_place(
     discourse: Discourse, relation: Relation, excluded: Sequence[int], text: str
 ) -> Place:
@@ -380,3 +306,23 @@ def latest_place(
     role = Role.CONTAINER if relation is Relation.INSIDE else Role.SURFACE
     told_by = _telling(discourse)
     return Place(relation, meant_by_it(discourse, role, text, (*excluded, *told_by)))
+
+
+def told_by_them(discourse: Discourse, pronoun: str, text: str) -> list[tuple[int, ...]]:
+    """All that "them" may mean where it tells what something is in, on or beside: behind "empty the
+    bins" what was in them, or these.
+    """
+    latest = max((mention.clause for mention in discourse.mentions), default=-1)
+    said = [mention for mention in discourse.mentions if mention.clause == latest]
+    found = acted_on(discourse, said, Role.ANY)
+    if found and (emptied := emptied_by(discourse, latest, Role.ANY)):
+        return [found, emptied]
+    try:
+        return [antecedents(discourse, pronoun, Role.ANY, text)]
+    except AmbiguousReference:
+        # "Without moving the plates, take the cup off them": what was spoken of before that
+        before = {m.referent for m in discourse.mentions if m.clause < discourse.clause}
+        several = [index for index in before if len(discourse.things(index)) > 1]
+        if len(several) != 1:
+            raise
+        return [(several[0],)]
