@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -13,6 +14,8 @@ from etot_cli.specs import objects as specs
 from etot_cli.world.index import Face, Graspable, Part, Region, Surface
 from etot_cli.world.state import PartInfo, triple
 
+BOX: Mapping[mujoco.mjtGeom, str] = {mujoco.mjtGeom.mjGEOM_BOX: "box"}
+HOLLOWS: Mapping[mujoco.mjtGeom, str] = {**BOX, mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder"}
 UPRIGHT_HINGE = 0.7
 """Hinges that stand at least this upright (cosine) are those of doors."""
 
@@ -28,6 +31,7 @@ def mjcf_parts(
     mujoco.mj_kinematics(model, data)
     for part_name, part in spec.parts.items():
         joint = model.joint(f"{name}/{part.joint}")
+        _check_part(model, name, part_name, part)
         body = model.body(int(joint.bodyid[0])).name
         kind = "slide" if joint.type[0] == mujoco.mjtJoint.mjJNT_SLIDE else "hinge"
         lower, upper = (float(value) for value in joint.range)
@@ -46,8 +50,10 @@ def mjcf_parts(
             region = _region(model, f"{name}/{part.container_site}", address)
             regions.append(region if opening is None else replace(region, opening=opening))
     if spec.container_site:
+        _check_site(model, name, "container_site", spec.container_site, HOLLOWS)
         regions.append(_region(model, f"{name}/{spec.container_site}", name))
     if spec.surface_site:
+        _check_site(model, name, "surface_site", spec.surface_site, BOX)
         site = model.site(f"{name}/{spec.surface_site}")
         center = tuple(site.pos + np.array([0, 0, site.size[2]]))
         surfaces.append(
@@ -55,6 +61,58 @@ def mjcf_parts(
                     (float(site.size[0]), float(site.size[1])))
         )  # fmt: skip
     return tuple(parts), tuple(regions), tuple(surfaces)
+
+
+def _check_part(model: mujoco.MjModel, name: str, part_name: str, part: specs.MjcfPart) -> None:
+    """Sees to it that a part is something that opens, and its sites are where they have to be.
+
+    Raises:
+        WorldError: it is not.
+    """
+    where = f"{name}.parts.{part_name}"
+    joint = model.joint(f"{name}/{part.joint}")
+    kind = mujoco.mjtJoint(int(joint.type[0]))
+    if kind not in (mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE):
+        raise WorldError(
+            f"{where}.joint: {part.joint!r} is a {kind.name.removeprefix('mjJNT_').lower()} joint; "
+            "expected a slide or a hinge"
+        )
+    lower, upper = joint.range
+    if not model.jnt_limited[joint.id] or not lower < upper:
+        raise WorldError(
+            f"{where}.joint: {part.joint!r} has no range, so how far it opens is not known; "
+            'expected one in the file, as in range="0 1.6"'
+        )
+    if part.container_site:
+        _check_site(model, where, "container_site", part.container_site, BOX, name)
+    if part.front_site:
+        _check_site(model, where, "front_site", part.front_site, BOX, name)
+        site = model.site(f"{name}/{part.front_site}")
+        if int(site.bodyid[0]) != int(joint.bodyid[0]):
+            found, expected = (
+                model.body(int(item.bodyid[0])).name.partition("/")[2] for item in (site, joint)
+            )
+            raise WorldError(
+                f"{where}.front_site: {part.front_site!r} is on the body {found!r}; expected it on "
+                f"{expected!r}, which {part.joint!r} moves"
+            )
+
+
+def _check_site(
+    model: mujoco.MjModel,
+    where: str,
+    key: str,
+    site: str,
+    expected: Mapping[mujoco.mjtGeom, str],
+    owner: str | None = None,
+) -> None:
+    """Sees to it that a site has a shape that can be read."""
+    found = mujoco.mjtGeom(int(model.site(f"{owner or where}/{site}").type[0]))
+    if found not in expected:
+        raise WorldError(
+            f"{where}.{key}: {site!r} is a {found.name.removeprefix('mjGEOM_').lower()}; expected "
+            f"a {' or a '.join(expected.values())}"
+        )
 
 
 def _side_opening(
