@@ -11,6 +11,7 @@ import numpy as np
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import objects as specs
+from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Face, Graspable, Part, Region, Surface
 from etot_cli.world.state import PartInfo, triple
 
@@ -38,14 +39,15 @@ def mjcf_parts(
         # The opening direction is away from whichever limit is nearer to zero.
         closed, opened = (lower, upper) if abs(lower) <= abs(upper) else (upper, lower)
         address = name if len(spec.parts) == 1 else f"{name}.{part_name}"
-        outer, inner = _faces(model, name, part, joint, body)
+        outer, inner, back = _faces(model, name, part, joint, body)
         opening = _side_opening(data, name, part, joint, body, outer)
         info = PartInfo(
             name, part_name, address, kind, abs(opened - closed),
             part.container_site is not None, front=opening is not None,
         )  # fmt: skip
         grasps = _grasps(model, f"{name}/{part.front_site}", outer) if part.front_site else ()
-        parts.append(Part(info, body, f"{name}/{part.joint}", closed, opened, outer, inner, grasps))
+        joint_name = f"{name}/{part.joint}"
+        parts.append(Part(info, body, joint_name, closed, opened, outer, inner, grasps, back))
         if part.container_site:
             region = _region(model, f"{name}/{part.container_site}", address)
             regions.append(region if opening is None else replace(region, opening=opening))
@@ -179,25 +181,21 @@ def _grasps(model: mujoco.MjModel, site_name: str, outer: Face) -> tuple[Graspab
 
 def _faces(
     model: mujoco.MjModel, name: str, part: specs.MjcfPart, joint: Any, body: str
-) -> tuple[Face, Face]:
-    """Front and back faces of a part: of its ``front_site``, else of its outermost box of geoms."""
+) -> tuple[Face, Face, Face | None]:
+    """Front and back faces of a part: of its ``front_site``, else of its outermost box of geoms;
+    and the whole back of a door or lid with a ``front_site``.
+    """
     axis = np.array(joint.axis)
+    slide = int(joint.type[0]) == mujoco.mjtJoint.mjJNT_SLIDE
+    panel = _bounds(model, body)
+    front = panel
     if part.front_site:
         site = model.site(f"{name}/{part.front_site}")
-        center, half = np.array(site.pos), np.array(site.size)
-    else:
-        boxes = [
-            (np.array(model.geom(i).pos), model.geom_aabb[i])
-            for i in range(model.ngeom)
-            if model.body(int(model.geom_bodyid[i])).name == body
-        ]
-        low = np.min([pos + box[:3] - box[3:] for pos, box in boxes], axis=0)
-        high = np.max([pos + box[:3] + box[3:] for pos, box in boxes], axis=0)
-        center, half = (low + high) / 2, (high - low) / 2
-    if int(joint.type[0]) == mujoco.mjtJoint.mjJNT_SLIDE:
+        front = (np.array(site.pos), np.array(site.size))
+    if slide:
         normal = axis * np.sign(joint.range[1] + joint.range[0] or 1.0)
     else:
-        lever = center - np.array(joint.pos)
+        lever = front[0] - np.array(joint.pos)
         normal = np.cross(axis, lever - axis * (axis @ lever))
         if np.linalg.norm(normal) < 1e-6:
             raise WorldError(
@@ -206,15 +204,26 @@ def _faces(
             )
         normal *= np.sign(joint.range[1] + joint.range[0] or 1.0) / np.linalg.norm(normal)
     k = int(np.argmax(np.abs(normal)))
-    u, v = (np.eye(3)[i] * half[i] for i in range(3) if i != k)
     direction = np.eye(3)[k] * np.sign(normal[k])
-    outer = center + direction * half[k]
-    if not part.front_site and int(joint.type[0]) == mujoco.mjtJoint.mjJNT_SLIDE:
-        # Without a marked front only pushing from outside is known.
-        inner = outer - direction * 2 * half[k]
-    else:
-        inner = center - direction * half[k]
-    return (
-        Face(tuple(outer), tuple(direction), tuple(u), tuple(v)),
-        Face(tuple(inner), tuple(-direction), tuple(u), tuple(v)),
-    )
+    outer = _face(*front, k, direction)
+    inner = _face(*front, k, -direction)
+    return outer, inner, None if slide or not part.front_site else _face(*panel, k, -direction)
+
+
+def _bounds(model: mujoco.MjModel, body: str) -> tuple[Vector, Vector]:
+    """Middle and half extents (3,) of the box around a body's geoms, in its frame [m]."""
+    boxes = [
+        (np.array(model.geom(i).pos), model.geom_aabb[i])
+        for i in range(model.ngeom)
+        if model.body(int(model.geom_bodyid[i])).name == body
+    ]
+    low = np.min([pos + box[:3] - box[3:] for pos, box in boxes], axis=0)
+    high = np.max([pos + box[:3] + box[3:] for pos, box in boxes], axis=0)
+    return (low + high) / 2, (high - low) / 2
+
+
+def _face(center: Vector, half: Vector, k: int, direction: Vector) -> Face:
+    """The side of a box that looks along its axis ``k``, in a direction."""
+    u, v = (np.eye(3)[i] * half[i] for i in range(3) if i != k)
+    middle = center + direction * half[k]
+    return Face(triple(middle), triple(direction), triple(u), triple(v))
