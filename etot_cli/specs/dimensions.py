@@ -13,6 +13,7 @@ from etot_cli.specs.objects import (
     Cup,
     DrawerUnit,
     Handle,
+    Mjcf,
     ObjectBase,
     Pen,
     Shelf,
@@ -61,6 +62,36 @@ def dimension_problems(scene: Scene) -> Iterator[Problem]:
             walls = item.wall * len(item.boards)
             yield from _below(path, "wall", walls, "height", item.size[2], "its boards' thickness")
             yield from _below(path, "wall", 2 * item.wall, "width", item.size[1], "twice the wall")
+        elif isinstance(item, Mjcf):
+            yield from _mjcf(path, item)
+
+
+def _mjcf(path: DataPath, item: Mjcf) -> Iterator[Problem]:
+    """Parts that would be one and the same: what is done to one of them happens to the other, and
+    what lies in a room lies in one of them only.
+    """
+    joints: dict[str, str] = {}
+    rooms = {item.container_site: "the object itself"}
+    for key, part in item.parts.items():
+        here = (*path, "parts", key)
+        if (other := joints.setdefault(part.joint, key)) != key:
+            message = (
+                f"found {part.joint!r}, which moves the part {other!r} already; expected one part "
+                "for each joint"
+            )
+            yield Problem((*here, "joint"), message)
+        site = part.container_site
+        if site is not None and (other := rooms.setdefault(site, f"the part {key!r}")) != (
+            f"the part {key!r}"
+        ):
+            message = (
+                f"found {site!r}, which is the room of {other} already; expected it once, where "
+                "things go in and out"
+            )
+            yield Problem((*here, "container_site"), message)
+        if part.open is not None and part.open_deg is not None:
+            message = "found with 'open'; expected 'open' [m] of a slide or 'open_deg' of a hinge"
+            yield Problem((*here, "open_deg"), message)
 
 
 def _below(

@@ -40,7 +40,8 @@ def surfaces(scene: Scene) -> list[str]:
     names = [DESK]
     for name, item in scene.objects.items():
         flat = isinstance(item, Box | Cylinder | Cup | DrawerUnit | Cabinet | Shelf | Mesh)
-        if flat or (isinstance(item, Mjcf) and item.surface_site is not None):
+        sites = (item.surface_site, item.container_site) if isinstance(item, Mjcf) else ()
+        if flat or any(site is not None for site in sites):
             names.append(name)
         if isinstance(item, Shelf):
             names.extend(f"{name}.{board}" for board in item.boards)
@@ -228,9 +229,30 @@ def _check(
     if name in valid:
         return
     if not valid:
-        yield Problem(path, f"found {show(name)}, but the scene has no {role}")
+        message = f"found {show(name)}, but the scene has no {role}"
+        yield Problem(path, message + _to_become(name, role, scene))
     elif name in scene.objects:
         # The name is right, the object is of the wrong sort: say so and list the right ones.
-        yield Problem(path, f"{name!r} is no {role}; expected one of {', '.join(valid)}")
+        message = f"{name!r} is no {role}; expected one of {', '.join(valid)}"
+        yield Problem(path, message + _to_become(name, role, scene))
     else:
         yield Problem(path, f"the scene has no {role} {name!r}{unknown(name, valid)}")
+
+
+def _to_become(name: str, role: str, scene: Scene) -> str:
+    """What an object from a file lacks to serve in a role, which only its author can tell."""
+    item = scene.objects.get(name)
+    if role == "container" and isinstance(item, Mesh):
+        return f"; add 'hollow: true' to {name!r} where it is open at the top"
+    if not isinstance(item, Mjcf) or role not in ("container", "surface"):
+        return ""
+    if any(part.container_site is not None for part in item.parts.values()):
+        hollow = ""  # the list has them
+    else:
+        place = "a part of it" if item.parts else "it"
+        hollow = f"'container_site: <box site that spans its hollow>' to {place}"
+    flat = "'surface_site: <box site that things stand on>' to it" if role == "surface" else ""
+    if flat and item.parts:
+        hollow = ""
+    wanted = " or ".join(key for key in (hollow, flat) if key)
+    return f"; to make it one, add {wanted}" if wanted else ""

@@ -89,6 +89,8 @@ class Part:
     inner: Face | None = None
     """The face behind it, that opening pushes on once it is ajar."""
     grasps: tuple[Graspable, ...] = ()
+    back: Face | None = None
+    """All of its back, where ``inner`` is only what is behind its handle."""
 
 
 @dataclass(frozen=True)

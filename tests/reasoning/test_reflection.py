@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 
 from etot_cli.reasoning.builtin import BuiltinReasoner
+from etot_cli.reasoning.builtin.revision import without_idle
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb, format_plan, parse_plan
 from etot_cli.world.state import CauseKind, Swept
@@ -720,3 +721,16 @@ def test_what_is_asked_to_be_open_never_stays_closed() -> None:
     step = failed(start, f"{cleared} [OPEN, chest]", 3, cause(CauseKind.NO_GRASP, "chest"))
     for branch in revisions(step):
         assert "[OPEN, chest]" in branch
+
+
+@pytest.mark.parametrize("verb", ["OPEN", "CLOSE"])
+def test_what_has_been_opened_or_closed_is_not_so_again(verb: str) -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 0.4}), scenes.ball("nut", (0.4, 0.0))
+    )
+    away = RELOCATE.format("nut")
+    repeated = parse_plan(f"[{verb}, chest] {away} [{verb}, chest] [{verb}, chest]")
+    assert format_plan(without_idle(repeated, start)) == f"[{verb}, chest] {away}"
+    other = "CLOSE" if verb == "OPEN" else "OPEN"
+    between = parse_plan(f"[{verb}, chest] {away} [{other}, chest] {away} [{verb}, chest]")
+    assert without_idle(between, start) == between

@@ -334,6 +334,31 @@ def test_inner_dimensions(item: str, message: str, tmp_path: Path) -> None:
     assert message in error
 
 
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ("parts: {up: {joint: h}, low: {joint: h}}",
+         "parts.low.joint: found 'h', which moves the part 'up' already; expected one part"),
+        ("parts: {up: {joint: h, container_site: r}, low: {joint: g, container_site: r}}",
+         "parts.low.container_site: found 'r', which is the room of the part 'up' already"),
+        ("container_site: r, parts: {up: {joint: h, container_site: r}}",
+         "parts.up.container_site: found 'r', which is the room of the object itself already"),
+        ("parts: {up: {joint: h, open: 0.1, open_deg: 20}}",
+         "parts.up.open_deg: found with 'open'; expected 'open' [m] of a slide"),
+    ],
+)  # fmt: skip
+def test_parts_of_a_model_that_are_one_and_the_same(
+    keys: str, message: str, tmp_path: Path
+) -> None:
+    write(tmp_path, "a.xml", "<mujoco/>")
+    error = scene_error(tmp_path, objects(it=f"{{kind: mjcf, file: a.xml, at: [0.4, 0], {keys}}}"))
+    assert error.startswith("scene.yaml:2: objects.it.")
+    assert message in error
+    two = "parts: {up: {joint: h, container_site: r}, low: {joint: g, container_site: s}}"
+    apart = objects(it=f"{{kind: mjcf, file: a.xml, at: [0.4, 0], {two}}}")
+    load_scene(write(tmp_path, "scene.yaml", apart))
+
+
 def test_things_of_unknown_size_are_only_placed(tmp_path: Path) -> None:
     write(tmp_path, "a.obj", "x")
     mesh = "{{kind: mesh, file: a.obj, {}}}"

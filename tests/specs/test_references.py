@@ -122,3 +122,31 @@ def test_keep_names_objects(tmp_path: Path) -> None:
     assert "scene.yaml:3: variation.keep[1]: the scene has no object 'bell'" in error
     scene = load_scene(write(tmp_path, "s.yaml", objects(ball=BALL) + "variation: {keep: [ball]}"))
     assert scene.variation.keep == ("ball",)
+
+
+@pytest.mark.parametrize(
+    ("keys", "placed", "message"),
+    [
+        ("container_site: r", "on: it", None),
+        ("container_site: r", "inside: it", None),
+        ("surface_site: r", "on: it", None),
+        ("", "on: it", "add 'container_site: <box site that spans its hollow>' to it or "
+         "'surface_site: <box site that things stand on>' to it"),
+        ("surface_site: r", "inside: it", "'container_site: <box site that spans its hollow>' to"),
+        ("parts: {lid: {joint: h}}", "inside: it", "its hollow>' to a part of it"),
+        ("parts: {lid: {joint: h, container_site: r}}", "on: it", "add 'surface_site: <box site"),
+    ],
+)  # fmt: skip
+def test_a_model_carries_and_contains_by_its_sites(
+    keys: str, placed: str, message: str | None, tmp_path: Path
+) -> None:
+    write(tmp_path, "a.xml", "<mujoco/>")
+    model = ", ".join(key for key in ("kind: mjcf, file: a.xml, at: [0.4, 0]", keys) if key)
+    ball = f"{{kind: sphere, diameter: 0.04, {placed}}}"
+    text = objects(it=f"{{{model}}}", ball=ball)
+    if message is None:
+        load_scene(write(tmp_path, "scene.yaml", text))
+    else:
+        error = scene_error(tmp_path, text)
+        assert error.startswith(f"scene.yaml:3: objects.ball.{placed.split(':')[0]}: ")
+        assert message in error

@@ -53,10 +53,12 @@ def test_vessel_from_a_model(tmp_path: Path) -> None:
 objects:
   pot: {kind: mjcf, file: pot.xml, at: [0.4, 0.1], container_site: hollow}
   marble: {kind: sphere, inside: pot, diameter: 0.03, mass: 0.02}
+  cover: {kind: box, on: pot, size: [0.09, 0.09, 0.006], mass: 0.05}
 """,
         tmp_path,
     )
     state = started(scene)
+    assert state.states["cover"].on == ("pot",) and state.states["cover"].inside is None
     assert state.infos["pot"].container and state.infos["pot"].movable
     assert state.states["marble"].inside == "pot"
     assert state.infos["pot"].mass == pytest.approx(0.3)

@@ -406,3 +406,21 @@ def test_part_that_cannot_stand_so_is_refused(
 def test_hinge_through_the_middle_is_refused(tmp_path: Path) -> None:
     with pytest.raises(WorldError, match="passes through the middle"):
         set_up(mjcf_scene(tmp_path, LOCKER.format(axis="0 1 0"), parts=DOOR))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "parts", "message"),
+    [
+        (' range="0 0.12"', "", PARTS, "joint: 'runner' has no range"),
+        ('type="slide" axis="1 0 0" range="0 0.12"', 'type="ball"', PARTS,
+         "joint: 'runner' is a ball joint; expected a slide or a hinge"),
+        ('"room" type="box"', '"room" type="sphere"', PARTS, "container_site: 'room' is a sphere"),
+        ("", "", {"tray": PARTS["tray"] | {"front_site": "top"}},
+         "front_site: 'top' is on the body 'case'; expected it on 'tray', which 'runner' moves"),
+    ],
+)  # fmt: skip
+def test_part_that_opens_nothing_is_refused(
+    tmp_path: Path, old: str, new: str, parts: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(WorldError, match=rf"thing\.parts\.tray\.{message}"):
+        build_world(mjcf_scene(tmp_path, CHEST.replace(old, new), parts=parts))

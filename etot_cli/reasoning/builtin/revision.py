@@ -153,7 +153,8 @@ def moved_before(actions: Actions, cycle: Cycle, index: int) -> Actions:
 
 def without_idle(actions: Actions, scene: SceneState) -> Actions:
     """The branch without openings of closed parts that are closed again at once, and the other way
-    round, without closing what is closed, and without waits elsewhere that end at once.
+    round, without closing what is closed or opening what has been opened, and without waits
+    elsewhere that end at once.
     """
     for index, action in enumerate(actions):
         again = [(other.verb, other.target) for other in actions[index : index + 3 : 2]]
@@ -167,11 +168,13 @@ def without_idle(actions: Actions, scene: SceneState) -> Actions:
         if action.verb not in (Verb.OPEN, Verb.CLOSE) or part is None:
             continue
         before = [other.verb for other in actions[:index] if other.target == action.target]
+        turns = [verb for verb in before if verb in (Verb.OPEN, Verb.CLOSE)]
         closed = before[-1] is Verb.CLOSE if before else is_closed(scene, part)
         opened = before[-1] is Verb.OPEN if before else is_open(scene, part)
         following = actions[index + 1 : index + 2]
         undone = following and following[0].target == action.target
-        if closed and action.verb is Verb.CLOSE:
+        # What stands half open at the start may be opened wider, once.
+        if (closed and action.verb is Verb.CLOSE) or turns[-1:] == [action.verb]:
             return without_idle((*actions[:index], *actions[index + 1 :]), scene)
         if undone and following[0].verb is not action.verb and (closed or opened):
             return without_idle((*actions[:index], *actions[index + 2 :]), scene)

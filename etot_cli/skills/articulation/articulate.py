@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.articulation.balance import Balance
 from etot_cli.skills.articulation.part_path import PreparedMove, way_back
 from etot_cli.skills.articulation.search import MAX_SINGLE, PartSearch, belief_after
 from etot_cli.skills.articulation.stops import closable_stop
@@ -64,6 +65,10 @@ def articulation_motions(
     fraction = fraction_open(part, float(belief.data.joint(part.joint).qpos[0]))
     if (opening and fraction >= ALREADY_OPEN) or (not opening and fraction <= ALREADY_CLOSED):
         yield Motion(str(action), ())
+        return
+    if opening and Balance(belief, part).stays_open_from is None:
+        text = f"{part.info.address} does not stay open: it falls shut from the end of its range"
+        yield failed(CauseKind.NO_EFFECT, [part.info.owner], text)
         return
     tool_at = None if rehearsed is None else rehearsed.tool_at
     hinged = part.info.joint_type == "hinge"
@@ -133,6 +138,8 @@ def _no_move(search: PartSearch) -> SkillOutcome:
         text = f"{info.address}{handle} offers the hand nothing to hold or push to {verb} it"
         return failed(CauseKind.NO_GRASP, [info.owner], text)
     side = ": it faces away from the robot" if search.faces_away else ""
+    if (falls_below := search.falls_shut_below) is not None:
+        side = f"; let go of below {falls_below:.0%} of its travel, it falls shut"
     return failed(
         CauseKind.UNREACHABLE,
         [info.owner],

@@ -10,6 +10,7 @@ from itertools import chain, islice
 import mujoco
 import numpy as np
 
+from etot_cli.skills.articulation.balance import OPEN_SPARE, Balance
 from etot_cli.skills.articulation.grips import Grip, grips, spun
 from etot_cli.skills.articulation.part_path import (
     Contact,
@@ -32,8 +33,8 @@ from etot_cli.world.state import CLOSED_AT, OPEN_AT
 
 NEARLY_CLOSED, NEARLY_OPEN = 0.03, 0.12
 """Moves that get the part this close to its end (share of its travel) come first."""
-OPEN_SPARE = 0.04
-"""Share of the travel by which an opening move goes beyond what counts as open."""
+LEAST = 1e-3
+"""Share of the travel that is no distance: a move that has to go to the very end is one then."""
 AJAR = 0.05
 """Way of a handle that leaves room for a finger behind the part [m]."""
 MAX_FOLLOWED = 120
@@ -84,6 +85,7 @@ class PartSearch:
         rehearsed: tool pose at an earlier first contact, in the part's frame; the hold like it
             comes first.
         target: joint value to bring it to; None for its end [m or rad].
+        falling: whether it falls shut where its weight makes it; else it stays anywhere.
     """
 
     def __init__(
@@ -93,6 +95,8 @@ class PartSearch:
         opening: bool,
         rehearsed: Pose | None = None,
         target: float | None = None,
+        *,
+        falling: bool = True,
     ) -> None:
         self.part, self.opening, self._rehearsed = part, opening, rehearsed
         self.hindrances = Hindrances(belief.world)
@@ -103,7 +107,11 @@ class PartSearch:
         end = part.upper if opening else part.lower
         self._travel = PartTravel(belief, part, end if target is None else target)
         goal = fraction_open(part, self._travel.target)
-        self._nearly = min(NEARLY_OPEN, goal - OPEN_AT - OPEN_SPARE) if opening else NEARLY_CLOSED
+        self._balance = Balance(belief, part) if opening and falling else None
+        # What falls shut has to be brought beyond where it does.
+        stays_from = (self._balance and self._balance.stays_open_from) or 0.0
+        self._enough = max(OPEN_AT, stays_from) + OPEN_SPARE
+        self._nearly = min(NEARLY_OPEN, goal - self._enough + LEAST) if opening else NEARLY_CLOSED
 
     @property
     def faces_away(self) -> bool:
@@ -114,6 +122,17 @@ class PartSearch:
         body = self._belief.world.entries[self.part.info.owner].body
         away = self._belief.object_pose(body).position[:2]
         return bool(front @ away > FACING_COSINE * np.linalg.norm(front) * np.linalg.norm(away))
+
+    @property
+    def falls_shut_below(self) -> float | None:
+        """Share of the travel that a part which could be opened otherwise falls shut from."""
+        stays_from = self._balance and self._balance.stays_open_from
+        if not stays_from:
+            return None
+        lighter = PartSearch(
+            self._belief, self.part, True, target=self._travel.target, falling=False
+        )
+        return stays_from if next(lighter.moves(explain=False), None) is not None else None
 
     def moves(self, *, in_two: bool = True, explain: bool = True) -> Iterator[PreparedMove]:
         """Moves that follow the part to its end at once; then those that at least get far enough,
@@ -158,7 +177,7 @@ class PartSearch:
                 yield move
             for item in partial:
                 reached = fraction_open(self.part, item.move.reached)
-                if OPEN_AT <= reached < OPEN_AT + OPEN_SPARE:
+                if self._enough - OPEN_SPARE <= reached < self._enough:
                     yield item.move
         if not found and explain:
             self._belief.checker.freeze(self._belief.data)
@@ -197,15 +216,17 @@ class PartSearch:
 
     def _suffices(self, value: float) -> bool:
         fraction = fraction_open(self.part, value)
-        return fraction >= OPEN_AT + OPEN_SPARE if self.opening else fraction <= CLOSED_AT
+        return fraction >= self._enough if self.opening else fraction <= CLOSED_AT
 
     def _holds(self) -> Iterator[_Hold]:
         """Contacts that the hand has room at, whatever the arm; what it would meet there is noted.
 
         An opening hand grips rather than pushes, a closing one pushes rather than grips.
         """
-        face = self.part.inner if self.opening else self.part.outer
-        pushed: list[Contact] = [] if face is None else [*pushes(self._travel, face)]
+        faces = (self.part.inner, self.part.back) if self.opening else (self.part.outer,)
+        pushed: list[Contact] = [
+            push for face in faces if face is not None for push in pushes(self._travel, face)
+        ]
         hinged = self.part.info.joint_type == "hinge"
         gripped, edges = (
             sorted(
@@ -303,10 +324,12 @@ class PartSearch:
 
     def _is_ajar(self, move: PreparedMove) -> bool:
         """Whether a move leaves room for a second one: a finger's behind the part, or a push's
-        before a door that has been pulled towards the arm.
+        before a door that has been pulled towards the arm. What falls shut meanwhile does not.
         """
         second = self.opening or self.part.info.joint_type == "hinge"
-        return second and move.grip and move.length >= AJAR
+        balance = self._balance
+        stays = balance is None or balance.stays_at(fraction_open(self.part, move.reached))
+        return second and move.grip and move.length >= AJAR and stays
 
     def _in_two(self, partial: list[_Partial]) -> Iterator[PreparedMove]:
         """Grips that bring the part so far that another hold goes on from there, each with the move
@@ -319,6 +342,7 @@ class PartSearch:
                 self.part,
                 self.opening,
                 target=self._travel.target,
+                falling=self._balance is not None,
             )
             second = next(after.moves(in_two=False, explain=False), None)
             if second is not None:

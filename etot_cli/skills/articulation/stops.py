@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from etot_cli.skills.articulation.balance import OPEN_SPARE, Balance
 from etot_cli.skills.articulation.search import PartSearch, belief_after
 from etot_cli.skills.articulation.travel import PartTravel
 from etot_cli.skills.belief import Belief
@@ -28,6 +29,8 @@ def closable_stop(belief: Belief, part: Part) -> float:
     span = part.upper - part.lower
     less = part.lower + (LESS_OPEN - COASTING) * span
     wide = float(belief.data.joint(part.joint).qpos[0]) >= less
+    stays_from = Balance(belief, part).stays_open_from or 0.0
+    wide = wide or stays_from + OPEN_SPARE > LESS_OPEN - COASTING  # it would fall shut from there
     if wide or not _is_doubtful(belief, part) or _closes(belief, part, part.upper):
         return part.upper
     return less if _closes(belief, part, part.lower + LESS_OPEN * span) else part.upper

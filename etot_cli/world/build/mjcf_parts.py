@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -10,9 +11,12 @@ import numpy as np
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import objects as specs
+from etot_cli.world.arrays import Vector
 from etot_cli.world.index import Face, Graspable, Part, Region, Surface
 from etot_cli.world.state import PartInfo, triple
 
+BOX: Mapping[mujoco.mjtGeom, str] = {mujoco.mjtGeom.mjGEOM_BOX: "box"}
+HOLLOWS: Mapping[mujoco.mjtGeom, str] = {**BOX, mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder"}
 UPRIGHT_HINGE = 0.7
 """Hinges that stand at least this upright (cosine) are those of doors."""
 
@@ -28,26 +32,30 @@ def mjcf_parts(
     mujoco.mj_kinematics(model, data)
     for part_name, part in spec.parts.items():
         joint = model.joint(f"{name}/{part.joint}")
+        _check_part(model, name, part_name, part)
         body = model.body(int(joint.bodyid[0])).name
         kind = "slide" if joint.type[0] == mujoco.mjtJoint.mjJNT_SLIDE else "hinge"
         lower, upper = (float(value) for value in joint.range)
         # The opening direction is away from whichever limit is nearer to zero.
         closed, opened = (lower, upper) if abs(lower) <= abs(upper) else (upper, lower)
         address = name if len(spec.parts) == 1 else f"{name}.{part_name}"
-        outer, inner = _faces(model, name, part, joint, body)
+        outer, inner, back = _faces(model, name, part, joint, body)
         opening = _side_opening(data, name, part, joint, body, outer)
         info = PartInfo(
             name, part_name, address, kind, abs(opened - closed),
             part.container_site is not None, front=opening is not None,
         )  # fmt: skip
         grasps = _grasps(model, f"{name}/{part.front_site}", outer) if part.front_site else ()
-        parts.append(Part(info, body, f"{name}/{part.joint}", closed, opened, outer, inner, grasps))
+        joint_name = f"{name}/{part.joint}"
+        parts.append(Part(info, body, joint_name, closed, opened, outer, inner, grasps, back))
         if part.container_site:
             region = _region(model, f"{name}/{part.container_site}", address)
             regions.append(region if opening is None else replace(region, opening=opening))
     if spec.container_site:
+        _check_site(model, name, "container_site", spec.container_site, HOLLOWS)
         regions.append(_region(model, f"{name}/{spec.container_site}", name))
     if spec.surface_site:
+        _check_site(model, name, "surface_site", spec.surface_site, BOX)
         site = model.site(f"{name}/{spec.surface_site}")
         center = tuple(site.pos + np.array([0, 0, site.size[2]]))
         surfaces.append(
@@ -55,6 +63,58 @@ def mjcf_parts(
                     (float(site.size[0]), float(site.size[1])))
         )  # fmt: skip
     return tuple(parts), tuple(regions), tuple(surfaces)
+
+
+def _check_part(model: mujoco.MjModel, name: str, part_name: str, part: specs.MjcfPart) -> None:
+    """Sees to it that a part is something that opens, and its sites are where they have to be.
+
+    Raises:
+        WorldError: it is not.
+    """
+    where = f"{name}.parts.{part_name}"
+    joint = model.joint(f"{name}/{part.joint}")
+    kind = mujoco.mjtJoint(int(joint.type[0]))
+    if kind not in (mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE):
+        raise WorldError(
+            f"{where}.joint: {part.joint!r} is a {kind.name.removeprefix('mjJNT_').lower()} joint; "
+            "expected a slide or a hinge"
+        )
+    lower, upper = joint.range
+    if not model.jnt_limited[joint.id] or not lower < upper:
+        raise WorldError(
+            f"{where}.joint: {part.joint!r} has no range, so how far it opens is not known; "
+            'expected one in the file, as in range="0 1.6"'
+        )
+    if part.container_site:
+        _check_site(model, where, "container_site", part.container_site, BOX, name)
+    if part.front_site:
+        _check_site(model, where, "front_site", part.front_site, BOX, name)
+        site = model.site(f"{name}/{part.front_site}")
+        if int(site.bodyid[0]) != int(joint.bodyid[0]):
+            found, expected = (
+                model.body(int(item.bodyid[0])).name.partition("/")[2] for item in (site, joint)
+            )
+            raise WorldError(
+                f"{where}.front_site: {part.front_site!r} is on the body {found!r}; expected it on "
+                f"{expected!r}, which {part.joint!r} moves"
+            )
+
+
+def _check_site(
+    model: mujoco.MjModel,
+    where: str,
+    key: str,
+    site: str,
+    expected: Mapping[mujoco.mjtGeom, str],
+    owner: str | None = None,
+) -> None:
+    """Sees to it that a site has a shape that can be read."""
+    found = mujoco.mjtGeom(int(model.site(f"{owner or where}/{site}").type[0]))
+    if found not in expected:
+        raise WorldError(
+            f"{where}.{key}: {site!r} is a {found.name.removeprefix('mjGEOM_').lower()}; expected "
+            f"a {' or a '.join(expected.values())}"
+        )
 
 
 def _side_opening(
@@ -121,25 +181,21 @@ def _grasps(model: mujoco.MjModel, site_name: str, outer: Face) -> tuple[Graspab
 
 def _faces(
     model: mujoco.MjModel, name: str, part: specs.MjcfPart, joint: Any, body: str
-) -> tuple[Face, Face]:
-    """Front and back faces of a part: of its ``front_site``, else of its outermost box of geoms."""
+) -> tuple[Face, Face, Face | None]:
+    """Front and back faces of a part: of its ``front_site``, else of its outermost box of geoms;
+    and the whole back of a door or lid with a ``front_site``.
+    """
     axis = np.array(joint.axis)
+    slide = int(joint.type[0]) == mujoco.mjtJoint.mjJNT_SLIDE
+    panel = _bounds(model, body)
+    front = panel
     if part.front_site:
         site = model.site(f"{name}/{part.front_site}")
-        center, half = np.array(site.pos), np.array(site.size)
-    else:
-        boxes = [
-            (np.array(model.geom(i).pos), model.geom_aabb[i])
-            for i in range(model.ngeom)
-            if model.body(int(model.geom_bodyid[i])).name == body
-        ]
-        low = np.min([pos + box[:3] - box[3:] for pos, box in boxes], axis=0)
-        high = np.max([pos + box[:3] + box[3:] for pos, box in boxes], axis=0)
-        center, half = (low + high) / 2, (high - low) / 2
-    if int(joint.type[0]) == mujoco.mjtJoint.mjJNT_SLIDE:
+        front = (np.array(site.pos), np.array(site.size))
+    if slide:
         normal = axis * np.sign(joint.range[1] + joint.range[0] or 1.0)
     else:
-        lever = center - np.array(joint.pos)
+        lever = front[0] - np.array(joint.pos)
         normal = np.cross(axis, lever - axis * (axis @ lever))
         if np.linalg.norm(normal) < 1e-6:
             raise WorldError(
@@ -148,15 +204,26 @@ def _faces(
             )
         normal *= np.sign(joint.range[1] + joint.range[0] or 1.0) / np.linalg.norm(normal)
     k = int(np.argmax(np.abs(normal)))
-    u, v = (np.eye(3)[i] * half[i] for i in range(3) if i != k)
     direction = np.eye(3)[k] * np.sign(normal[k])
-    outer = center + direction * half[k]
-    if not part.front_site and int(joint.type[0]) == mujoco.mjtJoint.mjJNT_SLIDE:
-        # Without a marked front only pushing from outside is known.
-        inner = outer - direction * 2 * half[k]
-    else:
-        inner = center - direction * half[k]
-    return (
-        Face(tuple(outer), tuple(direction), tuple(u), tuple(v)),
-        Face(tuple(inner), tuple(-direction), tuple(u), tuple(v)),
-    )
+    outer = _face(*front, k, direction)
+    inner = _face(*front, k, -direction)
+    return outer, inner, None if slide or not part.front_site else _face(*panel, k, -direction)
+
+
+def _bounds(model: mujoco.MjModel, body: str) -> tuple[Vector, Vector]:
+    """Middle and half extents (3,) of the box around a body's geoms, in its frame [m]."""
+    boxes = [
+        (np.array(model.geom(i).pos), model.geom_aabb[i])
+        for i in range(model.ngeom)
+        if model.body(int(model.geom_bodyid[i])).name == body
+    ]
+    low = np.min([pos + box[:3] - box[3:] for pos, box in boxes], axis=0)
+    high = np.max([pos + box[:3] + box[3:] for pos, box in boxes], axis=0)
+    return (low + high) / 2, (high - low) / 2
+
+
+def _face(center: Vector, half: Vector, k: int, direction: Vector) -> Face:
+    """The side of a box that looks along its axis ``k``, in a direction."""
+    u, v = (np.eye(3)[i] * half[i] for i in range(3) if i != k)
+    middle = center + direction * half[k]
+    return Face(triple(middle), triple(direction), triple(u), triple(v))
