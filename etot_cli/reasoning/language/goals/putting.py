@@ -14,7 +14,9 @@ from etot_cli.reasoning.builtin.goal import (
     Place,
     Put,
     Thing,
+    things_in,
 )
+from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import check_alone
 from etot_cli.reasoning.language.goals.choosing import (
@@ -79,10 +81,13 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 from etot_cli.reasoning.language.grammar.taking import ANYTHING, is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
+from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.states import state_holds
+from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any
 from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import DESK
 
 
 def put(
@@ -284,13 +289,14 @@ def _condition(
     subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
     check_describes(context, condition, subjects, places_of)
     if not set(subjects) & set(themes):
-        # Of a bystander it says where it is, not where it is to be, unless it goes along in one, or
-        # beside that.
+        # "It" is rather what the bystander is in or on.
         places: tuple[Place, ...] = ()
-        with suppress(AmbiguousReference):  # "it" is rather what the bystander is in or on
+        with suppress(AmbiguousReference):
             places = context.places.of(condition.destinations, subjects)
         along = {index for place in places for index in place.referents()} & set(themes)
-        if not along or (subjects[1:] and any(place.beside for place in places)):
+        elsewhere = not along and _goes_elsewhere(context, condition, subjects, places, places_of)
+        crowd = subjects[1:] and any(place.beside for place in places)
+        if crowd or not (along or elsewhere):
             text = " and ".join(phrase.text for phrase in condition.subjects)
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
     else:
@@ -299,3 +305,38 @@ def _condition(
         places = with_stance(context, subjects, places, stance)
     for subject in subjects:
         places_of[subject] = places
+
+
+def _goes_elsewhere(
+    context: Context,
+    condition: State,
+    subjects: Sequence[int],
+    places: Sequence[Place],
+    places_of: dict[int, tuple[Place, ...]],
+) -> bool:
+    """Whether "with the plum on the desk" says where a bystander is to be, not where it is: it is
+    not there, nor does it tell one bowl from others, nor is it a lid of that.
+
+    Raises:
+        AmbiguousReference: it may as well tell which "a bowl" is.
+    """
+    scene, discourse = context.scene, context.discourse
+    named = [place.where for place in places if place.where is not None and not place.beside]
+    pronoun = any(np.pronoun for item in condition.destinations for np in item.targets)
+    if not named or len(named) < len(places) or pronoun:
+        return False
+    things = discourse.things(*subjects)
+    if any(touches(thing, at, scene) for thing in things for at in discourse.things(*named)):
+        return False
+    below: set[str] = set()
+    for index in (p.where for found in places_of.values() for p in found if p.where is not None):
+        referent = discourse.referents[index]
+        names = {thing.name for thing in things_in(referent.options)} - {DESK}
+        if len(referent.options) > 1 and any(bearers(scene, t.name) & names for t in things):
+            if referent.text.split()[0] in ("the", "this", "that"):
+                return False
+            text, why = condition.subjects[0].text, "it may tell which one is meant:"
+            raise AmbiguousReference(text, sorted(names), why)
+        below |= names
+    lids = any(matches_any(np.head, LIDS) for np in condition.subjects)
+    return not (lids and any(bearers(scene, thing.name) & below for thing in things))
