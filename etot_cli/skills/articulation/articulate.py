@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from etot_cli.skills.action import Action, Verb
-from etot_cli.skills.articulation.balance import Balance
+from etot_cli.skills.articulation.balance import OPEN_SPARE, Balance
 from etot_cli.skills.articulation.part_path import PreparedMove, way_back
 from etot_cli.skills.articulation.search import MAX_SINGLE, PartSearch, belief_after
 from etot_cli.skills.articulation.stops import closable_stop
@@ -67,7 +67,8 @@ def articulation_motions(
         yield Motion(str(action), ())
         return
     if opening and Balance(belief, part).stays_open_from is None:
-        text = f"{part.info.address} does not stay open: it falls shut from the end of its range"
+        text = f"{part.info.address} does not stay open"
+        text += f": let go of at {1.0 - OPEN_SPARE:.0%} of its travel, it falls shut"
         yield failed(CauseKind.NO_EFFECT, [part.info.owner], text)
         return
     tool_at = None if rehearsed is None else rehearsed.tool_at
