@@ -394,6 +394,23 @@ def test_what_no_level_hand_takes_where_it_is_is_set_down_for_one(taken: bool, w
         assert anew in revisions(failed(before, put, 0, reason, before))
 
 
+@pytest.mark.parametrize(
+    ("where", "kind", "may"),
+    [("", "bottle", True), (" (lying)", "bottle", True), (" (lying)", "cup", True),
+     (" (upright)", "bottle", False), ("", "cup", False)],
+)  # fmt: skip
+def test_what_is_to_lie_under_a_roof_is_taken_as_it_lies(where: str, kind: str, may: bool) -> None:
+    """The hand that lays it down is above it."""
+    start = scenes.scene(
+        scenes.item("thing", kind, at=(0.4, -0.2), size=(0.05, 0.05, 0.16)),
+        scenes.item("rack", "shelf", at=(0.5, 0.2), boards=("low", "high")),
+    )
+    pick, put = "[PICK UP, thing] (horizontal)", f"[PUT ON, rack.low]{where}"
+    reason = cause(CauseKind.NO_ROOM, "rack", "thing")
+    found = revisions(failed(start, f"{pick} {put}", 1, reason, held(start, "thing")))
+    assert (f"{pick} [PUT ON, desk] (lying) {pick} {put}" in found) == may
+
+
 def test_what_the_goal_wants_in_place_comes_back() -> None:
     plain = scenes.apple_and_holder()
     start = changed(plain, apple={"inside": "holder", "on": ("holder",)})

@@ -11,7 +11,8 @@ from etot_cli.reasoning.builtin.revision import inserted, relocations
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import PUTS, Action, GraspPose, Verb
 from etot_cli.specs.footprint import rotated
-from etot_cli.world.spatial import Nearby
+from etot_cli.world.spatial import Nearby, Whereabouts
+from etot_cli.world.stance import can_lie, has_top
 from etot_cli.world.state import CauseKind, owner_of
 
 _NO_ROOM_ABOVE = frozenset(
@@ -69,6 +70,23 @@ def grasped_anew(failed: FailedStep, pick: int | None, cause: CauseKind) -> Iter
     for pose, how in ways:
         anew = inserted(actions, taken, (down, replace(grasp, pose=pose)))
         yield Correction(anew, f"{name} is set down and grasped {how}")
+    level = grasp.pose is GraspPose.HORIZONTAL
+    if level and _is_roofed(failed) and _may_lie(failed, name):
+        # The hand that lays it down is above it; the one that takes it as it lies goes in level.
+        laid = replace(down, where=(Whereabouts(Nearby.LYING),))
+        anew = inserted(actions, taken, (laid, grasp))
+        yield Correction(anew, f"{name} is laid down and grasped as it lies")
+
+
+def _may_lie(failed: FailedStep, name: str) -> bool:
+    """Whether something that stands may be laid down where it goes: where that is asked for, or
+    nothing else is and it is no vessel.
+    """
+    info, where = failed.record.before.infos[name], failed.branch.actions[failed.index].where
+    stances = {one.relation for one in where if one.relation.is_stance}
+    if not (has_top(info) and can_lie(info)) or Nearby.UPRIGHT in stances:
+        return False
+    return Nearby.LYING in stances or not info.container
 
 
 def _other_pose(failed: FailedStep, cause: CauseKind) -> tuple[GraspPose, str] | None:
