@@ -370,6 +370,48 @@ def test_what_does_not_stand_as_it_was_taken_is_grasped_anew(where: str) -> None
     assert (again in found) == bool(where)
 
 
+@pytest.mark.parametrize("where", ["", " (upright)"])
+@pytest.mark.parametrize("taken", [True, False])
+def test_what_no_level_hand_takes_where_it_is_is_set_down_for_one(taken: bool, where: str) -> None:
+    """From above it comes out of a drawer, from the side it goes in under a roof; also when the
+    hand held it so at first, and whatever else is asked of it.
+    """
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, -0.2), {"only": 1.0}),
+        scenes.item("jar", at=(0.4, -0.2), on="chest", inside="chest"),
+        scenes.item("rack", "shelf", at=(0.5, 0.2), boards=("low", "high")),
+    )
+    pick, put = "[PICK UP, jar]", f"[PUT ON, rack.low]{where}"
+    before = held(start, "jar")
+    reason = cause(CauseKind.NO_ROOM, "rack", "jar")
+    anew = f"[PUT ON, desk] {pick} (horizontal) {put}"
+    if taken:
+        step = failed(start, f"{pick} {put}", 1, reason, before)
+        assert revision(step) == f"{pick} (horizontal) {put}", "without setting it down first"
+        assert f"{pick} {anew}" in revisions(step)
+        asked = failed(start, f"{pick} (vertical) {put}", 1, reason, before)
+        assert not any("(horizontal)" in plan for plan in revisions(asked))
+    else:
+        assert anew in revisions(failed(before, put, 0, reason, before))
+
+
+@pytest.mark.parametrize(
+    ("where", "kind", "may"),
+    [("", "bottle", True), (" (lying)", "bottle", True), (" (lying)", "cup", True),
+     (" (upright)", "bottle", False), ("", "cup", False)],
+)  # fmt: skip
+def test_what_is_to_lie_under_a_roof_is_taken_as_it_lies(where: str, kind: str, may: bool) -> None:
+    """The hand that lays it down is above it."""
+    start = scenes.scene(
+        scenes.item("thing", kind, at=(0.4, -0.2), size=(0.05, 0.05, 0.16)),
+        scenes.item("rack", "shelf", at=(0.5, 0.2), boards=("low", "high")),
+    )
+    pick, put = "[PICK UP, thing] (horizontal)", f"[PUT ON, rack.low]{where}"
+    reason = cause(CauseKind.NO_ROOM, "rack", "thing")
+    found = revisions(failed(start, f"{pick} {put}", 1, reason, held(start, "thing")))
+    assert (f"{pick} [PUT ON, desk] (lying) {pick} {put}" in found) == may
+
+
 def test_what_the_goal_wants_in_place_comes_back() -> None:
     plain = scenes.apple_and_holder()
     start = changed(plain, apple={"inside": "holder", "on": ("holder",)})

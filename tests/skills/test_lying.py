@@ -67,6 +67,20 @@ def test_what_is_held_from_the_side_is_laid_on_a_chest(seed: int) -> None:
     assert laid(run, "[PUT ON, chest]", LEVEL) == "chest"
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("diameter", "height"), [(0.056, 0.15), (0.06, 0.18)])
+def test_what_is_round_is_laid_on_a_low_board_with_the_hand_level(
+    diameter: float, height: float, seed: int
+) -> None:
+    """Held from above near its end; rolled onto a side of its own, it had one finger below it."""
+    rack = {"kind": "shelf", "size": [0.24, 0.34, 0.16], "mass": 3.0, "at": [0.64, -0.04],
+            "yaw_deg": 180}  # fmt: skip
+    bottle = {"kind": "cylinder", "diameter": diameter, "height": height, "mass": 0.3}
+    run = episode(seed, rack=rack, thing=bottle | {"at": [0.31, 0.2]})
+    assert laid(run, "[PUT ON, rack.bottom]", " (vertical)").startswith("rack")
+
+
 def test_what_lies_stays_lying_and_stands_up_again() -> None:
     run = episode(thing=THINGS["bottle"] | {"at": [0.40, 0.18]})
     assert laid(run, "[PUT ON, desk]", LEVEL) == laid(run, "[PUT ON, desk]") == "desk"

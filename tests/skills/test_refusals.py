@@ -195,3 +195,32 @@ def test_things_that_are_not_in_the_way_are_not_named() -> None:
     lid = {"kind": "box", "size": [0.09, 0.09, 0.03], "mass": 0.2, "on": "top"}
     cause = refused("[PUT ON, top]", top=TOP, lid=lid, beside=BOX | {"at": [0.42, -0.05]})
     assert "beside" not in cause.objects and "lid" in cause.objects
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("low", [0.13, 0.065])
+def test_what_stands_before_a_shelf_is_named_when_a_level_hand_has_to_pass_over_it(
+    low: float, seed: int
+) -> None:
+    """It is not on the board, nor does the object itself pass over it, but the hand does."""
+    objects: dict[str, dict[str, Any]] = {
+        "rack": {"kind": "shelf", "size": [0.18, 0.21, 0.24], "at": [0.57, 0.02], "yaw_deg": 180,
+                 "mass": 3.0},
+        "can": {"kind": "cylinder", "diameter": 0.048, "height": 0.14, "mass": 0.2,
+                "at": [0.28, -0.2]},
+        "crate": {"kind": "box", "size": [0.06, 0.06, low], "mass": 0.2, "at": [0.4, 0.02]},
+    }  # fmt: skip
+    if low < 0.1:
+        objects["lid"] = {"kind": "box", "size": [0.05, 0.05, 0.06], "mass": 0.1, "on": "crate"}
+    run = episode(seed=seed, **objects)
+    run.must("[PICK UP, can] (horizontal)")
+    record = run.do("[PUT ON, rack.bottom] (upright)").record
+    assert not record.effect
+    assert record.cause is not None
+    assert record.cause.kind is CauseKind.NO_ROOM
+    blamed = set(record.cause.objects) - {"can"}
+    assert blamed
+    assert blamed <= {"crate", "lid"}, record.cause
+    freed = episode(seed=seed, **without(objects, (*blamed, *(["lid"] if low < 0.1 else []))))
+    freed.must("[PICK UP, can] (horizontal)", "[PUT ON, rack.bottom] (upright)")

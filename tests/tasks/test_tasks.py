@@ -24,6 +24,10 @@ PLANS = {
         "[OPEN, chest]", "[PICK UP, tin]", "[PUT ON, *]", "[CLOSE, chest]",
         "[OPEN, locker]", "[PICK UP, tin] (horizontal)", "[PUT INTO, locker]", "[CLOSE, locker]",
     ],
+    "drawer_to_rack": [
+        "[OPEN, chest]", "[PICK UP, tin]", "[PUT ON, *]", "[PICK UP, tin] (horizontal)",
+        "[PUT ON, rack.low]", "[CLOSE, chest]",
+    ],
     "marker_and_mugs": ["[PICK UP, marker]", "[PUT INTO, pink_mug]"],
     "mugs_in_cupboard": [
         *("[PICK UP, red_mug] (horizontal)", "[PUT INTO, cupboard]"),

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.fetching import fetched_first
-from etot_cli.reasoning.builtin.regrasping import regrasped
+from etot_cli.reasoning.builtin.regrasping import grasped_anew, regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
     carriers,
@@ -51,7 +51,7 @@ from etot_cli.reasoning.builtin.revision import (
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sharing import lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
-from etot_cli.skills.action import PUTS, Action, GraspPose, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import (
     DESK,
     STAYS_OPEN_AT,
@@ -342,28 +342,7 @@ class _Case:
             yield from other_places(self.failed, index)
         if pick is not None:
             yield from regrasped(self.failed, pick, self.cause.kind)
-            yield from self._grasped_anew(pick)
-
-    def _grasped_anew(self, pick: int) -> Iterator[Correction]:
-        """What was taken out of somewhere is set down and grasped where the hand has room all
-        round: what does not stand, or lie, as it was held; and from above, what has no room beside
-        a level hand.
-        """
-        level = self.actions[pick].pose is GraspPose.HORIZONTAL
-        has_stance = any(where.relation.is_stance for where in self.action.where)
-        name = self.acted
-        if name is None or self.action.safe or relocations(self.actions, name):
-            return
-        ways: list[tuple[GraspPose | None, str]] = []
-        if has_stance:
-            ways.append((None, "anew"))
-        if level and self.is_full:
-            ways.append((GraspPose.VERTICAL, "from above"))
-        _, down = set_aside(self.failed, name)
-        for pose, how in ways:
-            again = replace(self.actions[pick], pose=pose)
-            anew = (*self.actions[: pick + 1], down, again, *self.actions[pick + 1 :])
-            yield Correction(anew, f"{name} is set down and grasped {how}")
+        yield from grasped_anew(self.failed, pick, self.cause.kind)
 
     def _is_furniture_alone(self) -> bool:
         """Whether only what cannot be moved is in the way."""

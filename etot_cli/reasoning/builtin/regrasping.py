@@ -1,4 +1,4 @@
-"""Another grasp, after a failure, where the instruction asked for none."""
+"""Another grasp, after a failure: at once, or after what is held has been set down."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.relations import carriers, has_front
-from etot_cli.reasoning.builtin.relocation import Correction
+from etot_cli.reasoning.builtin.relocation import Correction, set_aside
+from etot_cli.reasoning.builtin.revision import inserted, relocations
 from etot_cli.reasoning.protocol import FailedStep
-from etot_cli.skills.action import PUTS, GraspPose, Verb
+from etot_cli.skills.action import PUTS, Action, GraspPose, Verb
 from etot_cli.specs.footprint import rotated
-from etot_cli.world.spatial import Nearby
+from etot_cli.world.spatial import Nearby, Whereabouts
+from etot_cli.world.stance import can_lie, has_top
 from etot_cli.world.state import CauseKind, owner_of
 
 _NO_ROOM_ABOVE = frozenset(
@@ -23,9 +25,7 @@ _STANDS = 0.5
 
 
 def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Correction]:
-    """The branch with the object grasped from above where it slipped; from the side where the hand
-    has no room above it, does not reach that far or that high from above, or where a rod stands in
-    the hand, which lays it down from there, as it does all that is to lie.
+    """The branch with the object grasped in another way where it is.
 
     Args:
         failed: the failed step.
@@ -34,21 +34,77 @@ def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Corre
     """
     actions = failed.branch.actions
     action = actions[pick]
-    if action.pose is not None:
+    other = None if action.pose is not None else _other_pose(failed, cause)
+    if other is not None:
+        pose, how = other
+        posed = (*actions[:pick], replace(action, pose=pose), *actions[pick + 1 :])
+        yield Correction(posed, f"{action.target} is grasped {how}")
+
+
+def grasped_anew(failed: FailedStep, pick: int | None, cause: CauseKind) -> Iterator[Correction]:
+    """What is held is set down and grasped where the hand has room all round: in the other way,
+    which it may have had no room for where the object was; what does not stand, or lie, as it was
+    held, in any; and from above, what has no room beside a level hand.
+
+    Args:
+        failed: the failed put.
+        pick: place in the branch of the action that grasped the object; None where it was in the
+            hand from the start.
+        cause: of the failure.
+    """
+    actions, name = failed.branch.actions, failed.record.before.holding
+    action = actions[failed.index]
+    if name is None or action.safe or relocations(actions, name):
         return
+    taken = 0 if pick is None else pick + 1
+    grasp = Action(Verb.PICK_UP, name) if pick is None else actions[pick]
+    ways: list[tuple[GraspPose | None, str]] = []
+    if any(where.relation.is_stance for where in action.where):
+        ways.append((None, "anew"))
+    if grasp.pose is GraspPose.HORIZONTAL and cause is CauseKind.NO_ROOM:
+        ways.append((GraspPose.VERTICAL, "from above"))
+    other = None if grasp.pose is not None else _other_pose(failed, cause)
+    if other is not None:
+        ways.append(other)
+    _, down = set_aside(failed, name)
+    for pose, how in ways:
+        anew = inserted(actions, taken, (down, replace(grasp, pose=pose)))
+        yield Correction(anew, f"{name} is set down and grasped {how}")
+    level = grasp.pose is GraspPose.HORIZONTAL
+    if level and _is_roofed(failed) and _may_lie(failed, name):
+        # The hand that lays it down is above it; the one that takes it as it lies goes in level.
+        laid = replace(down, where=(Whereabouts(Nearby.LYING),))
+        anew = inserted(actions, taken, (laid, grasp))
+        yield Correction(anew, f"{name} is laid down and grasped as it lies")
+
+
+def _may_lie(failed: FailedStep, name: str) -> bool:
+    """Whether something that stands may be laid down where it goes: where that is asked for, or
+    nothing else is and it is no vessel.
+    """
+    info, where = failed.record.before.infos[name], failed.branch.actions[failed.index].where
+    stances = {one.relation for one in where if one.relation.is_stance}
+    if not (has_top(info) and can_lie(info)) or Nearby.UPRIGHT in stances:
+        return False
+    return Nearby.LYING in stances or not info.container
+
+
+def _other_pose(failed: FailedStep, cause: CauseKind) -> tuple[GraspPose, str] | None:
+    """The pose to try where none was asked for, and its name: from above where the object slipped;
+    from the side where the hand has no room above it, does not reach that far or that high from
+    above, or where a rod stands in the hand, which lays it down from there, as it does all that is
+    to lie.
+    """
     if cause is CauseKind.SLIP:
-        pose, how = GraspPose.VERTICAL, "from above"
-    elif (
+        return GraspPose.VERTICAL, "from above"
+    if (
         (cause in _NO_ROOM_ABOVE and _is_roofed(failed))
         or _is_out_of_reach(failed, cause)
         or _stands_in_hand(failed)
         or _is_to_lie(failed)
     ):
-        pose, how = GraspPose.HORIZONTAL, "from the side"
-    else:
-        return
-    posed = (*actions[:pick], replace(action, pose=pose), *actions[pick + 1 :])
-    yield Correction(posed, f"{action.target} is grasped {how}")
+        return GraspPose.HORIZONTAL, "from the side"
+    return None
 
 
 def _is_out_of_reach(failed: FailedStep, cause: CauseKind) -> bool:

@@ -159,10 +159,10 @@ def without_idle(actions: Actions, scene: SceneState) -> Actions:
     for index, action in enumerate(actions):
         again = [(other.verb, other.target) for other in actions[index : index + 3 : 2]]
         waits = again == 2 * [(Verb.PICK_UP, action.target)] and actions[index + 1].safe
-        poses = {action.pose, actions[index + 2].pose if waits else None} - {None}
-        put = actions[index + 3 : index + 4]
-        stands = any(where.relation.is_stance for one in put for where in one.where)
-        if waits and len(poses) < 2 and not stands:  # else it is grasped anew
+        puts = actions[index + 1 : index + 4 : 2]
+        stands = any(where.relation.is_stance for one in puts for where in one.where)
+        # Else it is grasped anew.
+        if waits and action.pose is actions[index + 2].pose and not stands:
             return without_idle((*actions[:index], *actions[index + 2 :]), scene)
         part = scene.part(action.target)
         if action.verb not in (Verb.OPEN, Verb.CLOSE) or part is None:

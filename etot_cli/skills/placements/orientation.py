@@ -22,6 +22,8 @@ DOWN = 0.6
 """A hand points down rather than level while it falls by more than this (sine; 37°)."""
 ON_ITS_HEAD = float(np.cos(np.radians(RIGHTED_DEG)))
 """What stood on its head leans in the hand by no more than what stands (cosine)."""
+ALONG = 2
+"""The body axis about which a cylinder is round."""
 MAX_LAID = 2
 """Ways to lie that are tried."""
 TIPPED = np.radians(40)
@@ -50,9 +52,7 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
     columns = pose.rotation.T @ UP
     if has_top(entry.info) and -ON_ITS_HEAD < columns[2] < 0.0:
         columns[2] = 0.0  # it hangs in the hand; only what stood on its head may do so again
-    nearest = int(np.argmax(np.abs(columns)))
-    up = pose.rotation[:, nearest] * np.sign(columns[nearest])
-    return rotation_between(up, UP) @ pose.rotation
+    return _flat(belief, attached, pose.rotation, int(np.argmax(np.abs(columns))))
 
 
 def stood_up(belief: Belief, attached: Attached, support: Support) -> Vector | None:
@@ -193,16 +193,23 @@ def laid_rotations(belief: Belief, attached: Attached, base: Vector) -> list[Vec
         if length < 0.5:
             continue
         for turn in (np.pi / 2, -np.pi / 2):
-            rotation = _flat(turn_about(level / length, turn) @ base)
+            tipped = turn_about(level / length, turn) @ base
+            rotation = _flat(belief, attached, tipped, int(np.argmax(np.abs(tipped[2]))))
             approach = _approach(attached, rotation)
             if approach[2] <= HIGHEST_APPROACH:
                 found.append((round(float(approach[2]), 3), len(found), rotation))
     return [rotation for *_, rotation in sorted(found, key=lambda item: item[:2])]
 
 
-def _flat(rotation: Vector) -> Vector:
-    """An orientation (3, 3) with the body axis that is nearest to the vertical made vertical."""
-    nearest = int(np.argmax(np.abs(rotation[2])))
+def _flat(belief: Belief, attached: Attached, rotation: Vector, nearest: int) -> Vector:
+    """An orientation (3, 3) with the body axis that is nearest to the vertical made vertical. A
+    cylinder that lies is round, and only its length is made level: rolled any further, it would
+    bring a finger of the hand below it.
+    """
+    if belief.world.entries[attached.name].info.kind == "cylinder" and nearest != ALONG:
+        length = rotation[:, ALONG]
+        level = length * np.array([1.0, 1.0, 0.0])
+        return rotation_between(length, level / np.linalg.norm(level)) @ rotation
     up = rotation[:, nearest] * np.sign(rotation[2, nearest])
     return rotation_between(up, UP) @ rotation
 

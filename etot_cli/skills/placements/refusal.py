@@ -57,7 +57,9 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             f"there is no room for {name} {_preposition(request)} {address}: "
             f"{_listed(guilty)} in the way",
         )
-    if tally.obstructed:
+    cleared = replace(request, absent=request.absent.union(everybody))
+    held_so = _has_good_place(belief, cleared)
+    if tally.obstructed or held_so:
         fixed = [
             other
             for other in tally.blockers.most(excluding=[name])
@@ -69,8 +71,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             [*(fixed or owner), name],
             f"{text} {'into' if request.support.is_container else 'onto'} {address}",
         )
-    alone = next(PlaceFinder(belief, replace(request, bare=True)).places(), None)
-    if alone is not None and alone.quality is Quality.GOOD:
+    if _has_good_place(belief, replace(cleared, bare=True)):
         return failed(
             CauseKind.UNREACHABLE,
             [*owner, name],
@@ -81,6 +82,12 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         [*owner, name],
         f"{name} does not fit {_preposition(request)} {address}",
     )
+
+
+def _has_good_place(belief: Belief, request: Request) -> bool:
+    """Whether there is one as far as height maps tell."""
+    place = next(PlaceFinder(belief, request).places(), None)
+    return place is not None and place.quality is Quality.GOOD
 
 
 def _suspects(belief: Belief, request: Request, tally: Tally) -> tuple[list[str], list[str]]:

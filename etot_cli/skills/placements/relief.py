@@ -152,7 +152,11 @@ def relief(belief: Belief, support: Support, absent: Collection[str]) -> Relief:
         reserved = canvas.covered(solids, swept_shapes(belief))
     if support.from_front:
         # Whatever goes in passes over all that is nearer to the front, where the index is larger.
-        heights = np.maximum.accumulate(heights[::-1], axis=0)[::-1]
+        rows = np.arange(len(heights))[:, None]
+        over = np.maximum.accumulate(heights[::-1], axis=0)[::-1]
+        last = np.where(heights == over, rows, len(heights))
+        at = np.minimum.accumulate(last[::-1], axis=0)[::-1]
+        heights, owners = over, np.take_along_axis(owners, at, axis=0)
     return Relief(support, cell, heights, owners, names, reserved)
 
 
