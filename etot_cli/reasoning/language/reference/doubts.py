@@ -258,11 +258,14 @@ def _says_several(asked: Asked) -> bool:
         return False
     if asked.quantity.count or any(item.prep is Prep.EXCEPT for item in phrase.modifiers):
         return False
-    lone = (
+    lone = bool(
         asked.role is Role.THEME
         and not (phrase.modifiers or phrase.without or phrase.loose)
         and not matches_any(words[-1], THING_NOUNS)
-        and len(words) == len(match.entries) == 1
+        # "The red, green and blue blocks", "red and blue blocks" are several of one each.
+        and words[-1] in phrase.text.split()
+        and (phrase.determiner or len(words) == 1)
+        and len(match.entries) == 1
         and is_object(match.entries[0])
     )
     packed = all(is_object(entry) and entry.is_box_of(words[-1]) for entry in match.entries)
