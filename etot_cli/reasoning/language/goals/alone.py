@@ -58,7 +58,7 @@ def check_alone(
                 for at in context.discourse.things(*where)
             )
             gone = all(_goes(context, name) for name in there)
-            if in_the_end and of_several and not (stays or gone):
+            if in_the_end and (of_several or chosen) and not (stays or gone):
                 # "Only the red pen goes into the box": none of the pens, or nothing else?
                 raise ReferenceProblem(phrase.text, f"say whether {others} is to stay there", 4)
             if in_the_end and all(thing.name != DESK for thing in context.discourse.things(*where)):

@@ -67,7 +67,9 @@ class Surroundings:
             ReferenceProblem: nothing can be there.
         """
         beside = [self._of_themes(item, themes, below) for item in beside]
-        near = tuple(near for item in beside for near in self._near(item, themes, below))
+        found = [(item, self._near(item, themes, below)) for item in beside]
+        near = tuple(near for _, ways in found for near in ways)
+        self._check_upon(found)
         moved = set(self._discourse.things(*self._discourse.put))
         for item in near:
             things = self._discourse.things(*item.landmarks)
@@ -85,6 +87,26 @@ class Surroundings:
             ):
                 raise ReferenceProblem(names, f"it is far from {' and '.join(sorted(below))}", 2)
         return near
+
+    def _check_upon(self, found: Sequence[tuple[Beside, Sequence[Near]]]) -> None:
+        """What is "on the right side of the mat, next to the cup" that stands on it is on the mat.
+
+        Raises:
+            AmbiguousReference: it may be beside that.
+        """
+        marks = {
+            thing: item.text
+            for item, ways in found
+            if item.relation in _OPPOSITE and item.text.startswith(("on ", "at "))
+            for near in ways
+            for thing in self._discourse.things(*near.landmarks)
+        }
+        others = self._discourse.things(
+            *(i for _, ways in found for n in ways for i in n.landmarks)
+        )
+        for mark, text in marks.items():
+            if any(space.touches(thing, mark, self._scene) for thing in others if thing != mark):
+                raise AmbiguousReference(text, ["beside it", "a part of it"])
 
     def container(self, beside: Sequence[Beside]) -> Thing | None:
         """The one thing that holds all that something is to be beside by then; None where there is
