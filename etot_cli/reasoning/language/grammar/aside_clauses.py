@@ -6,13 +6,10 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from etot_cli.reasoning.language.grammar.left_open import (
-    done_where_needed,
-    is_left_open,
-    leaves_choice,
-)
+from etot_cli.reasoning.language.grammar.left_open import is_left_open, leaves_choice
 from etot_cli.reasoning.language.grammar.remarks import PEOPLE
 from etot_cli.reasoning.language.grammar.text import COMMA
+from etot_cli.reasoning.language.grammar.where_needed import done_where_needed
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.small_words import (
@@ -28,6 +25,9 @@ _WITHIN = re.compile(
     rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
     rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
     rf"|or(?= (?:{PEOPLE}|it|they) \w+))\b"
+    r"|(?P<plain>(?:and|but|without)"
+    r"(?= (?:only|do not|you|feel free|leave|move|take|touch|moving|taking|touching)\b"
+    r"[^~]* (?:if|unless|when) | (?:knocking|crashing|running|banging) (?:into|against) ))\b"
     r"|(?P<meanwhile>while(?= (?:i|we|my|our)\b))\b"
     r"|(?P<polite>if (?:you (?:do not|would not) mind|i may|(?:it|that) is (?:all right|alright"
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"

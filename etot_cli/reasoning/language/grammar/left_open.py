@@ -1,11 +1,10 @@
-"""Whether a clause leaves something open, wonders at how things are, tells what somebody is about
-to do, or calls for what is done anyway where it has to be: none of them asks for anything.
+"""Whether a clause leaves something open, wonders at how things are, or tells what somebody will do
+himself: none of them asks for anything.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 
 from etot_cli.reasoning.language.grammar.remarks import (
     ASKING,
@@ -57,33 +56,6 @@ _WONDERING = re.compile(
     r"(?:why (?:is|are|was|were|has|have|did)|how come|who (?:left|put|opened|closed|moved|took"
     r"|forgot|has left|has put|has moved|has opened|has closed))\b(?!.*\b(?:not|you)\b)"
 )
-_IT = r"(?:it|them|that)"
-_FIRST = r"(?: (?:first|before|beforehand|before that))?"
-_OUT = r"(?:out of the way|out|away|aside|to one side|off)"
-_TAKE = r"(?:take|move|put|get|lift|push|bring)"
-_TAKING = r"(?:taking|moving|putting|getting|lifting|pushing)"
-_YOU = r"(?:(?:please|then|just|simply|you (?:can|may|could|should|must|have to)) )*"
-_THING = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
-_IN_THE_WAY = r"(?:is|are|gets?|stands?|happens? to be|should be) in the way"
-_IF_IN_THE_WAY = re.compile(
-    rf"if (?:{_THING}|it|something|anything|one of them) (?:{_IN_THE_WAY}"
-    rf"(?: of (?:it|that|{_THING}))?"
-    rf"|(?:blocks|obstructs|is blocking|is obstructing) (?:it|that|{_THING}))"
-)
-_TAKE_IT_AWAY = re.compile(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|(?:remove|move) {_IT}){_FIRST}")
-_NEEDED = (
-    rf"if (?:(?:it is |that is |they are )?(?:necessary|needed|required)|you (?:need|have) to"
-    rf"|(?:it|they) {_IN_THE_WAY})"
-)
-_MAY_HAVE_TO = "(?:may|might|could) (?:have|need) to"
-_TAKEN = rf"(?:moved|taken|put|removed)(?: {_OUT})?"
-_WHERE_NEEDED = re.compile(
-    rf"{_YOU}(?:(?:{_TAKE}|{_TAKING}) {_THING} {_OUT}|(?:remove|removing|move|moving) {_THING})"
-    rf"{_FIRST} {_NEEDED}"
-    rf"|{_THING} (?:may|might|can|could) be {_TAKEN}{_FIRST} {_NEEDED}"
-    rf"|(?:you {_MAY_HAVE_TO} (?:{_TAKE} {_THING} {_OUT}|(?:remove|move) {_THING})"
-    rf"|{_THING} {_MAY_HAVE_TO} be {_TAKEN}){_FIRST}(?: {_NEEDED})?"
-)
 
 
 def is_left_open(said: str) -> bool:
@@ -113,12 +85,3 @@ def is_plan(said: str, is_name: IsName) -> bool:
 def is_wondering(sentence: str) -> bool:
     """Whether a question only wonders at how things are ("why is it still open")."""
     return bool(_WONDERING.match(sentence))
-
-
-def done_where_needed(said: Sequence[str]) -> int:
-    """How many of the clauses that come next call for taking away what is in the way, where it is:
-    every plan does that, and nothing else with it.
-    """
-    if len(said) > 1 and _IF_IN_THE_WAY.fullmatch(said[0]) and _TAKE_IT_AWAY.fullmatch(said[1]):
-        return 2
-    return int(bool(said and _WHERE_NEEDED.fullmatch(said[0])))

@@ -36,6 +36,13 @@ def _freed(said: re.Match[str]) -> str:
 
 
 OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        # Where to is not said
+        rf"({_HINDERS}[^.;!?]*(?:[.;!?]+|,) (?:so |and |then |please )*(?:move|shift) (?:it|them))"
+        r"(?=(?: first| beforehand| before\b[^.;!?]*)?(?:[.;!?,]| (?:and|then)\b|$))",
+        r"\1 out of the way",
+    ),
+    (rf"\bclear ({_WHAT}|it|them) (?={_AWAY}{_ENDS})", r"move \1 "),
     # What is asked for next says how
     (
         rf"({_HINDERS}[^.;!?]*)(?:[.;!?]+|,) (?:so |and |please )*{_FIX}"
