@@ -50,13 +50,21 @@ SAYS_NOTHING = frozenset(
 """Sentences and clauses that ask for nothing."""
 _BEFORE = {
     "so": word_set("is are was were am not feel feels look looks get gets got"),
-    "where": word_set("is care mind matter difference important"),
+    "where": word_set("is care mind matter difference important goes go which"),
 }
 """Words behind which others begin no clause ("my hands are so dry", "that is where I like it")."""
 GRANTED = ("make sure that", "but not")
 """In place of "as long as", where that asks for something."""
 _OF_ANY = re.compile(r"\b(?:any|either|whichever|one of|an?) (?:\w+ ){0,3}\w+$")
 _OTHER_THAN = re.compile(r"it is not (?P<one>(?:the|my|our) (?:\w+ ){0,3}\w+)$")
+
+
+_IN_THE_END = re.compile(
+    r"\bends? up\b|^(?:neither|none|nothing|no \w+) [^~]*\b(?:stays?|remains?|is left)\b"
+)
+"""Of what is to be so when all is done, and was not before."""
+_LASTING = (["keep"], ["hold"], ["leave"], ["wait"])
+"""What is done for a time rather than in a case."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,5 +147,8 @@ def _asked_for(clauses: Sequence[Clause], at: int) -> Clause:
     denied = _OTHER_THAN.match(clause.said)
     if denied and _OF_ANY.search(clauses[at - 1].said):
         return replace(clause, kind="", joint=GRANTED[1], said=denied["one"])
-    granted = leaves_choice(clauses[at - 1].whole)
+    lasting = clauses[0].said.split()[:1] in _LASTING
+    granted = leaves_choice(clauses[at - 1].whole) or (
+        bool(_IN_THE_END.search(clause.said)) and not lasting
+    )
     return replace(clause, kind="", joint=GRANTED[0]) if granted else clause

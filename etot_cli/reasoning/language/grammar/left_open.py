@@ -29,21 +29,37 @@ _NO_MATTER = (
 )
 _WORDS = r"(?: (?!(?:not|only|never|no|but|except|unless|if|than|instead|and|or)\b)[^ ~]+)"
 """What is left open with another word may be half of what is asked for."""
+_BOTH = r"(?: the (?:\w+ )?\w+ and the (?:\w+ )?\w+)"
+_STAYS = r"(?:stays?|remains?|is|are|(?:can|may) (?:stay|remain|be))"
+_WHETHER = (
+    rf"(?:(?:whether|if)(?! (?:you|i|we)\b)(?:{_WORDS}+ or (?:not|{_STAYS}{_WORDS}*)"
+    rf"|{_WORDS}+? {_STAYS}{_WORDS}* or{_WORDS}+)|whether or not(?! you\b| i\b| we\b){_WORDS}+"
+    rf"|(?:whether|if) you (?:approach|grasp|grip|grab|hold)(?:{_WORDS}| or)+)"
+)
+"""What is so by now or not ("whether it stays there or goes on the desk")."""
+_OF_THEM = r"(?: one| of (?:them|these|those|the \w+))?"
 _WHAT = (
-    rf"(?:(?:where|how){_WORDS}+|how|(?:in )?(?:what|which) order{_WORDS}*"
+    rf"(?:(?:where|how){_BOTH}?{_WORDS}+|how|where"
+    rf"|(?:in )?(?:what|which) order(?! you [^~]* (?:in|on|into|onto) (?:the|my|a)\b){_WORDS}*"
     rf"|(?:what|which) (?:\w+ ){{0,3}}?(?:it|they|you)\b{_WORDS}*"
-    r"|which(?: one| of (?:them|these|those|the \w+))?"
-    rf"|what (?:happens to|becomes of){_WORDS}+|whether(?! you\b| i\b| we\b){_WORDS}+)"
+    rf"|(?:what|which) (?:\w+ )??\w+ (?:is|are|gets?) (?:used|chosen|taken|picked)"
+    rf"|which{_OF_THEM}(?: (?:goes|go|ends? up|is put) (?:where|in which))?"
+    rf"|what (?:happens to|becomes of){_WORDS}+|whether(?! you\b| i\b| we\b){_WORDS}+|{_WHETHER})"
 )
 _MANNER = r"(?:grasp|grip|pose|orientation|order|way)"
 _LEFT_OPEN = re.compile(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
-    rf"|{_WHAT} {_NO_MATTER}|the (?:exact )?{_MANNER} {_NO_MATTER}"
+    rf"|{_WHAT} {_NO_MATTER}|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
+    rf"|the (?:exact )?{_MANNER} {_NO_MATTER}"
     rf"|any {_MANNER} (?:is fine|is ok|is okay|will do|would do|works)(?: (?:for|with|by) me)?"
     r"|(?:the|my|our) (?:(?!not\b)\w+ ){1,3}(?:can|may|might|could)"
     r" (?:go|be|end up|stand|lie|be put) (?:just )?(?:anywhere|wherever)(?: you (?:like|want))?"
     r"|do (?:what|as|it how|it however|whatever) you (?:like|want|please)"
 )
+_WHICH_PLACE = re.compile(
+    rf"(?:{_NOT_CARING} )?(?:what|which) \w+(?: one)?{_WORDS}+(?: {_NO_MATTER})?"
+)
+"""Where something goes, where what is asked for says so."""
 _ANY_WILL_DO = re.compile(
     r"(?:any|either) (?:\w+ ){1,4}?(?:will do|would do|is (?:fine|ok|okay)|works)(?: for me)?"
 )
@@ -65,7 +81,7 @@ def is_left_open(said: str) -> bool:
 
 def leaves_choice(said: str) -> bool:
     """Whether behind a clause "as long as" says what is asked for, of whatever is left open."""
-    return is_left_open(said) or bool(_ANY_WILL_DO.fullmatch(said))
+    return any(found.fullmatch(said) for found in (_LEFT_OPEN, _ANY_WILL_DO, _WHICH_PLACE))
 
 
 def is_plan(said: str, is_name: IsName) -> bool:

@@ -16,6 +16,8 @@ _COLOR = "|".join(BASIC_COLORS)
 _FINE = r"(?:is|would be|will be) (?:fine|ok|okay|good|all right|alright)"
 _OF_TWO = r"one of (?:the two|them|these|those)"
 _NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
+_LIE = r"(?:(?:be (?:put |placed |moved )?|stay|remain|go|end up|stand|lie) ?)"
+_THERE = r"(?:in it|inside|there|(?:in|on|inside) (?:the|my) [^.,;:]*?)"
 _ONCE_DONE = re.compile(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
 )
@@ -34,6 +36,17 @@ def _to_do(told: re.Match[str]) -> str:
 
 PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     (_ONCE_DONE, _to_do),
+    (
+        rf"(^|[.;:,] |\b(?:and|but) )((?:the|my) (?:\w+ ){{0,2}}?\w+) (?:can|may|might|could) "
+        rf"{_LIE}({_THERE} or) (?:{_LIE})?(?=(?:in|on|inside|into|onto) (?:the|my)\b)",
+        r"\1\2 should be \3 ",
+    ),
+    (r"\bno longer (?=(?:in|on|inside) )", "not "),
+    (
+        r"\bwherever you (?:like|want),? (?:either )?(?:in )?(?:the )?(\w+(?: \w+)?)"
+        r" or (?:in )?(?:the )?(\w+(?: \w+)?)(?=[,.;]|$)",
+        r"in the \1 or the \2",
+    ),
     # What a set of things "needs on the tray" is needed there by whoever asks for it.
     (
         r"(^|[.;!] )(?:this|the|each|our|my) (?:kit|set|assembly|order|customer|guest|recipe) "
