@@ -6,13 +6,10 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from etot_cli.reasoning.language.grammar.left_open import (
-    done_where_needed,
-    is_left_open,
-    leaves_choice,
-)
+from etot_cli.reasoning.language.grammar.left_open import is_left_open, leaves_choice
 from etot_cli.reasoning.language.grammar.remarks import PEOPLE
 from etot_cli.reasoning.language.grammar.text import COMMA
+from etot_cli.reasoning.language.grammar.where_needed import done_where_needed
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.small_words import (
@@ -28,6 +25,9 @@ _WITHIN = re.compile(
     rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
     rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
     rf"|or(?= (?:{PEOPLE}|it|they) \w+))\b"
+    r"|(?P<plain>(?:and|but|without)"
+    r"(?= (?:only|do not|you|feel free|leave|move|take|touch|moving|taking|touching)\b"
+    r"[^~]* (?:if|unless|when) | (?:knocking|crashing|running|banging) (?:into|against) ))\b"
     r"|(?P<meanwhile>while(?= (?:i|we|my|our)\b))\b"
     r"|(?P<polite>if (?:you (?:do not|would not) mind|i may|(?:it|that) is (?:all right|alright"
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
@@ -50,13 +50,21 @@ SAYS_NOTHING = frozenset(
 """Sentences and clauses that ask for nothing."""
 _BEFORE = {
     "so": word_set("is are was were am not feel feels look looks get gets got"),
-    "where": word_set("is care mind matter difference important"),
+    "where": word_set("is care mind matter difference important goes go which"),
 }
 """Words behind which others begin no clause ("my hands are so dry", "that is where I like it")."""
 GRANTED = ("make sure that", "but not")
 """In place of "as long as", where that asks for something."""
 _OF_ANY = re.compile(r"\b(?:any|either|whichever|one of|an?) (?:\w+ ){0,3}\w+$")
 _OTHER_THAN = re.compile(r"it is not (?P<one>(?:the|my|our) (?:\w+ ){0,3}\w+)$")
+
+
+_IN_THE_END = re.compile(
+    r"\bends? up\b|^(?:neither|none|nothing|no \w+) [^~]*\b(?:stays?|remains?|is left)\b"
+)
+"""Of what is to be so when all is done, and was not before."""
+_LASTING = (["keep"], ["hold"], ["leave"], ["wait"])
+"""What is done for a time rather than in a case."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,5 +147,8 @@ def _asked_for(clauses: Sequence[Clause], at: int) -> Clause:
     denied = _OTHER_THAN.match(clause.said)
     if denied and _OF_ANY.search(clauses[at - 1].said):
         return replace(clause, kind="", joint=GRANTED[1], said=denied["one"])
-    granted = leaves_choice(clauses[at - 1].whole)
+    lasting = clauses[0].said.split()[:1] in _LASTING
+    granted = leaves_choice(clauses[at - 1].whole) or (
+        bool(_IN_THE_END.search(clause.said)) and not lasting
+    )
     return replace(clause, kind="", joint=GRANTED[0]) if granted else clause

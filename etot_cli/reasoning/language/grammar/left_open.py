@@ -1,11 +1,10 @@
-"""Whether a clause leaves something open, wonders at how things are, tells what somebody is about
-to do, or calls for what is done anyway where it has to be: none of them asks for anything.
+"""Whether a clause leaves something open, wonders at how things are, or tells what somebody will do
+himself: none of them asks for anything.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 
 from etot_cli.reasoning.language.grammar.remarks import (
     ASKING,
@@ -30,21 +29,37 @@ _NO_MATTER = (
 )
 _WORDS = r"(?: (?!(?:not|only|never|no|but|except|unless|if|than|instead|and|or)\b)[^ ~]+)"
 """What is left open with another word may be half of what is asked for."""
+_BOTH = r"(?: the (?:\w+ )?\w+ and the (?:\w+ )?\w+)"
+_STAYS = r"(?:stays?|remains?|is|are|(?:can|may) (?:stay|remain|be))"
+_WHETHER = (
+    rf"(?:(?:whether|if)(?! (?:you|i|we)\b)(?:{_WORDS}+ or (?:not|{_STAYS}{_WORDS}*)"
+    rf"|{_WORDS}+? {_STAYS}{_WORDS}* or{_WORDS}+)|whether or not(?! you\b| i\b| we\b){_WORDS}+"
+    rf"|(?:whether|if) you (?:approach|grasp|grip|grab|hold)(?:{_WORDS}| or)+)"
+)
+"""What is so by now or not ("whether it stays there or goes on the desk")."""
+_OF_THEM = r"(?: one| of (?:them|these|those|the \w+))?"
 _WHAT = (
-    rf"(?:(?:where|how){_WORDS}+|how|(?:in )?(?:what|which) order{_WORDS}*"
+    rf"(?:(?:where|how){_BOTH}?{_WORDS}+|how|where"
+    rf"|(?:in )?(?:what|which) order(?! you [^~]* (?:in|on|into|onto) (?:the|my|a)\b){_WORDS}*"
     rf"|(?:what|which) (?:\w+ ){{0,3}}?(?:it|they|you)\b{_WORDS}*"
-    r"|which(?: one| of (?:them|these|those|the \w+))?"
-    rf"|what (?:happens to|becomes of){_WORDS}+|whether(?! you\b| i\b| we\b){_WORDS}+)"
+    rf"|(?:what|which) (?:\w+ )??\w+ (?:is|are|gets?) (?:used|chosen|taken|picked)"
+    rf"|which{_OF_THEM}(?: (?:goes|go|ends? up|is put) (?:where|in which))?"
+    rf"|what (?:happens to|becomes of){_WORDS}+|whether(?! you\b| i\b| we\b){_WORDS}+|{_WHETHER})"
 )
 _MANNER = r"(?:grasp|grip|pose|orientation|order|way)"
 _LEFT_OPEN = re.compile(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
-    rf"|{_WHAT} {_NO_MATTER}|the (?:exact )?{_MANNER} {_NO_MATTER}"
+    rf"|{_WHAT} {_NO_MATTER}|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
+    rf"|the (?:exact )?{_MANNER} {_NO_MATTER}"
     rf"|any {_MANNER} (?:is fine|is ok|is okay|will do|would do|works)(?: (?:for|with|by) me)?"
     r"|(?:the|my|our) (?:(?!not\b)\w+ ){1,3}(?:can|may|might|could)"
     r" (?:go|be|end up|stand|lie|be put) (?:just )?(?:anywhere|wherever)(?: you (?:like|want))?"
     r"|do (?:what|as|it how|it however|whatever) you (?:like|want|please)"
 )
+_WHICH_PLACE = re.compile(
+    rf"(?:{_NOT_CARING} )?(?:what|which) \w+(?: one)?{_WORDS}+(?: {_NO_MATTER})?"
+)
+"""Where something goes, where what is asked for says so."""
 _ANY_WILL_DO = re.compile(
     r"(?:any|either) (?:\w+ ){1,4}?(?:will do|would do|is (?:fine|ok|okay)|works)(?: for me)?"
 )
@@ -57,33 +72,6 @@ _WONDERING = re.compile(
     r"(?:why (?:is|are|was|were|has|have|did)|how come|who (?:left|put|opened|closed|moved|took"
     r"|forgot|has left|has put|has moved|has opened|has closed))\b(?!.*\b(?:not|you)\b)"
 )
-_IT = r"(?:it|them|that)"
-_FIRST = r"(?: (?:first|before|beforehand|before that))?"
-_OUT = r"(?:out of the way|out|away|aside|to one side|off)"
-_TAKE = r"(?:take|move|put|get|lift|push|bring)"
-_TAKING = r"(?:taking|moving|putting|getting|lifting|pushing)"
-_YOU = r"(?:(?:please|then|just|simply|you (?:can|may|could|should|must|have to)) )*"
-_THING = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
-_IN_THE_WAY = r"(?:is|are|gets?|stands?|happens? to be|should be) in the way"
-_IF_IN_THE_WAY = re.compile(
-    rf"if (?:{_THING}|it|something|anything|one of them) (?:{_IN_THE_WAY}"
-    rf"(?: of (?:it|that|{_THING}))?"
-    rf"|(?:blocks|obstructs|is blocking|is obstructing) (?:it|that|{_THING}))"
-)
-_TAKE_IT_AWAY = re.compile(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|(?:remove|move) {_IT}){_FIRST}")
-_NEEDED = (
-    rf"if (?:(?:it is |that is |they are )?(?:necessary|needed|required)|you (?:need|have) to"
-    rf"|(?:it|they) {_IN_THE_WAY})"
-)
-_MAY_HAVE_TO = "(?:may|might|could) (?:have|need) to"
-_TAKEN = rf"(?:moved|taken|put|removed)(?: {_OUT})?"
-_WHERE_NEEDED = re.compile(
-    rf"{_YOU}(?:(?:{_TAKE}|{_TAKING}) {_THING} {_OUT}|(?:remove|removing|move|moving) {_THING})"
-    rf"{_FIRST} {_NEEDED}"
-    rf"|{_THING} (?:may|might|can|could) be {_TAKEN}{_FIRST} {_NEEDED}"
-    rf"|(?:you {_MAY_HAVE_TO} (?:{_TAKE} {_THING} {_OUT}|(?:remove|move) {_THING})"
-    rf"|{_THING} {_MAY_HAVE_TO} be {_TAKEN}){_FIRST}(?: {_NEEDED})?"
-)
 
 
 def is_left_open(said: str) -> bool:
@@ -93,7 +81,7 @@ def is_left_open(said: str) -> bool:
 
 def leaves_choice(said: str) -> bool:
     """Whether behind a clause "as long as" says what is asked for, of whatever is left open."""
-    return is_left_open(said) or bool(_ANY_WILL_DO.fullmatch(said))
+    return any(found.fullmatch(said) for found in (_LEFT_OPEN, _ANY_WILL_DO, _WHICH_PLACE))
 
 
 def is_plan(said: str, is_name: IsName) -> bool:
@@ -113,12 +101,3 @@ def is_plan(said: str, is_name: IsName) -> bool:
 def is_wondering(sentence: str) -> bool:
     """Whether a question only wonders at how things are ("why is it still open")."""
     return bool(_WONDERING.match(sentence))
-
-
-def done_where_needed(said: Sequence[str]) -> int:
-    """How many of the clauses that come next call for taking away what is in the way, where it is:
-    every plan does that, and nothing else with it.
-    """
-    if len(said) > 1 and _IF_IN_THE_WAY.fullmatch(said[0]) and _TAKE_IT_AWAY.fullmatch(said[1]):
-        return 2
-    return int(bool(said and _WHERE_NEEDED.fullmatch(said[0])))

@@ -16,6 +16,15 @@ _BLOCKS = (
     r"|(?:is |are |stands |sits )(?:standing |sitting |lying )?in the way of)"
 )
 _OPENS = r"(?:open|be opened|be pulled out)"
+_HINDERS = (
+    rf"(?:{_BLOCKS}|in the way|(?:sticks|sticking|stands|standing|pokes|poking) (?:out|up)"
+    r"|(?:can not|will not|does not|not) (?:be )?(?:close|closed|shut|open|opened|fit)"
+    r"|(?:keep|prevent|stop)(?:s|ing)|too (?:tall|big|large|high|long))\b"
+)
+_FIX = (
+    r"(?:(?:fix|solve|resolve|sort out|take care of|deal with|do something about|see to)"
+    r" (?:it|this|that|the problem))"
+)
 _SOMETHING = r"(?:something|a thing|an object)"
 _THERE = r"(?:is |stands )?(?:standing |sitting |lying )?(?:in front of it|in the way|blocking it)"
 
@@ -27,6 +36,19 @@ def _freed(said: re.Match[str]) -> str:
 
 
 OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        # Where to is not said
+        rf"({_HINDERS}[^.;!?]*(?:[.;!?]+|,) (?:so |and |then |please )*(?:move|shift) (?:it|them))"
+        r"(?=(?: first| beforehand| before\b[^.;!?]*)?(?:[.;!?,]| (?:and|then)\b|$))",
+        r"\1 out of the way",
+    ),
+    (rf"\bclear ({_WHAT}|it|them) (?={_AWAY}{_ENDS})", r"move \1 "),
+    # What is asked for next says how
+    (
+        rf"({_HINDERS}[^.;!?]*)(?:[.;!?]+|,) (?:so |and |please )*{_FIX}"
+        rf"(?: and(?: then)?|[.;:!,](?: then| and)*) (?=\w)",
+        r"\1. ",
+    ),
     (
         rf"(^|[.;] )(?:({_WHAT}) (?:can not|will not|does not) {_OPENS}"
         rf" because {_SOMETHING} {_THERE}"
@@ -44,7 +66,6 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"(?=[.;,])",
         r"\1\3 is blocking \2",
     ),
-    (rf"(^|[.;] )({_WHAT}) (?:blocks|obstructs) (?={_WHAT})", r"\1\2 is blocking "),
     (
         rf"\b(?:whatever|what|anything|everything)(?: that| which)? {_BLOCKS} (?={_WHAT})",
         "everything that is blocking ",

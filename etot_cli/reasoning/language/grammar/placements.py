@@ -16,6 +16,8 @@ _COLOR = "|".join(BASIC_COLORS)
 _FINE = r"(?:is|would be|will be) (?:fine|ok|okay|good|all right|alright)"
 _OF_TWO = r"one of (?:the two|them|these|those)"
 _NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
+_LIE = r"(?:(?:be (?:put |placed |moved )?|stay|remain|go|end up|stand|lie) ?)"
+_THERE = r"(?:in it|inside|there|(?:in|on|inside) (?:the|my) [^.,;:]*?)"
 _ONCE_DONE = re.compile(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
 )
@@ -32,8 +34,25 @@ def _to_do(told: re.Match[str]) -> str:
     return f"{PAST[told[1]]} {done}"
 
 
+def _any_of(places: str) -> str:
+    """Any of some places, or all of them ("the drawer, the holder or both")."""
+    named = re.sub(r",? or both$", "", places.replace("and/or", "or"))
+    return named if " or " in named else re.sub(r", (?=\w)", " or ", named)
+
+
 PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     (_ONCE_DONE, _to_do),
+    (
+        rf"(^|[.;:,] |\b(?:and|but) )((?:the|my) (?:\w+ ){{0,2}}?\w+) (?:can|may|might|could) "
+        rf"{_LIE}({_THERE} or) (?:{_LIE})?(?=(?:in|on|inside|into|onto) (?:the|my)\b)",
+        r"\1\2 should be \3 ",
+    ),
+    (r"\bno longer (?=(?:in|on|inside) )", "not "),
+    (
+        r"\bwherever you (?:like|want),? (?:either )?(?:in )?(?:the )?(\w+(?: \w+)?)"
+        r" or (?:in )?(?:the )?(\w+(?: \w+)?)(?=[,.;]|$)",
+        r"in the \1 or the \2",
+    ),
     # What a set of things "needs on the tray" is needed there by whoever asks for it.
     (
         r"(^|[.;!] )(?:this|the|each|our|my) (?:kit|set|assembly|order|customer|guest|recipe) "
@@ -90,6 +109,35 @@ PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], s
     (rf"^({ASKED})(just|only) ({NAMED} [^.,:;]*? (?:in|into|on|onto) {NAMED} [^.,:;]*?),? "
      r"(?:and )?nothing else\b", r"\1put just \3, nothing else"),
     (r"\bwill have to (?=(?:go|be)\b)", "must "),
+    (
+        r"\bthere (?:is|should be|must be) neither an? (\w+(?: \w+)?) nor an? (\w+(?: \w+)?) "
+        rf"(?=(?:in|on) {NAMED})",
+        r"neither the \1 nor the \2 should be left ",
+    ),
+    (
+        r"\b(?:i|we) do not want ((?:the|my) [\w ]+?) or ((?:the|my) [\w ]+?) (?:to be )?left "
+        rf"(?=(?:in|on) {NAMED})",
+        r"neither \1 nor \2 should be left ",
+    ),
+    # What a pronoun means, said behind it
+    (
+        r"\b(?:it|them)((?: (?!it\b|them\b)[^.,; ]+)*), ((?:the|my) (?:\w+ ){0,2}?\w+),? i mean"
+        r"(?=[.,;!?]|$)",
+        r"\2\1",
+    ),
+    (
+        r"\b(neither (?:of the )?(\w+?)s? should (?:have|hold|contain) [^.;]*[.,;] [^.;]*? "
+        r"(?:in|into|on)) one of them\b",
+        r"\1 one of the \2s",
+    ),
+    # What is used for things that are not to be left where they are
+    (
+        rf"(\bneither [^.;:]*? should be left (?:in|on) [^.,;:]*[.;:,]) (?:please )?use "
+        rf"({NAMED} [^.,;:]*?(?:, {NAMED} [^.,;:]*?)?,? (?:and/or|or) {NAMED} [^.,;:]*?|"
+        rf"{NAMED} [^.,;:]*?,? {NAMED} [^.,;:]*? or both)"
+        r"(?: for (?:them|both|that|this))?(?=[.,;!?]| and\b|$)",
+        lambda said: f"{said[1]} put them in {_any_of(said[2])}",
+    ),
     (rf"\bneither (?:of the )?(\w+?)s? should (?:have|hold|contain) ({NAMED} [^.,:;]*?)"
      r"(?: in (?:it|them))?(?=[.,;!?]|$| and\b)", r"\2 should not be in either \1"),
 )  # fmt: skip

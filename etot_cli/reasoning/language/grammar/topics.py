@@ -8,14 +8,16 @@ from functools import partial
 from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.common import noun_phrase
+from etot_cli.reasoning.language.grammar.hindrances import HINDRANCE, UNFIT
 from etot_cli.reasoning.language.grammar.levels import THAT
 from etot_cli.reasoning.language.grammar.modifiers import (
     ADJECTIVES,
     DESCRIBED,
     MODIFIERS,
 )
-from etot_cli.reasoning.language.grammar.naming import ALREADY_THERE, WORDS
+from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.occupied import ALREADY
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
@@ -182,70 +184,24 @@ FREEING = spanned(
 )
 
 
-def _holding(vessel: NounPhrase, content: NounPhrase) -> Things | None:
-    """A vessel by what is in it; before it that, of which others may be spoken of next."""
-    if not vessel.words or vessel.modifiers or content.modifiers:
-        return None
-    known = content.determiner not in _INDEFINITE or content.words == ("object",)
-    if vessel.determiner in _INDEFINITE:
-        vessel = replace(vessel, determiner="the")  # the one that this is true of
-    holding = vessel.told_by(Modifier(Prep.CONTAINING, (content,)))
-    return Things((holding,) if known else (_within(content, holding), holding))
-
-
-def _held(content: NounPhrase, vessel: NounPhrase) -> Things | None:
-    """What is in a vessel, which it alone tells where it is but "one holder"."""
-    if not content.words or content.modifiers or vessel.modifiers:
-        return None
-    if vessel.determiner.split()[:1] in (["one"], ["a"], ["an"]):
-        return _holding(vessel, content)
-    return Things((_within(content, vessel),))
-
-
-def _within(content: NounPhrase, vessel: NounPhrase) -> NounPhrase:
-    return content.told_by(Modifier(Prep.IN, (vessel,)))
-
-
-_INDEFINITE = ("a", "an", "one", "some")
-
-
 def _stands_there(np: NounPhrase, said: Modifier) -> ReorientClause | None:
     """What is in or on something; "the vase is off limits" is no such thing."""
     there = said.prep in (Prep.IN, Prep.ON) and not said.denied
     return ReorientClause(Things((np.told_by(said),)), only_named=True) if there else None
 
 
-_ALREADY = either(
-    sequence(
-        noun_phrase,
-        "is already, are already, 's already",
-        either(DESCRIBED, ALREADY_THERE),
-        build=lambda np, said: Things((np.told_by(said),)),
-    ),
-    sequence(noun_phrase, f"{verbs.TAKEN_BY}, {verbs.HOLDS}", noun_phrase, build=_holding),
-    sequence(
-        noun_phrase, "[already] (has|holds) [already]", noun_phrase, "in it, inside", build=_holding
-    ),
-    sequence(
-        noun_phrase,
-        verbs.TAKEN_ALREADY,
-        build=lambda vessel: _holding(vessel, NounPhrase("an", ("object",), text="anything")),
-    ),
-    sequence(
-        "there (is|are) already, (i|we|you) already have",
-        noun_phrase,
-        "in, inside",
-        noun_phrase,
-        build=_held,
-    ),
+AS_IT_IS = plain(
+    either(
+        sequence(either(ALREADY, HINDRANCE), build=partial(ReorientClause, only_named=True)),
+        spanned(UNFIT, _remark),
+    )
 )
-AS_IT_IS = plain(sequence(_ALREADY, build=partial(ReorientClause, only_named=True)))
 """How things are by now, before what is asked for in that case."""
 AS_IT_STANDS = plain(
     quiet(
         sequence(
             noun_phrase,
-            verbs.BE,
+            f"{verbs.BE}, {verbs.LIES}",
             DESCRIBED,
             build=_stands_there,
         )
@@ -253,8 +209,8 @@ AS_IT_STANDS = plain(
 )
 """The same without a word for it, before "so"."""
 SAID = either(
-    sequence(either(_STATED, _ALREADY), build=partial(ReorientClause, only_named=True)),
-    spanned(_REMARK, _remark),
+    sequence(either(_STATED, ALREADY, HINDRANCE), build=partial(ReorientClause, only_named=True)),
+    spanned(either(_REMARK, UNFIT), _remark),
     sequence(ALL_THINGS, ASIDE, build=partial(ReorientClause, only_named=True, remark=ASIDE)),
 )
 

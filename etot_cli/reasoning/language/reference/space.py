@@ -225,6 +225,10 @@ def holds_at(
             return aside > OFFSET and abs(askew) <= ASKEW * aside
         case Prep.BLOCKING:
             return blocks(thing, first, scene)
+        case Prep.HINDERING:
+            return touches(thing, first, scene) or blocks(thing, first, scene)
+        case Prep.HINDERED:
+            return touches(first, thing, scene) or blocks(first, thing, scene)
         case Prep.NEXT_TO:
             return first == ROBOT or is_plainly(Prep.NEAR, thing, landmarks, scene)
         case Prep.NEAR:

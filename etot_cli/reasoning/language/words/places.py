@@ -29,6 +29,10 @@ class Prep(StrEnum):
     FARTHEST = "farthest"
     CONTAINING = "containing"
     BLOCKING = "blocking"
+    HINDERING = "hindering"
+    """Said of what is in the way of something, or in or on it."""
+    HINDERED = "hindered"
+    """What such a thing hinders."""
     WITH = "with"
     """It is in or on what is meant."""
     BEARING = "bearing"
@@ -122,7 +126,7 @@ STANDS_AT: dict[Prep, str] = {
 """Behind "the tray that the cup is": where what is meant is to the cup."""
 PREPOSITIONS: dict[Prep, str] = {
     Prep.BLOCKING: "blocking, obstructing, [right] in the way of",
-    Prep.ON: "on, upon, (standing|lying|sitting) on",
+    Prep.ON: "on, upon, (standing|lying|sitting) on, in the (mouth|opening) of",
     Prep.IN: "inside [of], in, within",
     Prep.FROM: "from, off of, off, out of",
     Prep.OF: "of, belonging to",

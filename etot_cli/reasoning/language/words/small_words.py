@@ -169,7 +169,7 @@ REMARKS = f"""
 """
 """What is said of a thing before it is spoken of, and asks for nothing."""
 FOUND = """
-    (is|are|was|were|has been|have been|got|seem[s] to be)
+    (is|are|was|were|has been|have been|got|seem[s] to be|stands|sits|lies|rests|stand|sit|lie|rest)
     [still|just|now|currently|again|all]
     [left|standing|lying|sitting|resting|wide|slightly|partly|half|a (little|bit)]
 """
