@@ -8,7 +8,6 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
     EMPTY_WORDS,
-    IN_HAND,
     LIST,
     OPTIONAL_COMMA,
     noun_phrase,
@@ -93,21 +92,6 @@ HAND_OVER = quiet(
         build=lambda things, to: PickClause(things, to=to),
     )
 )
-HOLD = either(
-    sequence(
-        f"{verbs.SET}, {verbs.FETCH}, keep[ing], have, hold[ing]",
-        THINGS,
-        IN_HAND,
-        build=lambda things, _: PickClause(things),
-    ),
-    sequence(
-        "(end|finish|wind) [up] (with|holding), [you (should|must) [finally]] be holding",
-        THINGS,
-        silent(optional(IN_HAND, "")),
-        build=PickClause,
-    ),
-)
-"""What is in the hand in the end."""
 _DESKS = [(noun,) for noun in DESK_NOUNS]
 
 

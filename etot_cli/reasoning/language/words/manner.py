@@ -77,6 +77,8 @@ IN_HAND = f"""
     [held] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}, held
 """
 """Where what is picked up is in the end."""
+THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, the robot, you"
+"""What holds it."""
 HELD = "held"
 """The state of what is there."""
 AS_IT_IS = """

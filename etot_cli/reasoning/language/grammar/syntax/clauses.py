@@ -218,6 +218,8 @@ class Avoid(StrEnum):
     OPEN = "opened"
     CLOSE = "closed"
     PUT = "put there"
+    HARM = "harmed"
+    """Which no plan may do anyway."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,6 +240,8 @@ class AvoidClause:
     """It need not be done, but may be."""
     as_it_is: bool = False
     """They are left as they are, with what is in and on them."""
+    by: tuple[NounPhrase, ...] = ()
+    """The door or drawer by which it must not happen, which moves as something else is done."""
 
 
 Clause = (
