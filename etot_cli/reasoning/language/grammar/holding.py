@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.common import IN_HAND, THE_HAND, noun_phrase
-from etot_cli.reasoning.language.grammar.grasping import GRASPED
+from etot_cli.reasoning.language.grammar.common import COMMA, IN_HAND, THE_HAND, noun_phrase
+from etot_cli.reasoning.language.grammar.grasping import GRASPED, HELD_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import EITHER_SIDE, THINGS, one_so
 from etot_cli.reasoning.language.grammar.parsing import either, optional, sequence, silent
 from etot_cli.reasoning.language.grammar.syntax.clauses import PickClause
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import small_words, verbs
 
 HOLD = either(
     sequence(
@@ -27,6 +27,16 @@ HOLD = either(
             # "One ball in the gripper, left or right"
             sequence(noun_phrase, silent(IN_HAND), EITHER_SIDE, build=one_so),
         ),
+        build=PickClause,
+    ),
+    sequence(
+        # "To pick up the cup, use a vertical grasp"
+        small_words.PURPOSE,
+        verbs.PICK,
+        THINGS,
+        optional("up"),
+        COMMA,
+        HELD_SO,
         build=PickClause,
     ),
     sequence(

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.destinations import (
     ONWARD,
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS
+from etot_cli.reasoning.language.grammar.laying import LAID_DOWN, rather_laid_down
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, CHOICE, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -41,6 +42,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
     some,
+    spanned,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
 from etot_cli.reasoning.language.grammar.successions import (
@@ -321,7 +323,10 @@ PUT = either(
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
-    sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away),
+    spanned(
+        sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away), rather_laid_down
+    ),
+    LAID_DOWN,
     THROWN,
     INSERTED,
     sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left),

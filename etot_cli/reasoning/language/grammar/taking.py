@@ -72,7 +72,9 @@ PICK = sequence(
     optional(
         either(
             sequence(POSES, OPTIONAL_COMMA, EMPTY_WORDS),
-            sequence(HELD_SO, f"{small_words.PURPOSE}, and, ~comma, (when|while) [you [are]]"),
+            sequence(
+                HELD_SO, "[~comma] (to|in order to|so as to|and), ~comma, (when|while) [you [are]]"
+            ),
         ),
         None,
     ),

@@ -156,6 +156,9 @@ LAID = f"""
     [lying|laid] [down|flat] {_ON_ITS_SIDE}, [lying|laid] [down] flat, flat down, lying down
 """
 """Before a place, where "lying" alone rather tells what is there."""
+EITHER_WAY = """
+    [either] upright or (sideways|horizontally), [either] from (above|the top) or the side
+"""
 LYING = f"""
     {LAID}, lying,
     so [that] (it|they) (lies|lie|is lying|are lying|is|are) ([down|flat] {_ON_ITS_SIDE}|flat|down)
