@@ -29,5 +29,5 @@ LAID_DOWN = sequence(
 def rather_laid_down(text: str, clause: PutClause) -> PutClause:
     """Putting that is said so: who lays a thing down somewhere wants it to lie, if it can."""
     verb, *words = text.split()
-    laid = verb in ("lay", "laying") and "down" in words
+    laid = verb in ("lay", "laying") and {"down", "down,"} & {*words}
     return replace(clause, far_fetched=clause.far_fetched + 1) if laid else clause

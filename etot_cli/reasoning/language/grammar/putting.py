@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.additions import (
     EXTRA,
     EXTRAS,
+    kept_together,
     left,
     put_of,
 )
@@ -329,7 +330,7 @@ PUT = either(
     LAID_DOWN,
     THROWN,
     INSERTED,
-    sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left),
+    spanned(sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left), kept_together),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
         either(phrase("get[ting]", False), phrase(verbs.GATHER, True)),

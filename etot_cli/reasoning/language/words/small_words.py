@@ -82,6 +82,11 @@ TASK = f"""
     [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted)
     (state|configuration|arrangement|result|situation|setup) ~comma
 """
+GOAL_IS = """
+    [the|our|my|your] [desired|required|intended] (goal|target|(final|end|goal|target)
+    (state|configuration|result|situation)|result) (is|should be|must be)
+"""
+"""Before what is to be so in the end."""
 GREETINGS = f"""
     [hey|hello|hi|dear|yo] robot, hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
