@@ -56,6 +56,8 @@ def _does(action: Action, held: str | None, constraint: Constraint, scene: Scene
             part = scene.part(action.target)
             own = () if part is None else (part.owner, f"{part.owner}.{part.name}")
             return action.verb is verb and any(name in names for name in own)
+        case Keep.UNHIT:
+            return False  # only what happens tells
         case Keep.AWAY:
             verbs = {Verb.PUT_ON: Relation.ON, Verb.PUT_INTO: Relation.INSIDE}
             return (
@@ -81,6 +83,9 @@ def _breach(name: str, constraint: Constraint, record: RolloutRecord, far: float
         case Keep.UNMOVED:
             if displacement(owner, record) > far:
                 return f"{owner} was moved, which it must not be"
+        case Keep.UNHIT:
+            if owner not in (before.holding, after.holding) and displacement(owner, record) > far:
+                return f"{owner} was pushed, which it must not be"
         case Keep.AWAY:
             for relation, place in constraint.places:
                 if is_at(after, owner, relation, place) and not is_at(

@@ -154,6 +154,8 @@ class Keep(StrEnum):
 
     UNTOUCHED = "untouched"
     UNMOVED = "unmoved"
+    UNHIT = "not hit"
+    """It is moved by the hand that holds it, if at all."""
     CLOSED = "closed"
     OPEN = "open"
     AWAY = "not there"

@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.goals.left_out import (
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    AvoidClause,
     ReorientClause,
 )
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
@@ -72,10 +73,11 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     check_swept_away(goal, state.context.discourse.swept)
     _check_decided(goal, state.context.discourse)
     last = state.context.last
+    forbidden = goal.constraints or isinstance(last, AvoidClause)
     named = isinstance(last, ReorientClause) and last.only_named
     remark = last.remark if isinstance(last, ReorientClause) else ""
     wished = " is for " in remark or " are for " in remark  # to be put there?
-    if wished or not (goal.steps or state.asked or not (goal.constraints or named)):
+    if wished or not (goal.steps or state.asked or not (forbidden or named)):
         said = "how things are" if named else "what not to do"
         text = sentences[-1 if wished else 0].text
         raise ReferenceProblem(text, f"this says {said}, but not what to do", 2)

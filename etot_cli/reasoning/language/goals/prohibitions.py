@@ -36,11 +36,13 @@ from etot_cli.world.state import DESK
 _KEEPS = {
     Avoid.TOUCH: Keep.UNTOUCHED,
     Avoid.MOVE: Keep.UNMOVED,
+    Avoid.HIT: Keep.UNHIT,
     Avoid.OPEN: Keep.CLOSED,
     Avoid.CLOSE: Keep.OPEN,
 }
 
 
+_LEAVING = (Avoid.TOUCH, Avoid.MOVE, Avoid.HIT)
 _THE_REST = (("the rest",), ("all the rest",), ("the others",))
 
 
@@ -64,6 +66,7 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     if clause.things is None:
         _avoid_others(context, clause)
         return
+    _check_moves(context, clause.by)
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
     if any(np.words in _THE_REST and not np.modifiers for np in clause.things.phrases):
         others = _others_like_what_turns(context, clause.things)
@@ -90,6 +93,10 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         context.discourse.mentions[before:] = kept
         return
     indices = context.phrases.things(clause.things, role)
+    if clause.avoid is Avoid.HARM:
+        harmed = " and ".join(thing.address for thing in context.discourse.things(*indices))
+        context.discourse.notes.append(f"no plan may harm {harmed}")
+        return
     one_way = all(len(context.discourse.referents[index].options) == 1 for index in indices)
     if clause.avoid is Avoid.MOVE and role is not Role.PART and one_way:
         leave_among(context, indices)
@@ -119,7 +126,7 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
     context.discourse.step_back(before, indices)
-    if clause.avoid in (Avoid.TOUCH, Avoid.MOVE):
+    if clause.avoid in _LEAVING:
         context.discourse.left_alone |= {*indices}
         out = [thing for i in indices for thing in context.discourse.left_out.get(i, ())]
         if len(out) == 1:  # "all as it is except for the cup; that goes on the tray"
@@ -132,7 +139,7 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     ways = [
         is_open(context.scene, p) or (is_closed(context.scene, p) and Keep.CLOSED) for p in parts
     ]
-    touching = clause.avoid in (Avoid.TOUCH, Avoid.MOVE)
+    touching = clause.avoid in _LEAVING
     if touching and all(moving.get(t) for t in things) and all(ways):
         for part, way in zip(parts, ways, strict=True):
             keep = Keep.OPEN if way is True else Keep.CLOSED
@@ -140,6 +147,21 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         return
     names += _what_is_there(context, names) if clause.as_it_is else ()
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
+
+
+def _check_moves(context: Context, by: Sequence[NounPhrase]) -> None:
+    """Whether that by which something must not be touched is a door or drawer.
+
+    Raises:
+        ReferenceProblem: it is none, but something that is itself put somewhere.
+    """
+    before = [*context.discourse.mentions]
+    for np in by:
+        index = context.phrases.things(Things((np,)), Role.PART)
+        if not all(parts_of(context.scene, t) for t in context.discourse.things(*index)):
+            raise ReferenceProblem(np.text, "only doors and drawers can be kept from things", 4)
+    if context.done:  # "it" is what was asked for
+        context.discourse.mentions = before
 
 
 def _what_is_there(context: Context, names: Sequence[str]) -> tuple[str, ...]:

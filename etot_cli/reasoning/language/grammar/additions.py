@@ -168,6 +168,12 @@ def left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     return None if found is None else replace(found, stays=True)
 
 
+def kept_together(text: str, clause: PutClause) -> PutClause:
+    """What is kept together in one of several places is brought there."""
+    together = "together" in text.replace(",", "").split() and clause.grouping is Grouping.ANY
+    return replace(clause, stays=False, grouping=Grouping.TOGETHER) if together else clause
+
+
 def _that_are(
     groups: tuple[PutGroup, ...], several: bool, modifier: Modifier
 ) -> tuple[PutGroup, ...] | None:

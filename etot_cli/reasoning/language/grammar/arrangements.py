@@ -50,7 +50,7 @@ REORIENT = either(
         ),
     ),
     sequence(
-        verbs.TURN,
+        f"{verbs.TURN}, {verbs.KEEP}",
         THINGS,
         f"back {manner.UPRIGHT}, {manner.UPRIGHT}, {manner.TURNED_UP}",
         build=_stood_up,
@@ -64,7 +64,7 @@ REORIENT = either(
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.STAY}"),
             sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}"),
             sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to (be|stand), {verbs.DONE}"))),
         ),

@@ -27,7 +27,7 @@ _WITHIN = re.compile(
     rf"|or(?= (?:{PEOPLE}|it|they) \w+))\b"
     r"|(?P<plain>(?:and|but|without)"
     r"(?= (?:only|do not|you|feel free|leave|move|take|touch|moving|taking|touching)\b"
-    r"[^~]* (?:if|unless|when) | (?:knocking|crashing|running|banging) (?:into|against) ))\b"
+    r"[^~]* (?:if|unless|when) ))\b"
     r"|(?P<meanwhile>while(?= (?:i|we|my|our)\b))\b"
     r"|(?P<polite>if (?:you (?:do not|would not) mind|i may|(?:it|that) is (?:all right|alright"
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"

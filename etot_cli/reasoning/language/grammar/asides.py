@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.remarks import (
     asks_besides,
     is_comment,
     is_doing,
+    is_made_possible,
     is_not_to_stay,
     is_of_people,
     is_purpose,
@@ -153,6 +154,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     outside = first not in ALL_WORDS and not is_name(first) and verb in ("is", "are", "has", "have")
     told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
     told = told or is_not_to_stay(aside.said)
+    told = told or (aside.kind == "purpose" and is_made_possible(aside.said))
     return told or strange or outside
 
 
@@ -184,7 +186,8 @@ def _are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> bo
 def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     """Whether one of a sentence's clauses asks for nothing."""
     clause = clauses[at]
-    last = at + 1 == len(clauses) or is_doing((clauses[at + 1].said.split() or [""])[0])
+    behind = "" if at + 1 == len(clauses) else clauses[at + 1].said.removeprefix("then ")
+    last = at + 1 == len(clauses) or is_doing((behind.split() or [""])[0])
     trailing = at > 0 and last and not asks_besides(clause.said)
     if clause.joint == "where" and not last:
         trailing = clauses[at + 1].comma and clauses[at + 1].said.startswith(_PLACES)

@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.doubles import (
 )
 from etot_cli.reasoning.language.grammar.exclusions import but_some, excluding, of_the_things
 from etot_cli.reasoning.language.grammar.grasping import GRASP
+from etot_cli.reasoning.language.grammar.holding import HOLD
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
@@ -81,7 +82,6 @@ from etot_cli.reasoning.language.grammar.taking import (
     EMPTY,
     FILL,
     HAND_OVER,
-    HOLD,
     PICK,
     REMOVE,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from etot_cli.reasoning.language.grammar import text
-from etot_cli.reasoning.language.grammar.input import Input, Result
+from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
     Parser,
@@ -54,16 +54,23 @@ def _is_noun(given: Input, said: str) -> bool:
 
 NOUN_WORD = word(_is_noun)
 OPTIONAL_COMMA = optional(COMMA)
-_HAND = phrase(manner.IN_HAND, manner.HELD)
 
 
-def _in_hand(given: Input, at: int) -> list[Result]:
-    found = _HAND.find(given, at)
-    return [(end, value) for end, value in found if given.words[end - 1] not in given.nouns]
+def _of_the_hand(patterns: str, value: Any) -> Parser:
+    """What is said of the gripper, where nothing in the scene is called "hand"."""
+    said = phrase(patterns, value)
+    return Parser(
+        lambda given, at: [
+            item for item in said.find(given, at) if given.words[item[0] - 1] not in given.nouns
+        ],
+        lambda: said.first,
+    )
 
 
-IN_HAND = Parser(_in_hand, lambda: _HAND.first)
-"""In the gripper, where nothing in the scene is called "hand"."""
+IN_HAND = _of_the_hand(manner.IN_HAND, manner.HELD)
+"""Where what is picked up is in the end."""
+THE_HAND = _of_the_hand(manner.THE_HAND, NOTHING)
+"""What holds it."""
 EXACTLY = optional(small_words.EXACTLY)
 
 

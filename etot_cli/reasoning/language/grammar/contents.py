@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.common import EXACTLY, noun_phrase
+from etot_cli.reasoning.language.grammar.common import EXACTLY, after, noun_phrase
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     either,
@@ -23,16 +23,19 @@ _POSED = "currently|now|standing|lying|sitting|resting"
 _HAVING = f"with, {nouns.CONTAINING}"
 
 
-def _contents_with(having: str, denied: bool) -> Parser:
+def _contents_with(having: str | Parser, denied: bool, bare: bool = False) -> Parser:
+    """What is, or is not, in or on a thing; ``bare``: its noun may stand alone.
+
+    Elsewhere a bare noun behind "without" may stand before anything.
+    """
     return sequence(
         having,
         noun_phrase,
         optional(sequence("and", noun_phrase), None),
         optional(one_of({Prep.CONTAINING: _INSIDE_IT, Prep.BEARING: _UPON_IT}), Prep.WITH),
-        # "Without" before a bare noun may stand before anything.
         build=lambda np, other, prep: (
             None
-            if denied and (other or (prep is Prep.WITH and not np.determiner))
+            if denied and (other or (prep is Prep.WITH and not (bare or np.determiner)))
             else Modifier(prep, (np, other) if other else (np,), denied=denied)
         ),
     )
@@ -55,7 +58,29 @@ CONTENTS = either(
         ),
     ),
     _contents_with(_HAVING, denied=False),
-    _contents_with(nouns.LACKING, denied=True),
+    _contents_with(f"without, {nouns.LACKING}", denied=True),
+    _contents_with(nouns.LACKING_ANY, denied=True, bare=True),
+    quiet(
+        _contents_with(
+            # "Whichever cup does not have a ball in it"
+            sequence(after("whichever"), "(does|do) not (have|hold|contain), (is|are) not holding"),
+            denied=True,
+        )
+    ),
+    sequence(
+        nouns.CONTAINED,
+        noun_phrase,
+        optional(f"{_INSIDE_IT}, {_UPON_IT}, before"),
+        build=lambda np: Modifier(Prep.WITH, (np,), (HERE_BEFORE,)),
+    ),
+    quiet(
+        sequence(
+            one_of({Prep.CONTAINING: "in which, where", Prep.BEARING: "on which"}),
+            one_of({True: "there (is|are) (no|not [a|an|any])", False: "there (is|are)"}),
+            noun_phrase,
+            build=lambda prep, denied, np: Modifier(prep, (np,), denied=denied),
+        )
+    ),
     sequence(
         _HAVING,
         noun_phrase,
@@ -79,9 +104,10 @@ CONTENTS = either(
                 (HERE_BEFORE,),
             ),
         ),
+        optional(phrase("not", True), False),
         # "The cups where they are" is no place that tells which.
-        build=lambda np, words: (
-            None if np.pronoun and not words else Modifier(Prep.WITH, (np,), words)
+        build=lambda np, words, denied: (
+            None if np.pronoun and not words else Modifier(Prep.WITH, (np,), words, denied=denied)
         ),
     ),
     quiet(
@@ -105,7 +131,8 @@ CONTENTS = either(
             one_of({Prep.CONTAINING: "in which", Prep.BEARING: "on which"}),
             noun_phrase,
             "is, are, stands, stand, lies, lie, sits, sit",
-            build=lambda prep, np: Modifier(prep, (np,)),
+            optional(phrase("not", True), False),
+            build=lambda prep, np, denied: Modifier(prep, (np,), denied=denied),
         )
     ),
 )

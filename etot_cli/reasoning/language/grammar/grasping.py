@@ -23,7 +23,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import GraspClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Things
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import words_of
@@ -59,7 +59,7 @@ def _ruled_out(given: Input, at: int) -> list[Result]:
     ]
 
 
-_OTHER_POSE = sequence("not", Parser(_ruled_out, lambda: _POSE.first))
+_OTHER_POSE = sequence("not", Parser(_ruled_out, lambda: _POSE.first), optional("one"))
 POSE = either(
     sequence(optional("only, just"), _POSE, optional("only")),
     _OTHER_POSE,
@@ -70,9 +70,16 @@ POSE = either(
         _OTHER_POSE,
         build=lambda pose, left: pose if pose is left else None,
     ),
+    sequence(
+        _POSE,
+        "[~comma] (rather than|instead of)",
+        _POSE,
+        optional("one"),
+        build=lambda pose, other: None if pose is other else pose,
+    ),
 )
 _BOTH = (GraspPose.VERTICAL, GraspPose.HORIZONTAL)
-POSES = either(alternatives(POSE, 1), phrase("[either] upright or (sideways|horizontally)", _BOTH))
+POSES = either(alternatives(POSE, 1), phrase(manner.EITHER_WAY, _BOTH))
 _OR_BOTH = either(
     POSES,
     sequence("both", _POSE, "and", _POSE, build=lambda one, other: (one, other)),
@@ -83,7 +90,8 @@ _SAID = _GRASPS | {"from", "by", "down"}
 
 def _in_so_many_words(text: str, poses: Any) -> Any:
     """What is said of a grasp; "vertically" alone may be how something is put down."""
-    return poses if _SAID & {*text.split()} else None
+    both = isinstance(poses, tuple) and len({*poses}) > 1
+    return poses if both or _SAID & {*text.split()} else None
 
 
 def _written(text: str, clause: GraspClause) -> GraspClause:
@@ -124,6 +132,7 @@ GRASPED = sequence(
             POSES,
         ),
         _NOT_WITH,
+        sequence("whether", POSES, optional(f"[that] ({small_words.DOES_NOT_MATTER})")),
         sequence(
             "[while|by] (keeping|holding)",
             either(
@@ -173,6 +182,7 @@ def _anyhow(things: Things) -> GraspClause:
     return _so((), things)
 
 
+_IT = Things((NounPhrase(pronoun="it", text="it"),))
 _BY_THE_HAND = "grasped, gripped, held, grabbed"
 _HOW = sequence(
     "how, in (what|which) way",
@@ -183,6 +193,18 @@ _HOW = sequence(
         ),
         sequence("you [are to|should]", verbs.PICK, THINGS, optional("up")),
     ),
+)
+_WHETHER = sequence(
+    "whether, if",
+    either(
+        sequence(f"you [are to|should] ({verbs.PICK}|approach)", THINGS, optional("up")),
+        sequence(
+            ALL_THINGS, f"(is|are|gets|get) ({_BY_THE_HAND}|approached|picked up|taken|lifted)"
+        ),
+        sequence("it is, you do (it|so)", build=lambda: _IT),
+    ),
+    POSES,
+    build=lambda things, poses: things if len({*poses}) > 1 else None,
 )
 GRASP = quiet(
     spanned(
@@ -196,7 +218,13 @@ GRASP = quiet(
                 build=lambda poses, things: _asked(things, poses),
             ),
             sequence("us(e|ing), try[ing]", _told(POSES), build=_so),
-            sequence(_told(_OR_BOTH), small_words.ANY_WILL_DO, build=_so),
+            sequence(
+                _told(_OR_BOTH),
+                optional("[~comma] (either|any|both) [one|of them|way]"),
+                small_words.ANY_WILL_DO,
+                build=_so,
+            ),
+            sequence(_told(_OR_BOTH), "~comma", small_words.DOES_NOT_MATTER, build=_so),
             sequence(
                 "the (grasp|grip)", "(should|must|may|can|has to|needs to) be", POSES, build=_so
             ),
@@ -218,6 +246,7 @@ GRASP = quiet(
             sequence(
                 "approach[ing]", THINGS, POSES, build=lambda things, poses: _so(poses, things)
             ),
+            sequence("approach[ing]", _told(POSES), build=_so),
             sequence(
                 f"{verbs.DO_NOT}, {verbs.WITHOUT}",
                 verbs.PICK,
@@ -237,16 +266,11 @@ GRASP = quiet(
                 build=_asked,
             ),
             sequence(
-                "[i] do not (care|mind), [(it|that)] does not matter, no matter",
-                _HOW,
+                f"[i] do not (care|mind), {small_words.DOES_NOT_MATTER}, no matter",
+                either(_HOW, _WHETHER),
                 build=_anyhow,
             ),
-            sequence(
-                _HOW,
-                "does not matter, is up to you, is your (choice|decision), is not important,"
-                "is (irrelevant|unimportant)",
-                build=_anyhow,
-            ),
+            sequence(either(_HOW, _WHETHER), small_words.DOES_NOT_MATTER, build=_anyhow),
         ),
         _written,
     )

@@ -149,11 +149,29 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
     return None if whole is None else Things(whole, either=True)
 
 
+def one_so(np: NounPhrase, sides: tuple[tuple[str, ...], ...]) -> Things | None:
+    """One of some things, told apart behind them ("a ball, left or right")."""
+    *said, noun = np.words or ("",)
+    one = np.determiner.split()[:1] in (["a"], ["an"], ["one"], ["any"], ["either"])
+    if not one or np.modifiers or not noun:
+        return None
+    each = ((*said, *side, singular(noun)) for side in sides)
+    return Things(tuple(NounPhrase("the", w, text=f"the {' '.join(w)}") for w in each), either=True)
+
+
+EITHER_SIDE = sequence(
+    COMMA,
+    optional("either"),
+    sequence(_PART, "or", _PART, build=lambda *sides: sides),
+    either(COMMA, at_end),
+)
+"""Behind one of some things: which they are."""
 ALL_THINGS = valued(NP_LIST, Things)
 """Several things, and no choice between them."""
 CHOICE = Rule(
     either(
         sequence(alternatives(noun_phrase, 5), build=_one_of),
+        sequence(noun_phrase, EITHER_SIDE, build=one_so),
         sequence(
             alternatives(noun_phrase, 1),
             "~comma [but] not both ~comma",

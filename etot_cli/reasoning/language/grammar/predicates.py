@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -15,7 +16,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.states import PREDICATE, STATE, state_of
+from etot_cli.reasoning.language.grammar.states import (
+    OPEN_OR_CLOSED,
+    PREDICATE,
+    STATE,
+    state_of,
+)
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     CLEARED,
@@ -26,7 +32,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.grammar.taking import contents_of
 from etot_cli.reasoning.language.grammar.trees import pronouns
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
 _EMPTY = "empty"
@@ -124,7 +130,23 @@ _IS_SO = either(
 )
 BOTH_LEFT_SO = sequence(NP_LIST, _SO, _MORE, _WITH_IT, build=_all_of_it)
 """The same as it is told how things are in the end, and without a verb."""
+
+
+def _in_that_state(word: str, np: NounPhrase) -> EnsureClause | None:
+    """What a goal is said to be ("a closed drawer")."""
+    bare = not np.determiner and not np.pronoun
+    the = replace(np, determiner="the", text=f"the {np.text}")
+    return EnsureClause((State((the,), word=word),)) if bare else None
+
+
 BOTH_SO = either(
+    sequence(
+        small_words.GOAL_IS,
+        "a, an, the",
+        OPEN_OR_CLOSED,
+        noun_phrase,
+        build=_in_that_state,
+    ),
     sequence(_SUBJECT, _SO, _MORE, _WITH_IT, build=_all_of_it),
     sequence(
         NP_LIST,

@@ -8,6 +8,13 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
+from etot_cli.reasoning.language.grammar.instruments import (
+    LET_MEET,
+    MEETING,
+    NOT_MET,
+    WITH_IT,
+    with_it,
+)
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -35,10 +42,10 @@ def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
     return AvoidClause(avoid, things, where or ())
 
 
-def _undisturbed(things: Things, when: Any = ()) -> AvoidClause | None:
+def _undisturbed(things: Things) -> AvoidClause | None:
     """What is not to be moved; "without pushing it off the desk" says where it stays."""
     off = any(item.prep is Prep.FROM for np in things.phrases for item in np.modifiers)
-    return None if off else _avoid(Avoid.MOVE, things, when)
+    return None if off else _avoid(Avoid.MOVE, things)
 
 
 def _not_wanted(things: Things) -> AvoidClause | None:
@@ -56,7 +63,7 @@ _FORBIDDEN = either(
     sequence(
         one_of(
             {
-                Avoid.TOUCH: verbs.TOUCH,
+                Avoid.HARM: verbs.HARM,
                 Avoid.MOVE: f"{verbs.PICK}, {verbs.REMOVE}",
                 Avoid.OPEN: verbs.OPEN,
                 Avoid.CLOSE: verbs.CLOSE,
@@ -66,10 +73,21 @@ _FORBIDDEN = either(
         optional(small_words.TRAILING_THEN),
         build=_avoid,
     ),
-    sequence(verbs.DISTURB, THINGS, optional(small_words.TRAILING_THEN), build=_undisturbed),
+    sequence(
+        either(
+            sequence(
+                one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.HIT: verbs.HIT}), THINGS, build=_avoid
+            ),
+            sequence(verbs.DISTURB, THINGS, build=_undisturbed),
+            sequence(phrase(verbs.UPSET, Avoid.HIT), THINGS, "off, over, down", build=_avoid),
+        ),
+        WITH_IT,
+        optional(small_words.TRAILING_THEN),
+        build=with_it,
+    ),
+    LET_MEET,
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
-    sequence(phrase(verbs.UPSET, Avoid.MOVE), THINGS, "off, over, down", build=_avoid),
-    sequence("let[ting]", THINGS, verbs.TOPPLE, build=partial(AvoidClause, Avoid.MOVE)),
+    sequence("let[ting]", THINGS, verbs.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
     sequence(
         "leav(e|ing)",
@@ -80,7 +98,7 @@ _FORBIDDEN = either(
     sequence(phrase(verbs.SHIFT, Avoid.PUT), THINGS, DIRECTED, build=_avoid),
     sequence(verbs.USE, NP_LIST, optional(sequence("for", THINGS), None), build=_unused),
     sequence(
-        either(phrase(verbs.TOUCH, Avoid.TOUCH), phrase(verbs.DISTURB, Avoid.MOVE)),
+        one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.MOVE: verbs.DISTURB, Avoid.HIT: verbs.HIT}),
         verbs.ANYTHING_ELSE,
         build=lambda avoid: AvoidClause(avoid, None),
     ),
@@ -88,6 +106,7 @@ _FORBIDDEN = either(
 _AVOIDED = sequence("avoid, [while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH))
 AVOID = either(
     _AVOIDED,
+    sequence(optional(verbs.ENSURE), NOT_MET),
     sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
     sequence(
         verbs.NEED_NOT,
@@ -109,7 +128,7 @@ AVOID = either(
     sequence(
         THINGS,
         verbs.NOT_TO_BE,
-        one_of({Avoid.TOUCH: verbs.TOUCHED, Avoid.MOVE: verbs.DISTURBED}),
+        one_of({Avoid.TOUCH: verbs.TOUCHED, Avoid.MOVE: verbs.DISTURBED, Avoid.HIT: verbs.WAS_HIT}),
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),
 )
@@ -168,7 +187,7 @@ WITHOUT = sequence(
         sequence(verbs.WITHOUT, _FORBIDDEN),
         sequence(
             verbs.WITHOUT,
-            f"{verbs.UPSET}, {verbs.DISTURB}",
+            f"{verbs.UPSET}, {verbs.DISTURB}, {verbs.HIT}",
             NP_LIST,
             "off [of], from",
             noun_phrase,
@@ -176,7 +195,9 @@ WITHOUT = sequence(
                 (State(nps, (Destination(Toward.ON, (np,)),), kept=True),)
             ),
         ),
-        sequence(verbs.WITHOUT, THINGS, verbs.TOPPLING, build=partial(AvoidClause, Avoid.MOVE)),
+        sequence(verbs.WITHOUT, MEETING),
+        sequence(small_words.SO_THAT, NOT_MET),
+        sequence(verbs.WITHOUT, THINGS, verbs.TOPPLING, build=partial(AvoidClause, Avoid.HIT)),
         sequence(verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
         sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
         _AVOIDED,

@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.additions import (
     EXTRA,
     EXTRAS,
+    kept_together,
     left,
     put_of,
 )
@@ -31,6 +32,7 @@ from etot_cli.reasoning.language.grammar.destinations import (
     ONWARD,
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS
+from etot_cli.reasoning.language.grammar.laying import LAID_DOWN, rather_laid_down
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, CHOICE, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -41,6 +43,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     silent,
     some,
+    spanned,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
 from etot_cli.reasoning.language.grammar.successions import (
@@ -321,10 +324,13 @@ PUT = either(
     sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
-    sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away),
+    spanned(
+        sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away), rather_laid_down
+    ),
+    LAID_DOWN,
     THROWN,
     INSERTED,
-    sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left),
+    spanned(sequence(verbs.KEEP, PUT_GROUPS, EXTRAS, build=left), kept_together),
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
         either(phrase("get[ting]", False), phrase(verbs.GATHER, True)),

@@ -169,6 +169,10 @@ _SO_OF_ITSELF = re.compile(
     rf"^{_THING} (?:(?:stays?|keeps?|remains?) (?:warm|cold|cool|dry|fresh|clean|safe)"
     rf"|(?:do|does|will) not (?:get|go|turn) (?:{TURNED}))$"
 )
+_SO_IT_CAN = re.compile(
+    rf"^(?:it|they|{_THING}) (?:(?:can|could|will|may|might) (?:then )?"
+    r"(?:be (?:closed|shut|opened)|close|shut|open|fit)|closes|shuts|fits)(?: again| properly)?$"
+)
 _TURNING = re.compile(
     rf" (?:(?:is|are) (?:getting|going|turning)|(?:has|have) gone) (?:{TURNED})$"
     r"|(?:must|should|(?:needs?|has|have) to) "
@@ -217,10 +221,15 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
         return bool(_SO_PEOPLE.match(said) or home) and not named
     if _SO_PEOPLE.match(said) or (_SO_NOTHING.match(said) and not named):
         return True
-    if _SO_OF_ITSELF.match(said):
+    if _SO_OF_ITSELF.match(said) or is_made_possible(said):
         return True
     told_of = told_of_thing(said, is_name)
     return bool(told_of and re.search(r" (?:is|are|looks?|seems?|feels?) ", said))
+
+
+def is_made_possible(said: str) -> bool:
+    """Whether this tells, behind "so that", what can be done then ("the drawer can be closed")."""
+    return bool(_SO_IT_CAN.match(said))
 
 
 def is_turning(said: str) -> bool:

@@ -298,9 +298,9 @@ ENSURE = either(
     ),
     sequence(NP_LIST, verbs.MODAL, OPEN_OR_CLOSED, small_words.ALL_ALONG, build=_kept_so),
     sequence(
-        # "The drawer gets closed"
+        # "The drawer gets closed", "the drawer ends closed"
         NP_LIST,
-        "get[s]",
+        "get[s], end[s] [up]",
         OPEN_OR_CLOSED,
         build=lambda nps, state: EnsureClause((State(nps, word=state),)),
     ),
@@ -360,6 +360,7 @@ ENSURE = either(
         either(
             sequence(optional("let"), _STAYS),
             _NOT_FALLING,
+            being("end[s] up"),
             containing(verbs.CONTAIN),
             sequence(noun_phrase, verbs.END_WITH, NP_LIST, _THEREIN, build=_holds),
         ),

@@ -8,7 +8,6 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
     EMPTY_WORDS,
-    IN_HAND,
     LIST,
     OPTIONAL_COMMA,
     noun_phrase,
@@ -73,7 +72,9 @@ PICK = sequence(
     optional(
         either(
             sequence(POSES, OPTIONAL_COMMA, EMPTY_WORDS),
-            sequence(HELD_SO, f"{small_words.PURPOSE}, and, ~comma, (when|while) [you [are]]"),
+            sequence(
+                HELD_SO, "[~comma] (to|in order to|so as to|and), ~comma, (when|while) [you [are]]"
+            ),
         ),
         None,
     ),
@@ -93,21 +94,6 @@ HAND_OVER = quiet(
         build=lambda things, to: PickClause(things, to=to),
     )
 )
-HOLD = either(
-    sequence(
-        f"{verbs.SET}, {verbs.FETCH}, keep[ing], have, hold[ing]",
-        THINGS,
-        IN_HAND,
-        build=lambda things, _: PickClause(things),
-    ),
-    sequence(
-        "(end|finish|wind) [up] (with|holding), [you (should|must) [finally]] be holding",
-        THINGS,
-        silent(optional(IN_HAND, "")),
-        build=PickClause,
-    ),
-)
-"""What is in the hand in the end."""
 _DESKS = [(noun,) for noun in DESK_NOUNS]
 
 

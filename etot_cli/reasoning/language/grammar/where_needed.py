@@ -51,8 +51,6 @@ _TAKING_IT = (
     rf"(?:{_TAKING} {_THING} (?:{_OUT}|{_ELSEWHERE})|{_TOUCHING} {_THING}(?: {_ELSEWHERE})?)"
 )
 _LEAVE_IT = rf"leave {_THING} (?:alone|untouched)"
-_RUN_INTO = rf"(?:knocking|crashing|running|banging) (?:into|against) {_THING}(?: with {_THING})?"
-"""What no plan does."""
 _FINE = r"(?:fine|ok|okay|all right|alright|allowed|permitted|no problem)"
 _ALLOWED = (
     rf"(?:you may|(?:you are |feel )?(?:free|allowed|permitted|welcome) to"
@@ -68,7 +66,6 @@ _WHERE_NEEDED = re.compile(
     rf"|{_THING} (?:may|might|can|could) be {_TAKEN}{_FIRST}(?: {_NEEDED})?"
     rf"|(?:you {_MAY_HAVE_TO} {_TAKE_IT}|{_THING} {_MAY_HAVE_TO} be {_TAKEN}){_FIRST}"
     rf"(?: {_NEEDED})?"
-    rf"|(?:without )?{_RUN_INTO}"
     rf"|(?:please )?(?:(?:do not|never) {_TAKE_IT}|{_LEAVE_IT}"
     rf"|(?:without |avoid )?{_TAKING_IT}) {_UNLESS}"
 )

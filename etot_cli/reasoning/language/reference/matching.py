@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.reference.sifting import (
     sift,
 )
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
-from etot_cli.reasoning.language.words.categories import CATEGORIES, MASS_NOUNS
+from etot_cli.reasoning.language.words.categories import CATEGORIES, MASS_NOUNS, ROUND
 from etot_cli.reasoning.language.words.lexicon import (
     COMPOUNDS,
     CONTAINER_NOUNS,
@@ -297,7 +297,9 @@ def _match_in(
         plural = packs or any(entry.is_plural(head) for entry in entries)
         # "The fruit", "the yarn" of several balls of it
         shapes = all({*map(singular, entry.heads)} & SHAPES for entry in entries)
-        mass = (head in MASS_NOUNS or (best == CONTENT and shapes)) and len(entries) > 1
+        mass = (
+            head in MASS_NOUNS or (best == CONTENT and shapes and singular(head) != ROUND)
+        ) and len(entries) > 1
         plural |= mass
     jars = [e for e in pool if e.only_tells(head) and e.grade(head) is None]
     if best == GENERIC and jars and singular(head) in MATERIALS:

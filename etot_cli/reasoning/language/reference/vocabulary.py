@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.words.categories import (
     CALLED,
     NO_PARTS,
     PART_NOUNS,
+    ROUND,
     members_of,
 )
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
@@ -166,6 +167,8 @@ class Vocabulary:
         """
         members = members_of(noun)
         found = [entry for entry in self.objects if members and entry.counts_among(members)]
+        if singular(noun) == ROUND and not self.is_known("round"):
+            found = [e for e in self.objects if e.info and e.info.kind == "sphere"]
         if singular(noun) in PART_NOUNS:
             solid = (e for e in self.objects if e.info and e.info.movable and not e.info.container)
             found = [entry for entry in solid if not entry.counts_among(NO_PARTS)]

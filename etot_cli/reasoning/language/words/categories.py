@@ -101,7 +101,10 @@ _JEWELRY = word_set("ring necklace bracelet earring brooch pendant")
 _FLOWERS = word_set("rose tulip daisy lily sunflower daffodil orchid carnation")
 _READING = word_set("book magazine newspaper comic novel dictionary atlas textbook")
 
+ROUND = "round_thing"
+"""What is a ball by its shape, whatever it is called."""
 SORTS: dict[str, frozenset[str]] = {
+    ROUND: word_set("ball sphere"),
     "fruit": _FRUIT,
     "citrus": word_set("orange lemon lime grapefruit mandarin tangerine clementine satsuma"),
     "vegetable veggie": _VEGETABLES,
@@ -183,6 +186,7 @@ CALLED = {
     "stationery": "office supplies",
     "citrus": "citrus fruits?",
     "soft_drink": "(?:soft|fizzy) drink",
+    ROUND: "(?:round|(?:ball|sphere) shaped|spherical) (?:thing|object|item)",
 }
 """Several words for such a word."""
 

@@ -77,6 +77,8 @@ IN_HAND = f"""
     [held] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}, held
 """
 """Where what is picked up is in the end."""
+THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, the robot, you"
+"""What holds it."""
 HELD = "held"
 """The state of what is there."""
 AS_IT_IS = """
@@ -154,6 +156,9 @@ LAID = f"""
     [lying|laid] [down|flat] {_ON_ITS_SIDE}, [lying|laid] [down] flat, flat down, lying down
 """
 """Before a place, where "lying" alone rather tells what is there."""
+EITHER_WAY = """
+    [either] upright or (sideways|horizontally), [either] from (above|the top) or the side
+"""
 LYING = f"""
     {LAID}, lying,
     so [that] (it|they) (lies|lie|is lying|are lying|is|are) ([down|flat] {_ON_ITS_SIDE}|flat|down)

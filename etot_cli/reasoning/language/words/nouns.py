@@ -23,7 +23,7 @@ DETERMINERS = f"""
     one of the (other|remaining), [any] one of (the|these|those|my|your|),
     (any|either) one of (the|these|those|my|your) ({_COUNT}),
     any of (the|these|those|),
-    (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your)],
+    (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your) [{_COUNT}]],
     half of the, none of the, no, neither [of the],
     a couple of, a pair of, several, a few, many, most of the,
     whichever, any
@@ -68,8 +68,12 @@ FREE_RELATIVE = """
 BEFOREHAND = "before, beforehand, until now, originally, to begin with, at first"
 """Behind where something was."""
 LACKING = """
-    without, with no, not (containing|holding), (that|which) (has|have|holds|hold) no,
-    (that|which) (contains|contain) no, (that|which) (does|do) not (have|hold|contain), has no
+    not (containing|holding), (that|which) (does|do) not (have|hold|contain),
+    (that|which) (is|are) not (holding|containing|(occupied|taken|filled|blocked|used) by)
+"""
+"""Before what is not in or on a thing."""
+LACKING_ANY = """
+    with no, (that|which) (has|have|holds|hold|contains|contain) no, has no
 """
 MATCHING = """
     of (the same|its|their|its own|their own|the matching|a matching|matching) (color|colour),
@@ -93,8 +97,11 @@ STACK = "stack, tower, pile"
 """Several things that lie upon each other."""
 CONTAINING = """
     containing, holding, contains, contain, holds, hold, has,
-    (that|which) [already|still|now] (contains|holds|has|contain|hold|have) [already]
+    (that|which) [already|still|now] (contains|holds|has|contain|hold|have) [already],
+    [(that|which) (is|are)] (occupied|taken|filled|blocked|used) by
 """
+CONTAINED = "(that|which) [had] (contained|held|had)"
+"""Before what was in a thing."""
 
 
 def is_only(determiner: str) -> bool:

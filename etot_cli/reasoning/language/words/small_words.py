@@ -40,7 +40,7 @@ WITHOUT_MEANING = f"""
     (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
-    however you (like|can|want),
+    however you (like|can|want), as you (like|wish|prefer|please),
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
     if possible,
@@ -60,6 +60,11 @@ WITHOUT_MEANING = f"""
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
+DOES_NOT_MATTER = """
+    [(it|that)] (does not matter|makes no difference|is up to you|is all the same), is your
+    (choice|decision), is not important, is (irrelevant|unimportant)
+"""
+"""Before or behind what is left open."""
 ALL_ALONG = "at all times, (all|the (whole|entire)) [the] time, throughout"
 """Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
@@ -77,6 +82,11 @@ TASK = f"""
     [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted)
     (state|configuration|arrangement|result|situation|setup) ~comma
 """
+GOAL_IS = """
+    [the|our|my|your] [desired|required|intended] (goal|target|(final|end|goal|target)
+    (state|configuration|result|situation)|result) (is|should be|must be)
+"""
+"""Before what is to be so in the end."""
 GREETINGS = f"""
     [hey|hello|hi|dear|yo] robot, hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,

@@ -92,7 +92,8 @@ SET_TO = """
 SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
-    (make|making|be) (sure|certain) [that], see to it [that], make it so [that],
+    (make|making|be) (sure|certain) [that], (take|taking) care that, see to it [that],
+    make it so [that],
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
@@ -200,6 +201,11 @@ HOLDS = "already (holds|contains|has), (holds|contains|has) already"
 """Between a vessel and what is in it by now."""
 USE = "use, using"
 CONTAIN = f"({_MUST}) (contain|hold|have|(be|end up) (containing|holding)), keep[s]"
+HOLDS_IT = f"""
+    ({_MUST}) [then|finally|now|still] (hold|have|(be|end up) (holding|gripping|grasping)),
+    [is|are|end[s] up] (holding|gripping|grasping), holds, ends up with
+"""
+"""Between the hand and what is in it in the end."""
 END_WITH = f"({_MUST}) end [up] with"
 CONTAINED = """
     had, contained, held, has, contains, holds, could (have|contain|hold),
@@ -281,10 +287,11 @@ NEED_NOT = """
 NOT_TO_BE = """
     (must|should|may|can|shall|could) (not|never) be, (is|are) (not|never) to be
 """
-TOUCHED = "touched, bumped, knocked"
+TOUCHED = "touched"
+WAS_HIT = "hit, struck, bumped [into], knocked [over|into], pushed [over]"
 DISTURBED = """
     moved [around|about|away], disturbed, lifted [up|off|out], picked up, shifted, displaced,
-    removed, taken [away|out|off], knocked over
+    removed, taken [away|out|off]
 """
 """Behind what must not be."""
 MAY = "may, can, could, should, must, (is|are) to, (is|are) (allowed|permitted|supposed) to"
@@ -292,17 +299,25 @@ MAY = "may, can, could, should, must, (is|are) to, (is|are) (allowed|permitted|s
 MOVED_ONLY = "moved [around|about|away]|disturbed|lifted [up]|picked up|shifted|displaced"
 TOUCHED_ONLY = "touched"
 WITHOUT = """
-    without, [while] (making|being) sure not to, [while] being careful not to,
+    without, [while] (making|being) sure not to, [while] [being] careful not to,
     [while] taking care not to, so as not to
 """
-TOUCH = """
-    touch[ing], hit[ting], bump[ing] into, bump[ing], collid(e|ing) with, com(e|ing) near,
-    contact[ing]
+TOUCH = "touch[ing], com(e|ing) near, contact[ing]"
+HIT = """
+    hit[ting], bump[ing] [against], (bang|banging) against,
+    (bump|knock|bang|crash|bumping|knocking|banging|crashing|run|running) into,
+    collid(e|ing) with, strik(e|ing), knock[ing] [over], push[ing] [over], topple, toppling,
+    tip[ping] over
 """
+"""What is carried elsewhere before is not met so."""
+MEETS = f"{TOUCH}, {HIT}"
+"""What a door does to what stands in its way."""
+MET = "hit, touched, struck, bumped [into], knocked [into|over], pushed [over|away|aside]"
+HARM = "damag(e|ing), harm[ing], crush[ing], squash[ing]"
+"""What no plan may do to anything."""
 DISTURB = f"""
     {SHIFT},
-    disturb[ing], push[ing], displac(e|ing), knock[ing] over, topple, toppling, tip[ping] over,
-    lift[ing], knock[ing]
+    disturb[ing], displac(e|ing), lift[ing]
 """
 UPSET = "knock[ing], tip[ping], push[ing], throw[ing], sweep[ing]"
 TOPPLE = "fall [off|over|down], drop, topple [over], tip over, slide off, roll off"

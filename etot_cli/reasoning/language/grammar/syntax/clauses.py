@@ -215,9 +215,13 @@ class Avoid(StrEnum):
 
     TOUCH = "touched"
     MOVE = "moved"
+    HIT = "hit"
+    """It may be carried, but nothing runs into it."""
     OPEN = "opened"
     CLOSE = "closed"
     PUT = "put there"
+    HARM = "harmed"
+    """Which no plan may do anyway."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,6 +242,8 @@ class AvoidClause:
     """It need not be done, but may be."""
     as_it_is: bool = False
     """They are left as they are, with what is in and on them."""
+    by: tuple[NounPhrase, ...] = ()
+    """The door or drawer by which it must not happen, which moves as something else is done."""
 
 
 Clause = (

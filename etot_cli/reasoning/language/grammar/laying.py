@@ -1,0 +1,33 @@
+"""Rules for laying things down: they lie where they are put."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.parsing import either, sequence
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, in_a_stance
+from etot_cli.world.spatial import Nearby
+
+
+def _laid_down(things: Things, where: tuple[Destination, ...]) -> PutClause | None:
+    """What lies where it is put; "upright" and "back" say something else of it."""
+    lying = in_a_stance(Nearby.LYING, where)
+    return None if lying is None else put_to(things, lying)
+
+
+LAID_DOWN = sequence(
+    "lay[ing]",
+    either(sequence(THINGS, "down"), sequence("down", THINGS)),
+    DESTINATIONS,
+    build=_laid_down,
+)
+
+
+def rather_laid_down(text: str, clause: PutClause) -> PutClause:
+    """Putting that is said so: who lays a thing down somewhere wants it to lie, if it can."""
+    verb, *words = text.split()
+    laid = verb in ("lay", "laying") and {"down", "down,"} & {*words}
+    return replace(clause, far_fetched=clause.far_fetched + 1) if laid else clause
