@@ -302,6 +302,17 @@ def test_what_has_to_stay_closed_is_looked_at_after_every_action() -> None:
     assert cause_of_breach(record(start, nudged), still, blur=0.014) is None
 
 
+def test_what_must_not_be_hit_may_be_carried() -> None:
+    start = scenes.scene(scenes.item("vase", at=(0.3, 0.0)))
+    not_hit = [Constraint(Keep.UNHIT, ("vase",))]
+    up = changed(start, vase={"in_hand": True, "on": (), "position": (0.3, 0.0, 0.3)})
+    down = changed(start, vase={"position": (0.5, 0.2, start.states["vase"].position[2])})
+    assert cause_of_breach(record(start, up), not_hit) is None
+    assert cause_of_breach(record(up, down), not_hit) is None
+    breach = cause_of_breach(record(start, down), not_hit)
+    assert breach is not None and breach.objects == ("vase",)
+
+
 def test_a_part_that_moved_unasked_is_not_said_to_be_pushed() -> None:
     start = scenes.scene(
         scenes.drawers("chest", (0.5, 0.0), {"top": 0.0}), scenes.item("vase", at=(0.3, 0.0))
