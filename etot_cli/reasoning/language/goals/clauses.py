@@ -33,7 +33,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     SwapClause,
     TowerClause,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    State,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.by_now import note_placed
@@ -100,6 +106,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             remove(context, clause)
         case MoveClause():
             context.tell_so(clause.things, opens=clause.opens)
+            if not clause.opens:
+                clause = _with_contents(context, clause)
             for index in in_turns(context, clause.things, clause.turns, Role.PART):
                 index = _moved(context, clause, index)
                 context.steps.append(Open(index) if clause.opens else Close(index))
@@ -163,6 +171,26 @@ def _into(context: Context, index: int) -> tuple[Place, ...]:
     parts = parts_of(context.scene, thing)
     holds = not more and len(parts) == 1 and parts[0].container
     return (Place(Relation.INSIDE, index),) if holds else ()
+
+
+def _with_contents(context: Context, clause: MoveClause) -> MoveClause:
+    """Who closes a drawer "with the toy in it" wants it there, be it there by now or not."""
+    phrases = []
+    for np in clause.things.phrases:
+        held = [m for m in np.modifiers if m.prep is Prep.CONTAINING and not m.denied]
+        said = len(held) == 1 and " with " in np.text and all(map(_is_the_one, held[0].phrases))
+        if said:
+            try:
+                context.phrases.meaning(np, Role.PART)
+            except ReferenceProblem:
+                np = np.without_modifier(held[0])
+            ensure(context, State(held[0].phrases, (Destination(Toward.INSIDE, (np,)),)))
+        phrases.append(np)
+    return replace(clause, things=replace(clause.things, phrases=tuple(phrases)))
+
+
+def _is_the_one(np: NounPhrase) -> bool:
+    return quantity_of(np.determiner).definite and bool(np.words)
 
 
 def _moved(context: Context, clause: MoveClause, index: int) -> int:
