@@ -574,6 +574,21 @@ def test_a_drawer_that_stands_partly_open_is_opened_wider(openness: float) -> No
     assert (f"[OPEN, chest] {put}" in revisions(step)) == (openness < 1.0)
 
 
+def test_a_door_that_stands_open_is_opened_wider_for_a_level_hand_only() -> None:
+    cupboard = scenes.cabinet("cupboard", (0.5, 0.0), 0.85)
+    state = scenes.scene(cupboard, scenes.item("jar", at=(0.4, 0.3)))
+    level, above = ("[PICK UP, jar] (horizontal) [PUT INTO, cupboard]",
+                    "[PICK UP, jar] [PUT INTO, cupboard]")  # fmt: skip
+    for put, blamed, helps in (
+        (above, ("cupboard", "jar"), False),
+        (level, ("cupboard", "jar"), True),
+        # What is itself too big for the room is named first.
+        (level, ("jar", "cupboard"), False),
+    ):
+        step = failed(state, put, 1, cause(CauseKind.NO_ROOM, *blamed), held(state, "jar"))
+        assert (f"[OPEN, cupboard] {put}" in revisions(step)) == helps, (put, blamed)
+
+
 def test_a_door_that_stands_open_before_an_object_is_closed_meanwhile() -> None:
     state = scenes.scene(
         scenes.cabinet("cupboard", (0.4, 0.4), 1.0), scenes.ball("nut", (0.3, 0.1))
