@@ -102,6 +102,18 @@ def test_what_the_hand_cannot_take_out_of_furniture_is_grasped_otherwise() -> No
     assert revision(step) == "[PICK UP, can] (horizontal) [PUT ON, desk]"
 
 
+def test_what_something_fastened_covers_is_grasped_from_the_side() -> None:
+    info, state = scenes.item("bridge", at=(0.5, 0.0))
+    bridge = (replace(info, movable=False), state)
+    start = scenes.scene(bridge, scenes.item("can", at=(0.5, 0.0)), scenes.ball("nut", (0.3, 0.3)))
+    plan = "[PICK UP, can] [PUT ON, desk]"
+    level = "[PICK UP, can] (horizontal) [PUT ON, desk]"
+    step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "bridge", "can"))
+    assert revision(step) == level
+    step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "nut", "can"))
+    assert level not in revisions(step), "what can be moved goes first"
+
+
 def test_what_comes_from_a_drawer_in_a_doors_way_is_taken_out_before() -> None:
     start = scenes.scene(
         scenes.drawers("chest", (0.4, -0.2), {"only": 0.0}),
