@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from etot_cli.errors import WorldError
 from etot_cli.specs import objects as specs
 from etot_cli.specs.scene import Scene
+from etot_cli.world.build.mjcf_panels import with_panel
 from etot_cli.world.build.mjcf_parts import mjcf_parts
 from etot_cli.world.build.objects import add_object, entry_of
 from etot_cli.world.build.pads import add_pad_pairs
@@ -123,6 +124,7 @@ def build_world(scene: Scene, *, dressed: bool = False, loose_furniture: bool = 
         spec = scene.objects[name]
         if isinstance(spec, specs.Mjcf):
             parts, regions, surfaces = mjcf_parts(model, spec, name)
+            parts = tuple(with_panel(model, part) for part in parts)
             size = _extents(model, name)
             entry = entry_of(name, spec, parts, regions, surfaces, size)
         mass = float(model.body(entry.body).subtreemass[0])

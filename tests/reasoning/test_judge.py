@@ -121,6 +121,30 @@ def test_out_of_reach_is_unsafe() -> None:
     assert verdict.cause.kind is CauseKind.STRANDED
 
 
+@pytest.mark.parametrize(
+    ("put", "outcome"),
+    [
+        ("[PUT ON, tray]", Outcome.SUCCESS),
+        ("[PUT ON, desk] (at 0.740 -0.460)", Outcome.SUCCESS),
+        ("[PUT ON, desk]", Outcome.UNSAFE),
+        ("[PUT ON, desk] (upright)", Outcome.UNSAFE),
+    ],
+)
+def test_out_of_reach_is_no_harm_where_just_that_was_asked_for(put: str, outcome: Outcome) -> None:
+    """It is on the desk anywhere, and might have been put where the arm gets it again."""
+    where = (0.74, -0.46)
+    start = scenes.scene(scenes.item("tray", at=where), scenes.item("can", at=(0.4, 0.0)))
+    on = "tray" if "tray" in put else "desk"
+    after = changed(
+        start, can={"reachable": False, "position": (*where, scenes.TOP), "on": (on,)}
+    )  # fmt: skip
+    touches = (contact("gripper", "can", time_s=0.0), contact("can", "tray", time_s=2.1))
+    verdict = judge(put, record(held(start, "can"), after, contacts=touches))
+    assert verdict.outcome is outcome
+    if verdict.cause is not None:
+        assert verdict.cause.time_s == 2.1, "the hand had it from the start"
+
+
 @pytest.mark.parametrize(("shift", "outcome"), [(0.02, Outcome.SUCCESS), (0.05, Outcome.FAILURE)])
 def test_a_small_shove_is_a_change_and_no_failure(shift: float, outcome: Outcome) -> None:
     before = scenes.microwave()

@@ -103,6 +103,18 @@ def test_what_the_hand_cannot_take_out_of_furniture_is_grasped_otherwise() -> No
     assert revision(step) == "[PICK UP, can] (horizontal) [PUT ON, desk]"
 
 
+def test_what_something_fastened_covers_is_grasped_from_the_side() -> None:
+    info, state = scenes.item("bridge", at=(0.5, 0.0))
+    bridge = (replace(info, movable=False), state)
+    start = scenes.scene(bridge, scenes.item("can", at=(0.5, 0.0)), scenes.ball("nut", (0.3, 0.3)))
+    plan = "[PICK UP, can] [PUT ON, desk]"
+    level = "[PICK UP, can] (horizontal) [PUT ON, desk]"
+    step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "bridge", "can"))
+    assert revision(step) == level
+    step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "nut", "can"))
+    assert level not in revisions(step), "what can be moved goes first"
+
+
 def test_what_comes_from_a_drawer_in_a_doors_way_is_taken_out_before() -> None:
     start = scenes.scene(
         scenes.drawers("chest", (0.4, -0.2), {"only": 0.0}),
@@ -615,6 +627,21 @@ def test_a_drawer_that_stands_partly_open_is_opened_wider(openness: float) -> No
     put = "[PICK UP, mug] [PUT INTO, chest]"
     step = failed(state, put, 1, cause(CauseKind.NO_ROOM, "chest", "mug"), held(state, "mug"))
     assert (f"[OPEN, chest] {put}" in revisions(step)) == (openness < 1.0)
+
+
+def test_a_door_that_stands_open_is_opened_wider_for_a_level_hand_only() -> None:
+    cupboard = scenes.cabinet("cupboard", (0.5, 0.0), 0.85)
+    state = scenes.scene(cupboard, scenes.item("jar", at=(0.4, 0.3)))
+    level, above = ("[PICK UP, jar] (horizontal) [PUT INTO, cupboard]",
+                    "[PICK UP, jar] [PUT INTO, cupboard]")  # fmt: skip
+    for put, blamed, helps in (
+        (above, ("cupboard", "jar"), False),
+        (level, ("cupboard", "jar"), True),
+        # What is itself too big for the room is named first.
+        (level, ("jar", "cupboard"), False),
+    ):
+        step = failed(state, put, 1, cause(CauseKind.NO_ROOM, *blamed), held(state, "jar"))
+        assert (f"[OPEN, cupboard] {put}" in revisions(step)) == helps, (put, blamed)
 
 
 def test_a_door_that_stands_open_before_an_object_is_closed_meanwhile() -> None:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from etot_cli.world.state import CLOSED_AT, OPEN_AT, CauseKind
-from tests.skills.helpers import BALL, BOX, OVEN, UNIT, drawers, episode
+from tests.skills.helpers import BALL, BOX, OVEN, UNIT, Episode, drawers, episode
+from tests.world.helpers import make_scene
 
 SEEDS = range(3)
 STOUT = {"width": 0.08, "depth": 0.04, "thickness": 0.01}
@@ -346,3 +348,61 @@ def test_a_drawer_is_not_thrown_shut(shift: float, yaw: float) -> None:
     index = int(run.simulated.world.model.joint(joint).qposadr[0])
     opening = np.array(trajectory.qpos)[:, index]
     assert np.abs(np.diff(opening) / np.diff(trajectory.times)).max() < 0.24
+
+
+LOCKER = """<mujoco><compiler angle="radian"/><worldbody><body name="case">
+<geom type="box" size="0.10 0.11 0.004" pos="0 0 0.004"/>
+<geom type="box" size="0.10 0.11 0.004" pos="0 0 0.216"/>
+<geom type="box" size="0.004 0.11 0.11" pos="-0.096 0 0.11"/>
+<geom type="box" size="0.10 0.004 0.11" pos="0 0.106 0.11"/>
+<geom type="box" size="0.10 0.004 0.11" pos="0 -0.106 0.11"/>
+<body name="door" pos="0.106 {body} 0.11">
+<joint name="hinge" type="hinge" pos="0 {anchor} 0" axis="0 0 {axis}" range="{range}"
+ frictionloss="0.15" damping="0.1" armature="0.01"/>
+<geom type="box" size="0.005 0.108 0.053" pos="0 {middle} 0.055" mass="0.15"/>
+<geom type="box" size="0.005 0.108 0.053" pos="0 {middle} -0.055" mass="0.15"/>
+<geom type="box" size="0.016 0.005 0.005" pos="0.021 {grip} 0.035" mass="0.01"/>
+<geom type="box" size="0.016 0.005 0.005" pos="0.021 {grip} -0.035" mass="0.01"/>
+<geom type="box" size="0.005 0.005 0.04" pos="0.042 {grip} 0" mass="0.02"/>
+<site name="bar" type="box" size="0.005 0.005 0.028" pos="0.042 {grip} 0"/>
+</body></body></worldbody></mujoco>"""
+HINGED = [
+    # The frame of the door at its hinge, or in its middle; opening by positive or negative angles.
+    {"body": 0.11, "anchor": 0, "middle": -0.11, "grip": -0.185, "axis": 1, "range": "0 1.9"},
+    {"body": 0, "anchor": 0.11, "middle": 0, "grip": -0.075, "axis": -1, "range": "-1.9 0"},
+    {"body": 0, "anchor": -0.11, "middle": 0, "grip": 0.075, "axis": -1, "range": "0 1.9"},
+]
+
+
+def locker_before(shelf_y: float, folder: Path, form: dict[str, Any], yaw: float) -> Episode:
+    """A locker from a file, with a shelf before it that leaves little room at its handle."""
+    (folder / "locker.xml").write_text(LOCKER.format(**form))
+    part = {"joint": "hinge", "front_site": "bar"}
+    locker = {"kind": "mjcf", "file": "locker.xml", "at": [0.34, 0.40], "yaw_deg": yaw,
+              "fixed": True, "parts": {"door": part}}  # fmt: skip
+    rack = {"kind": "shelf", "at": [0.52, shelf_y], "yaw_deg": 180, "size": [0.18, 0.28, 0.24],
+            "boards": ["low", "top"]}  # fmt: skip
+    return Episode(make_scene(folder, locker=locker, rack=rack))
+
+
+@pytest.mark.parametrize("form", HINGED)
+@pytest.mark.parametrize(("yaw", "shelf_y"), [(-95, -0.16), (-90, -0.14)])
+@pytest.mark.slow
+def test_a_door_from_a_file_is_opened_in_as_many_ways_as_a_built_in_one(
+    tmp_path: Path, form: dict[str, Any], yaw: float, shelf_y: float
+) -> None:
+    """Pulled ajar by its handle, it is pushed on from inside: by the panel, not by the bar."""
+    run = locker_before(shelf_y, tmp_path, form, yaw)
+    assert run.must("[OPEN, locker]").states["locker"].openness["door"] >= OPEN_AT
+    assert run.must("[CLOSE, locker]").states["locker"].openness["door"] <= CLOSED_AT
+
+
+@pytest.mark.slow
+def test_what_is_in_the_way_of_a_second_hold_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a door that is known by its handle alone, from which the hand has to go on to the bar."""
+    monkeypatch.setattr("etot_cli.world.model.with_panel", lambda model, part: part)
+    cause = locker_before(-0.30, tmp_path, HINGED[0], -95).do("[OPEN, locker]").record.cause
+    assert cause is not None and cause.kind is CauseKind.BLOCKED
+    assert cause.objects == ("rack", "locker")

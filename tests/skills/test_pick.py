@@ -342,3 +342,19 @@ def test_two_walls_between_the_fingers_are_no_slip() -> None:
     assert record.cause is not None and record.cause.kind is CauseKind.NO_GRASP
     assert record.cause.objects == ("inner", "outer")
     assert episode(outer=wide).must("[PICK UP, outer] (vertical)").holding == "outer"
+
+
+@pytest.mark.parametrize("clearance", [0.18, 0.21, 0.24])
+@pytest.mark.parametrize("x", [0.41, 0.46])
+@pytest.mark.slow
+def test_a_level_hand_takes_a_thing_out_from_under_whatever_is_above_it(
+    x: float, clearance: float
+) -> None:
+    """The way it came in: there is no room to raise it."""
+    roof = {"kind": "box", "size": [0.16, 0.276, 0.012], "at": [0.46, 0.04, 0.166 + clearance],
+            "fixed": True}  # fmt: skip
+    bottle = {"kind": "cylinder", "diameter": 0.05, "height": 0.14, "mass": 0.15, "at": [x, 0.03]}
+    run = episode(roof=roof, bottle=bottle)
+    after = run.must("[PICK UP, bottle] (horizontal)")
+    assert after.holding == "bottle"
+    run.must("[PUT ON, desk] (at 0.340 -0.280)")

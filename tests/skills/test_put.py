@@ -512,3 +512,30 @@ def test_what_slips_its_last_centimetres_into_place_is_there() -> None:
     assert put_outcome(belief, action, slipped("lower"), after).effect
     assert not put_outcome(belief, action, slipped("lower"), before).effect
     assert not put_outcome(belief, action, slipped("transit"), after).effect
+
+
+@pytest.mark.parametrize("x", [0.28, 0.29])
+@pytest.mark.parametrize("height", [0.09, 0.10])
+@pytest.mark.slow
+def test_an_arm_that_meets_what_stands_before_a_front_bends_otherwise(
+    x: float, height: float
+) -> None:
+    """Next to how it stands after the can is up there, the forearm meets the chest."""
+    rack = {"kind": "shelf", "at": [0.40, 0.42], "yaw_deg": -90, "size": [0.18, 0.3, 0.2],
+            "boards": ["low", "top"]}  # fmt: skip
+    chest = UNIT | {"at": [0.58, -0.05], "yaw_deg": 180, "size": [0.2, 0.18, 0.12],
+                    "drawers": [{"name": "d", "travel": 0.12,
+                                 "handle": {"width": 0.07, "depth": 0.04}}]}  # fmt: skip
+    rod = {"kind": "cylinder"}
+    run = episode(
+        rack=rack, chest=chest,
+        vial=rod | {"at": [0.42, -0.26], "diameter": 0.035, "height": height, "mass": 0.05},
+        ball=BALL | {"at": [x, -0.10], "diameter": 0.05, "mass": 0.05},
+        can=rod | {"at": [0.40, 0.16], "diameter": 0.06, "height": 0.09, "mass": 0.2},
+        block={"kind": "box", "on": "rack.low", "at": [0.30, 0.42], "size": [0.06, 0.08, 0.08],
+               "mass": 0.1},
+    )  # fmt: skip
+    run.must("[PICK UP, can]", "[PUT ON, rack.top]", "[PICK UP, vial] (horizontal)")
+    after = run.must("[PUT ON, rack.low]")
+    assert after.states["vial"].on == ("rack.low",)
+    assert after.states["block"].on == ("rack.low",)

@@ -87,6 +87,19 @@ def test_fastened_things_that_fill_a_place_together_are_named() -> None:
     assert set(cause.objects) == {"one", "two", "held"}
 
 
+@pytest.mark.parametrize("open_deg", [80, 100])
+def test_what_is_too_tall_for_a_room_is_named_before_that(open_deg: float) -> None:
+    """An open door has no part in that, however far it is open."""
+    oven = OVEN | {"size": [0.25, 0.28, 0.2], "at": [0.6, 0.0], "yaw_deg": 180}
+    oven |= {"door": {"open_deg": open_deg}}
+    tall = {"kind": "cylinder", "diameter": 0.05, "height": 0.19, "mass": 0.2, "at": [0.33, -0.3]}
+    run = episode(held=tall, oven=oven)
+    run.must("[PICK UP, held] (horizontal)")
+    cause = run.do("[PUT INTO, oven] (upright)").record.cause
+    assert cause is not None and cause.kind is CauseKind.NO_ROOM
+    assert cause.objects == ("held", "oven"), cause
+
+
 OPEN_OVEN = OVEN | {"size": [0.25, 0.28, 0.28], "at": [0.6, 0.0], "yaw_deg": 180,
                     "door": {"open_deg": 100}}  # fmt: skip
 SMALL_CUP = CUP | {"diameter": 0.07}

@@ -35,8 +35,14 @@ def cause_of_failure(action: Action, record: RolloutRecord, harmed: Sequence[Har
 
 def cause_of_harm(action: Action, record: RolloutRecord, harmed: Sequence[Harm]) -> Cause:
     """The cause of a failure by harm alone: the action had its effect."""
-    worst = harmed[0]
-    times = [time for harm in harmed if (time := _first_touch(record, harm.name)) is not None]
+    worst, acted = harmed[0], acted_object(action, record)
+    times = [
+        time
+        for harm in harmed
+        # The hand has what it puts down from the start.
+        if (time := _first_touch(record, harm.name, ROBOT if harm.name == acted else frozenset()))
+        is not None
+    ]
     return Cause(
         worst.kind.cause,
         tuple(harm.name for harm in harmed),
@@ -143,12 +149,14 @@ def _struck_by(
     return sorted(hit, key=lambda name: -impulses[name])
 
 
-def _first_touch(record: RolloutRecord, name: str) -> float | None:
-    """When an object was first touched by anything but the desk or the floor."""
+def _first_touch(
+    record: RolloutRecord, name: str, excluding: frozenset[str] = frozenset()
+) -> float | None:
+    """When an object was first touched by anything but the desk or the floor [s]."""
     times = [
         contact.time_s
         for contact in record.contacts
-        if name in (pair := _owners(contact)) and not GROUND & set(pair)
+        if name in (pair := _owners(contact)) and not (GROUND | excluding) & set(pair)
     ]
     return min(times, default=None)
 

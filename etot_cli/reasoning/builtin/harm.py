@@ -10,12 +10,12 @@ import math
 from dataclasses import dataclass
 from enum import IntEnum
 
-from etot_cli.reasoning.builtin.effects import acted_object, carried_along
+from etot_cli.reasoning.builtin.effects import acted_object, carried_along, effect_holds
 from etot_cli.reasoning.builtin.relations import can_topple, contents, enclosing
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.carrying import carried_by
 from etot_cli.world.spatial import Nearby
-from etot_cli.world.state import CLOSED_AT, CauseKind, ObjectState, RolloutRecord, owner_of
+from etot_cli.world.state import CLOSED_AT, DESK, CauseKind, ObjectState, RolloutRecord, owner_of
 
 SHOVED = 0.03
 """An object that ends up further away than this has been disturbed [m]."""
@@ -115,7 +115,9 @@ def _harm(name: str, action: Action, record: RolloutRecord) -> HarmKind | None:
     acted = name == acted_object(action, record)
     if after.lost and not before.lost:
         return HarmKind.LOST
-    if info.movable and before.reachable and not after.reachable and not after.in_hand:
+    moved = acted or name in carried_along(action, record)
+    left_reach = info.movable and before.reachable and not after.reachable and not after.in_hand
+    if left_reach and not (moved and _is_wanted_there(action, record)):
         return HarmKind.STRANDED
     # What was put down may lie as it likes unless it has to hold something, and was not laid down.
     laid = any(where.relation is Nearby.LYING for where in action.where)
@@ -131,6 +133,15 @@ def _harm(name: str, action: Action, record: RolloutRecord) -> HarmKind | None:
     if _is_shoved(name, action, record):
         return HarmKind.SHOVED
     return HarmKind.PART_MOVED if _is_part_moved(name, action, record) else None
+
+
+def _is_wanted_there(action: Action, record: RolloutRecord) -> bool:
+    """Whether something was put where it was asked for: on or in an object, or at a place on the
+    desk. That is no harm, out of the arm's reach either; anywhere on the desk would have done.
+    """
+    asked = any(not where.relation.is_stance for where in action.where)
+    told = owner_of(action.target) != DESK or asked
+    return action.verb in PUTS and not action.safe and told and effect_holds(action, record)
 
 
 def _riders(action: Action, record: RolloutRecord) -> frozenset[str]:

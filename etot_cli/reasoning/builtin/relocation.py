@@ -20,7 +20,7 @@ from etot_cli.reasoning.builtin.revision import (
 )
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.protocol import FailedStep
-from etot_cli.skills.action import Action, Keepout, Verb
+from etot_cli.skills.action import Action, GraspPose, Keepout, Verb
 from etot_cli.world.state import DESK, PartInfo, SceneState, owner_of
 
 HAND_ROOM = 0.10
@@ -204,6 +204,9 @@ def opened_wider(failed: FailedStep, name: str) -> Iterator[Correction]:
     """The branch with a part opened all the way before the failed action, where that takes from or
     puts into what stands only partly open.
 
+    A drawer shows more of its room that way. Behind a door the room stays as it is, only the way
+    through the front becomes wider: that helps a level hand, and not what is too big itself.
+
     Args:
         failed: the failed step.
         name: the object whose part it is.
@@ -211,7 +214,13 @@ def opened_wider(failed: FailedStep, name: str) -> Iterator[Correction]:
     scene, actions = failed.record.before, failed.branch.actions
     target = actions[failed.index].target
     place = hand_free_at(actions, failed.index, failed.start)
+    cause = failed.verdict.cause or failed.record.cause
+    misfit = cause is not None and cause.objects[:1] == (scene.holding,)
+    picks = [action for action in actions[: failed.index + 1] if action.verb is Verb.PICK_UP]
+    level = bool(picks) and picks[-1].pose is GraspPose.HORIZONTAL
     for part in scene.infos[name].parts:
+        if part.front and (misfit or not level):
+            continue
         thing = owner_of(target)
         within = thing in scene.states and is_inside(scene, thing, part.address)
         wider = Action(Verb.OPEN, part.address)

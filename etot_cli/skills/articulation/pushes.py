@@ -97,7 +97,8 @@ def pushes(travel: PartTravel, face: Face) -> list[Push]:
     error, owner = travel.belief.world.scene.perception, travel.belief.object_pose(travel.owner)
     part = travel.at(travel.value)
     ranked: list[tuple[float, Push]] = []
-    for place, point, below in contact_points(travel.part, face):
+    anchor = travel.belief.world.model.joint(travel.part.joint).pos
+    for place, point, below in contact_points(travel.part, face, anchor):
         lever = float(np.linalg.norm(part.position + part.rotation @ point - owner.position))
         gap = error.position_m + lever * math.radians(error.yaw_deg)
         gap = min(max(gap, FACE_GAP), WIDEST_GAP)
@@ -111,9 +112,9 @@ def pushes(travel: PartTravel, face: Face) -> list[Push]:
     return [push for _, push in sorted(ranked, key=lambda item: item[0])]
 
 
-def contact_points(part: Part, face: Face) -> Iterator[tuple[int, Vector, float]]:
+def contact_points(part: Part, face: Face, anchor: Vector) -> Iterator[tuple[int, Vector, float]]:
     """Contact points on a face: rank, where (3,), part frame, and how far below the upper edge [m];
-    along the width, near the upper edge and at mid height.
+    along the width, from a hinge's ``anchor`` (3,) on, near the upper edge and at mid height.
     """
     center, u, v = (np.array(item) for item in (face.center, face.half_u, face.half_v))
     if abs(u[2]) > abs(v[2]):
@@ -122,7 +123,7 @@ def contact_points(part: Part, face: Face) -> Iterator[tuple[int, Vector, float]
     height = float(np.linalg.norm(v))
     depths = [min(depth, height) for depth in (*EDGE_DEPTHS, height)]
     if part.info.joint_type == "hinge":
-        hinge = min((center - u, center + u), key=lambda end: float(np.linalg.norm(end)))
+        hinge = min((center - u, center + u), key=lambda e: float(np.linalg.norm(e - anchor)))
         columns = [hinge + (center - hinge) * 2 * share for share in SHARES]
     else:
         columns = [center + u * share for share in SIDE_SHARES]

@@ -153,6 +153,7 @@ class PartSearch:
             self.has_hold = self.has_hold or hold.contact.grip or not shut
             if not hold.met.free:
                 hindered.append(hold)
+                self._seen.update(hold.met.others)
                 continue
             if not left[hold.contact.grip]:
                 continue
@@ -187,12 +188,10 @@ class PartSearch:
                 for _ in self._followed(hold):
                     pass
             if not self.hindrances.blamed():
-                self._look_without(self._met(hindered))
+                self._look_without(self._met())
 
-    def _met(self, hindered: Iterable[_Hold]) -> list[str]:
+    def _met(self) -> list[str]:
         """What hands or arm met, the most frequent first, what is fastened behind all else."""
-        for hold in hindered:
-            self._seen.update(hold.met.others)
         entries = self._belief.world.entries
         met = [name for name, _ in self._seen.most_common()]
         return sorted(met, key=lambda name: not entries[name].info.movable)
@@ -345,6 +344,7 @@ class PartSearch:
                 falling=self._balance is not None,
             )
             second = next(after.moves(in_two=False, explain=False), None)
+            self._seen.update(after._seen)
             if second is not None:
                 yield replace(move, then=second)
 

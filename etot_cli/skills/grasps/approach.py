@@ -157,29 +157,30 @@ def _lift(
     belief: Belief, name: str, grasp: Grasp, joints: Vector, blockers: Blockers
 ) -> tuple[Vector, float] | None:
     """Joint values of the way up with the object and its length [m], or None when it would hit
-    something. From under a roof a level hand takes the object out through the front: raised inside
-    it would come to stand between floor and roof, with no way to anywhere.
+    something. From under whatever is above it a level hand takes the object out the way it came in,
+    and through a front in any case: raised inside it would come to stand between floor and roof,
+    with no way to anywhere.
     """
     checker = belief.checker
     checker.set_fingers(min(grasp.width, grasp.opening))
     approach = grasp.tool.rotation[:, 2]
     try:
-        if abs(approach[2]) < LEVEL and _is_roofed(belief, name):
-            raised = grasp.tool.moved(CLEAR * UP)
-            for length in OUT_LENGTHS:
-                outside = raised.moved(-length * approach)
-                out = [*straight(grasp.tool, raised), *straight(raised, outside)]
-                path = _carried(belief, name, grasp, out, joints, blockers, thorough=True)
+        level = abs(approach[2]) < LEVEL
+        if not level or not _is_roofed(belief, name):
+            # Partly under an edge it comes out the way that a slanting hand went in.
+            slants = LEVEL < -approach[2] < 1 - 1e-3
+            for direction in (UP, -approach) if slants else (UP,):
+                way = straight(grasp.tool, grasp.tool.moved(LIFT * direction))
+                path = _carried(belief, name, grasp, way, joints, blockers, thorough=False)
                 if path is not None:
-                    return path, CLEAR + length
-            return None
-        # Partly under an edge it comes out the way that a slanting hand went in.
-        slants = LEVEL < -approach[2] < 1 - 1e-3
-        for direction in (UP, -approach) if slants else (UP,):
-            way = straight(grasp.tool, grasp.tool.moved(LIFT * direction))
-            path = _carried(belief, name, grasp, way, joints, blockers, thorough=False)
+                    return path, LIFT
+        raised = grasp.tool.moved(CLEAR * UP)
+        for length in OUT_LENGTHS if level else ():
+            outside = raised.moved(-length * approach)
+            out = [*straight(grasp.tool, raised), *straight(raised, outside)]
+            path = _carried(belief, name, grasp, out, joints, blockers, thorough=True)
             if path is not None:
-                return path, LIFT
+                return path, CLEAR + length
         return None
     finally:
         checker.freeze(belief.data)

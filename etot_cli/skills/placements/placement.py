@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.motion.collision import HandPart
 from etot_cli.skills.outcome import Blockers
 from etot_cli.skills.placements.judging import SHORT_DROP, Quality, Request
 from etot_cli.skills.placements.places import Place, PlaceFinder
@@ -218,25 +219,41 @@ class _Way:
         checker, arm = belief.checker, belief.arm
         checker.set_fingers(belief.opening)
         tool = self._target @ attached.in_tool.inverse()
-        inside = arm.reach(tool, belief.commanded)
-        self.reached = inside.reached
-        if not inside.reached or self._is_hit(inside.joints, self._bearers):
-            return None
         low, high = checker.extent(attached.name, self._target.rotation)
         out = np.array([*support.axes[0], 0.0])
         depth = float(support.local(self._target.position[None, :2])[0, 0])
         length = support.front - depth - float(np.minimum(low * out, high * out).sum()) + OUTSIDE
-        for higher in (ENTRY_HIGHER, 0.0):
-            poses = straight(tool, tool.moved(out * length + UP * higher), LOWER_STEP)
-            path, count = arm.line(poses, inside.joints)
-            self.reached = count == len(poses)
-            if not self.reached or any(self._is_hit(row, self._bearers) for row in path):
+        for inside in self._bends(tool):
+            if self._is_hit(inside, self._bearers):
+                self.reached = True
                 continue
-            release = self._widest_release([inside.joints, *path], CLEARANCE)
-            if release is not None:
-                down = np.vstack([path[-2::-1], inside.joints])
-                return Placement(path[-1], down, path, release, 0.0, length)
+            for higher in (ENTRY_HIGHER, 0.0):
+                poses = straight(tool, tool.moved(out * length + UP * higher), LOWER_STEP)
+                path, count = arm.line(poses, inside)
+                if count < len(poses):
+                    continue
+                self.reached = True
+                if any(self._is_hit(row, self._bearers) for row in path):
+                    continue
+                release = self._widest_release([inside, *path], CLEARANCE)
+                if release is not None:
+                    down = np.vstack([path[-2::-1], inside])
+                    return Placement(path[-1], down, path, release, 0.0, length)
         return None
+
+    def _bends(self, tool: Pose) -> Iterator[Vector]:
+        """Joint values (n,) at a tool pose: those next to where the arm is; then, where only the
+        arm met something and not the hand, bent otherwise: so it may pass beside what stands before
+        a front.
+        """
+        belief, arm = self._belief, self._belief.arm
+        nearest = arm.reach(tool, belief.commanded)
+        if not nearest.reached:
+            return
+        yield nearest.joints
+        hits = belief.checker.hand_hits(tool, clearance=CLEARANCE, part=HandPart.ALL)
+        if not {*map(owner_of, hits)} - {self._attached.name}:
+            yield from arm.solutions(tool, belief.commanded)
 
     def _is_hit(self, joints: Vector, touching: set[str]) -> bool:
         hits = self._belief.checker.hits(

@@ -79,7 +79,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         )
     return failed(
         CauseKind.NO_ROOM,
-        [*owner, name],
+        [name, *owner],
         f"{name} does not fit {_preposition(request)} {address}",
     )
 
