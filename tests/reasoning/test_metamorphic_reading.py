@@ -84,7 +84,9 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
 @pytest.mark.parametrize(("name", "text"), sample(11))
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
-    framed = r"(?i)(i |i'\w+ |could|would|the |my |there\b|some(one|body) |(you )?see |time |"
+    framed = (
+        r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body) |(you )?see |time |"
+    )
     framed += (
         r"don't|never|hi\b|1\.|one (more|last) |moved |tower |(\w+ )?\w+: |right, |\w+, \w+\. )"
     )
