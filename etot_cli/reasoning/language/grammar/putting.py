@@ -208,7 +208,7 @@ PUT = either(
     sequence(
         either(
             sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}"),
-            sequence(verbs.WANTED, ALL_THINGS),
+            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.DONE)),
         ),
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),

@@ -153,6 +153,8 @@ TAKEN_AWAY = """
     (taken|lifted|got|gotten|brought) (off|down)
 """
 TAKEN_FROM = "taken, lifted, pulled, moved, cleared, brought, got, gotten"
+BEING_TAKEN = ("taken", "removed", "lifted", "pulled", "moved", "brought", "picked", "fetched")
+"""After these "put" is said of the same thing, in the passive."""
 TAKEN_UP = "picked up, lifted up, grabbed, fetched, retrieved, collected"
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
