@@ -8,7 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
@@ -183,8 +183,10 @@ WITHOUT = sequence(
     ),
 )
 KEEP_OUT = sequence(
-    verbs.KEEP,
-    THINGS,
+    either(
+        sequence(verbs.KEEP, THINGS),
+        sequence(optional(verbs.ENSURE), ALL_THINGS, verbs.STAY_OUT),
+    ),
     either(phrase("out of", Toward.INSIDE), phrase("off [of]", Toward.ON)),
     NP_LIST,
     build=lambda things, toward, nps: AvoidClause(

@@ -192,6 +192,7 @@ NOT_BE = """
     (should|must|shall|may|can|had better) (not|no longer)
     (be|stay|remain|go|lie|stand|(end|finish|wind) up|get)
     [left|kept|put|lying|standing|sitting|placed],
+    (is|are) not to (be|go|stay|lie|stand|end up) [left|kept|put|placed],
     (does|do) not (belong|go)
 """
 TAKEN_BY = "(is|are) [already|currently|now] (taken|occupied|used|filled|in use) by"
@@ -209,6 +210,8 @@ CONTAINED = """
 """
 """Between a vessel and what is to be in it."""
 STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
+STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
+"""Before what something is never to be in or on."""
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
 FALL = "(fall|roll|slip|slide|tumble|drop) [down]"
 NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"
