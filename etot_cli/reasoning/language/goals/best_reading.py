@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from dataclasses import replace
 
@@ -26,13 +27,20 @@ from etot_cli.reasoning.language.goals.plausibility import (
 )
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
-from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import PickClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
+from etot_cli.reasoning.language.grammar.trees import nodes
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.reasoning.protocol import ReasonerStopped
 
 MAX_COMPARED = 6
 """Different goals of one sentence that are compared; more are too many to name."""
+
+
+_APPOSED = re.compile(r", the (?:\w+ ){0,2}ones?\b")
+"""Behind a place, of what goes there or of the place."""
 
 
 def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
@@ -46,6 +54,7 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
     found: dict[Goal, Understanding] = {}
     cost, undecided = -1, 0
     unclear: AmbiguousReference | None = None
+    open_to: dict[str, int] = {}
     for reading, simplicity in zip(sentence.readings, sentence.costs, strict=True):
         odd = all(taken_up_again(item.timed) for item in found.values())
         if found and simplicity > cost and not undecided and not odd:
@@ -65,6 +74,8 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
                 problem, blame = error, error.weight - simplicity
             continue
         meaning = _meaning(goal)
+        if found and any(_told_of(text, reading) > told for text, told in open_to.items()):
+            found, cost = {}, simplicity
         if found and odd and not taken_up_again(attempt.timed):
             found, cost = {}, simplicity  # "the cup on the left, lift it"
         if found and simplicity > cost:
@@ -74,6 +85,11 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
             continue
         cost = simplicity
         found.setdefault(meaning, attempt)
+        discourse = attempt.context.discourse
+        if _APPOSED.search(sentence.text):
+            # "Put the can on the tray, the one by the box" tells which can, where there is one tray
+            texts = (discourse.referents[index].text for index in discourse.undecided)
+            open_to = {text: _told_of(text, reading) for text in texts}
         undecided = min(len(item.context.discourse.undecided) for item in found.values())
         if len(found) > MAX_COMPARED:
             raise ReferenceProblem(sentence.text, "it can be read in too many ways", 4)
@@ -94,6 +110,13 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
     if len(found) == 1:
         return next(iter(found.values()))
     return _only_one_that_asks(state, sentence, found)
+
+
+def _told_of(text: str, reading: tuple[Spoken, ...]) -> int:
+    """How much a reading takes to be said, behind the place, of what some words name."""
+    named = (np for np in nodes(reading) if isinstance(np, NounPhrase) and np.text == text)
+    out = (Prep.EXCEPT, Prep.CONTRAST)
+    return max((sum(m.prep not in out for m in np.modifiers) for np in named), default=0)
 
 
 def _only_one_that_asks(

@@ -10,8 +10,14 @@ from etot_cli.reasoning.builtin.goal import Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    AvoidClause,
+    EnsureClause,
+    PutClause,
+    PutGroup,
+)
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import carries, touches
 from etot_cli.reasoning.language.words.known import REASONS
@@ -95,7 +101,12 @@ def where_is(
     steps = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
     moved = {index: step.places for step in steps for index in step.what}
     said = range(len(context.discourse.referents)) if pronoun else ()
-    still = [index for index in said if index not in moved]
+    # "Leave the apple where it is and put the lemon with it"
+    spared = context.discourse.left_alone if isinstance(context.last, AvoidClause) else set()
+    still = [index for index in said if index not in moved and index not in spared]
+    if pronoun and spared and (went := [i for i in moved if i not in spared and i not in themes]):
+        meant = [context.discourse.referents[i].text for i in (*went, *sorted(spared))]
+        raise AmbiguousReference(where.targets[0].text, meant)
     when = where.word.split()[-1]
     own: tuple[Place, ...] = ()
     lent = "where" in where.word.split()[:2]
@@ -111,7 +122,7 @@ def where_is(
         return when in WAS_THERE or moved_on
 
     def at(index: int) -> tuple[Place, ...]:
-        if pronoun:
+        if pronoun and index not in spared:
             return moved.get(index, ())
         if is_moved(index) and not was(index) and moved.get(index) != own:
             return ()

@@ -34,7 +34,9 @@ def rule_out_things(context: Context, clause: AvoidClause) -> None:
     indices = _whatever(context, clause) or context.phrases.things(
         clause.things, Role.THEME, before
     )
+    below = context.discourse.last_places
     places = rule_out(context, indices, clause.destinations, left=clause.not_left)
+    _rule_out_below(context, clause.destinations, places, below)
     context.discourse.last_places = places
     where = context.discourse.things(*(p.where for p in places if p.where is not None))
     marks = [thing for thing in where if thing.name != DESK]
@@ -51,6 +53,29 @@ def rule_out_things(context: Context, clause: AvoidClause) -> None:
             add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
         if known and not whole and at not in context.discourse.put:
             _speak_of_those_there(context, at, taken, where)
+
+
+def _rule_out_below(
+    context: Context,
+    destinations: Sequence[Destination],
+    found: Sequence[Place],
+    below: Sequence[Place],
+) -> None:
+    """After "put the cup on the tray" what must stay "off it" goes neither on the cup, if "it" is
+    that, nor on the tray.
+    """
+    it = all(np.pronoun == "it" for item in destinations for np in item.targets)
+    upon = [item.relation is Relation.ON and item.where in context.discourse.put for item in found]
+    marks = (p.where for p in below if p.relation is Relation.ON and p.where is not None)
+    things = [thing for thing in context.discourse.things(*marks) if thing.name != DESK]
+    if not (it and found and all(upon) and things and context.constraints):
+        return
+    last = context.constraints[-1]
+    also = tuple((Relation.ON, thing.address) for thing in things)
+    context.constraints[-1] = replace(last, places=(*last.places, *also))
+    context.discourse.notes.append(
+        f"'it': {' or '.join(address for _, address in context.constraints[-1].places)}"
+    )
 
 
 def _speak_of_those_there(

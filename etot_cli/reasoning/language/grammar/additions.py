@@ -85,7 +85,14 @@ EXTRA = sequence(
             either(
                 sequence(phrase("all, both"), either("of them", at_end)),
                 sequence(phrase(nouns.ALL_SO_MANY), optional("of them")),
-                one_of({"each of the": "each of them", "every one of the": "every one [of them]"}),
+                sequence(phrase(nouns.THE_SO_MANY), "of them"),
+                one_of(
+                    {
+                        "all of it": "all of it, the whole lot [of it]",
+                        "each of the": "each of them",
+                        "every one of the": "every [single|last] one [of them]",
+                    }
+                ),
             ),
             build=lambda said: ("whole", said),
         ),

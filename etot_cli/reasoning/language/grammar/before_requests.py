@@ -73,6 +73,7 @@ from etot_cli.reasoning.language.grammar.prohibitions import (
 )
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
+from etot_cli.reasoning.language.grammar.reaching import SEPARATING
 from etot_cli.reasoning.language.grammar.states import ENSURE, STATE
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
@@ -240,7 +241,7 @@ WITH_MORE_BEFORE_IT = either(
     ),
     _TOLD_BEHIND,
     sequence(_TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
-    sequence(plain(either(MAKING_ROOM, FREEING)), "by", CHAIN, build=add),
+    sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by", CHAIN, build=add),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),

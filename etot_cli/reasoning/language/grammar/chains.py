@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.common import (
     after,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.doubles import so_in_turn
 from etot_cli.reasoning.language.grammar.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so, timed
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, begins_like_a_verb
@@ -22,6 +23,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
     optional,
+    phrase,
     remembered,
     sequence,
     some,
@@ -151,6 +153,7 @@ JOINED = either(
     ),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(IS_EMPTY)),
     joint("and", COMMA, timed(_SO)),
+    joint("and", COMMA, so_in_turn(phrase("which", (NounPhrase(pronoun="it", text="which"),)))),
     joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     joint(
         "then",

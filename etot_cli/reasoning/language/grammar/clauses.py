@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.common import (
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doubles import (
     BOTH_WAYS,
+    IN_TURN,
     NEITHER,
     ONLY_THESE,
     SIDE_BY_SIDE,
@@ -59,6 +60,7 @@ from etot_cli.reasoning.language.grammar.prohibitions import (
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
 from etot_cli.reasoning.language.grammar.putting import FLANKED, PUT
+from etot_cli.reasoning.language.grammar.reaching import REACHED
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import ENSURE
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -167,7 +169,7 @@ _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
         *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, HOLD, WISHED, TOLD_APART, BOTH_SO),
-        *(SPREAD, REVERSED, ONLY_THESE_MAY, GRASP),
+        *(SPREAD, REVERSED, ONLY_THESE_MAY, GRASP, REACHED),
     )
 )
 
@@ -306,7 +308,7 @@ LED_CLAUSE = Rule(
         variants(sequence(LEAD, CLAUSE), _spoken),
         sequence(
             LEAD,
-            either(BOTH_WAYS, ONLY_THESE),
+            either(BOTH_WAYS, ONLY_THESE, IN_TURN),
             build=lambda orders, said: None if orders else said,
         ),
         plain(

@@ -37,6 +37,16 @@ def after(*said: str) -> Parser:
     return Parser(lambda given, at: [(at, NOTHING)] if {*said} & {*given.words[:at]} else [])
 
 
+def not_ahead(*words: str) -> Parser:
+    """Nothing, where none of some words comes next."""
+    return Parser(lambda given, at: [] if given.ahead[at] in words else [(at, NOTHING)])
+
+
+def not_after(*said: str) -> Parser:
+    """Nothing, where none of some words was said before."""
+    return Parser(lambda given, at: [] if {*said} & {*given.words[:at]} else [(at, NOTHING)])
+
+
 THEN = either(
     small_words.THEN_JOINTS, sequence(after("first", "firstly"), small_words.COUNTED_JOINTS)
 )

@@ -66,12 +66,14 @@ def told_together(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
     return tuple(replace(np, modifiers=last.modifiers) for np in nps)
 
 
-_QUANTITIES = {"both": "both", "all": "all the", "each": "each of the"}
+_QUANTITIES = {"both": "both", "all": "all the", "all of it": "all the", "each": "each of the"}
 
 
 def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     """All of them, as a word beside the verb says."""
     (first, *more) = nps
+    if said == "all of it" and not first.may_be_much:
+        return nps  # one cup is not all of it
     several = not first.determiner and singular(first.head) != first.head  # "pens, all of them"
     if said and not more and (several or first.determiner in THE_WORDS):
         return (replace(first, determiner=_QUANTITIES.get(said, said)),)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
     either,
     located,
     one_of,
@@ -18,7 +19,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import ENSURE
+from etot_cli.reasoning.language.grammar.states import ENSURE, OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
@@ -93,6 +94,46 @@ BOTH_WAYS = located(
     ),
     lambda at, ways: (Spoken(ways[0], at), Spoken(ways[1], at, Order.THEN)),
 )
+
+
+_AGAIN = "[back] again, [back] up"
+
+
+def so_in_turn(subject: Parser) -> Parser:
+    """What is to be open, or closed, at first and the opposite afterwards."""
+    first, then = (
+        either(
+            sequence(said, OPEN_OR_CLOSED),
+            one_of({"open": f"{need}opening", "closed": f"{need}(closing|shutting)"}),
+        )
+        for said, need in ((verbs.MODAL, "need[s] "), (optional(f"{verbs.MODAL}, be"), ""))
+    )
+    return located(
+        sequence(
+            subject,
+            first,
+            either(
+                sequence(phrase(small_words.TRAILING_FIRST, Order.FIRST), LIST, optional("then")),
+                sequence(OPTIONAL_COMMA, phrase("[and] then", Order.SAID)),
+            ),
+            then,
+            optional(_AGAIN),
+            optional(small_words.TRAILING_THEN),
+            build=_so_in_turn,
+        ),
+        lambda at, said: tuple(Spoken(clause, at, order) for clause, order in said),
+    )
+
+
+def _so_in_turn(
+    nps: tuple[NounPhrase, ...], first: str, order: Order, then: str
+) -> tuple[tuple[Clause, Order], ...] | None:
+    ways = ((first, order), (then, Order.THEN))
+    so = tuple((EnsureClause((State(nps, word=word),)), when) for word, when in ways)
+    return so if first != then else None
+
+
+IN_TURN = so_in_turn(NP_LIST)
 
 
 def _side_by_side(clause: Clause) -> Clause | None:

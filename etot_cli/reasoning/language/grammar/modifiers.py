@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     after,
     exceptions,
+    not_ahead,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.contents import CONTENTS
@@ -224,9 +225,16 @@ APPOSED = either(
     sequence(
         # "The lamp, the one on the left, …"
         "~comma the (one|ones)",
-        optional(nouns.RELATIVE),
+        optional(f"{nouns.RELATIVE}, already, still, now"),
         DESCRIBED,
         either(COMMA, at_end),
+    ),
+    sequence(
+        "~comma the (one|ones)",
+        nouns.RELATIVE_NOT,
+        DESCRIBED,
+        either(COMMA, at_end),
+        build=_denied,
     ),
     sequence(LIST_COMMA, "the", QUALITY, "one, ones", either(COMMA, at_end)),
 )
@@ -259,6 +267,13 @@ _modifier = either(
         either(COMMA, at_end),
     ),
     APPOSED,
+    sequence(
+        # "The bottle farther away"
+        phrase("farther, further, farthest, furthest"),
+        "away",
+        not_ahead("from"),
+        build=lambda far: Modifier(Prep.QUALITY, words=(far,)),
+    ),
     sequence(
         nouns.RELATIVE_NOT,
         either(DESCRIBED, _none_of),

@@ -15,7 +15,7 @@ from etot_cli.reasoning.language.grammar.instruments import (
     WITH_IT,
     with_it,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
@@ -204,8 +204,10 @@ WITHOUT = sequence(
     ),
 )
 KEEP_OUT = sequence(
-    verbs.KEEP,
-    THINGS,
+    either(
+        sequence(verbs.KEEP, THINGS),
+        sequence(optional(verbs.ENSURE), ALL_THINGS, verbs.STAY_OUT),
+    ),
     either(phrase("out of", Toward.INSIDE), phrase("off [of]", Toward.ON)),
     NP_LIST,
     build=lambda things, toward, nps: AvoidClause(

@@ -80,6 +80,10 @@ from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
+_GOING = either(
+    sequence(ALL_THINGS, verbs.MODAL),
+    sequence(verbs.WANTED, ALL_THINGS, f"{verbs.DONE}, to (go|be)"),
+)
 _STACKS = frozenset(spellings(nouns.STACK))
 DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
@@ -169,6 +173,12 @@ def _to_others(things: Things, said: str, others: tuple[NounPhrase, ...]) -> Put
     return replace(put_to(things, (where,)), far_fetched=2) if told else None
 
 
+def _in_after(things: Things, said: str) -> PutClause:
+    """Where what was spoken of went."""
+    np = NounPhrase(pronoun=said.split()[-1], text=said.split()[-1])
+    return put_to(things, (Destination(Toward.WITH, (np,), said),))
+
+
 def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
     return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
 
@@ -211,7 +221,7 @@ PUT = either(
     sequence(
         either(
             sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}"),
-            sequence(verbs.WANTED, ALL_THINGS),
+            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.DONE)),
         ),
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
@@ -280,17 +290,17 @@ PUT = either(
             either(
                 sequence(verbs.SET_DOWN, THINGS, phrase("with, together with, in with")),
                 sequence(verbs.THROW, THINGS, phrase("in with")),
-                sequence(
-                    either(
-                        sequence(ALL_THINGS, verbs.MODAL),
-                        sequence(verbs.WANTED, ALL_THINGS, f"{verbs.DONE}, to (go|be)"),
-                    ),
-                    phrase("with, together with, in with"),
-                ),
+                sequence(_GOING, phrase("with, together with, in with")),
             ),
             NP_LIST,
             build=_beside_others,
         )
+    ),
+    sequence(
+        # "Drop the small ball in after it"
+        either(sequence(f"{verbs.SET_DOWN}, {verbs.THROW}", THINGS), _GOING),
+        phrase("in (after|behind|along with) (it|them)"),
+        build=_in_after,
     ),
     quiet(
         sequence(

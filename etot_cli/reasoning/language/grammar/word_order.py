@@ -12,7 +12,13 @@ from etot_cli.reasoning.language.grammar.additions import (
     GROUPING,
     put_of,
 )
-from etot_cli.reasoning.language.grammar.common import COLON, COMMA, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.common import (
+    COLON,
+    COMMA,
+    OPTIONAL_COMMA,
+    not_after,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
 )
@@ -75,7 +81,8 @@ def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> Put
 FRONTED = quiet(
     sequence(
         either(
-            sequence(verbs.PUT, DESTINATIONS),
+            # "The pen is to be taken out and put in the cup" puts no cup in there.
+            sequence(not_after(*verbs.BEING_TAKEN), verbs.PUT, DESTINATIONS),
             sequence(DESTINATIONS, OPTIONAL_COMMA, either(verbs.PUT, "go[es], belong[s]")),
         ),
         NP_LIST,

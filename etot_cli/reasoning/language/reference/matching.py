@@ -141,6 +141,7 @@ def match_words(
         )
     elif grades == {GENERIC} and singular(head) != head:
         pools.insert(0, vocabulary.of_category(head))  # plates are dishes, too, beside a bowl
+    pools.append(vocabulary.open_vessels(adjectives, head))
     for pool in pools:
         found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
         if found is not None and found.plural and len(found.entries) == 1:

@@ -144,18 +144,19 @@ class Meanings(LentNouns):
         return of_spoken_owner(spoken_part(resolved, discourse, own_name=upon), discourse)
 
     def _told_otherwise(self, phrase: NounPhrase, role: Role) -> Resolved:
-        """What "the other battery, the one in the drawer" is told by, of several batteries.
+        """What "the other battery, the one in the drawer" is told by, of several batteries, or "the
+        other mug, not the red one" by what it is not, of two.
 
         Raises:
             ReferenceProblem: it is not.
         """
         resolved = self.resolved_as(replace(phrase, determiner="the"), role, None)
         every = replace(phrase, determiner="all", modifiers=())
-        several = len(things_in(self.resolved_as(every, role, None).options)) > 1
-        spared = any(item.prep in (Prep.EXCEPT, Prep.CONTRAST) for item in phrase.modifiers)
-        if not (
-            phrase.modifiers and several and not spared and [*map(len, resolved.options)] == [1]
-        ):
+        count = len(things_in(self.resolved_as(every, role, None).options))
+        told_by = {item.prep for item in phrase.modifiers}
+        several = count == 2 if Prep.CONTRAST in told_by else count > 1
+        known = told_by and Prep.EXCEPT not in told_by and [*map(len, resolved.options)] == [1]
+        if not (several and known):
             raise ReferenceProblem(phrase.text, UNCLEAR)
         return resolved
 

@@ -85,8 +85,11 @@ def _is_lent(modifier: Modifier) -> bool:
 
 
 def _sides_of(modifiers: Sequence[Modifier]) -> tuple[str, ...]:
-    """Words for the sides of others that a thing is on ("the cup to the left of the plate")."""
-    return tuple(m.prep.value for m in modifiers if m.prep.value in SIDES and m.phrases)
+    """Words for the sides of others that a thing is on ("the cup to the left of the plate"); near
+    and far from the robot things are anyway.
+    """
+    told = (m for m in modifiers if m.prep.value in SIDES and m.phrases)
+    return tuple(m.prep.value for m in told if not all(map(is_robot, m.phrases)))
 
 
 class Resolver:

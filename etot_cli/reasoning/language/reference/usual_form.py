@@ -143,6 +143,10 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             # Of two open drawers the lower one may be the middle one of three.
             told, modifiers = told[:-1], (Modifier(Prep.SIDE, words=(LEVELS[one],)), *modifiers)
         return replace(phrase, words=(*told, *noun), modifiers=modifiers, among=among)
+    if told != phrase.words and is_descriptive(one) and singular(whole.head) != whole.head:
+        # "The blue one of the pill boxes", after which "the white one" is one of these, too
+        noun = (*whole.words[:-1], whole.head if last == "ones" else singular(whole.head))
+        return replace(phrase, words=(*told, *noun))
     return phrase
 
 

@@ -35,10 +35,12 @@ from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
     MATERIALS,
     NUMBERS,
+    OPEN_VESSELS,
     PURPOSES,
     RUBBISH,
     STATES,
     TWINS,
+    basic_color,
     is_descriptive,
     is_general_noun,
     matches_any,
@@ -175,6 +177,18 @@ class Vocabulary:
         return [
             replace(entry, generic=(), content=(*entry.content, singular(noun))) for entry in found
         ]
+
+    def open_vessels(self, adjectives: Sequence[str], noun: str) -> list[Entry]:
+        """Entries of vessels that a colour tells where none is called by the noun that is another
+        name for their like ("the green bin" of a green crate), with it as a noun of theirs.
+        """
+        vessels = [e for e in self.objects if e.info and e.info.container and e.info.movable]
+        called = any(entry.grade(noun) in (EXACT, HEAD) for entry in vessels)
+        colored = any(basic_color(word) for word in adjectives)
+        if called or not colored or singular(noun) not in OPEN_VESSELS:
+            return []
+        alike = [e for e in vessels if OPEN_VESSELS & {*map(singular, e.heads)}]
+        return [replace(entry, generic=(*entry.generic, singular(noun))) for entry in alike]
 
     def called_after(
         self, things: Sequence[Thing], owners: Collection[Thing], said: Sequence[str]

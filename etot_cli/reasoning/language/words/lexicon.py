@@ -70,7 +70,8 @@ TWINS: tuple[tuple[str, ...], ...] = (
 )  # fmt: skip
 """Everyday names of one and the same thing, in whichever English."""
 SORTS: dict[str, str] = {
-    **dict.fromkeys(("textbook", "schoolbook", "storybook", "cookbook", "paperback"), "book"),
+    **dict.fromkeys(("textbook", "schoolbook", "storybook", "cookbook", "novel"), "book"),
+    **dict.fromkeys(("hardback", "hardcover", "thriller", "dictionary", "encyclopedia"), "book"),
     **dict.fromkeys(("teaspoon", "tablespoon", "soupspoon", "dessertspoon"), "spoon"),
     **dict.fromkeys(("penknife", "pocketknife"), "knife"), "wineglass": "glass", "saucepan": "pan",
     **dict.fromkeys(("teapot", "flowerpot"), "pot"), "handbag": "bag", "paperback": "book",
@@ -153,6 +154,8 @@ LIDS = word_set("lid cover cap")
 """What lies loose on what it closes."""
 LIDDED = word_set("chest box trunk case crate bin coffer cooler hamper container basket")
 """Names of furniture whose door people call its lid."""
+OPEN_VESSELS = word_set("bin crate box basket tub tote hamper caddy container carton bucket pail")
+"""Names of open vessels, of which people use one for another."""
 CONTAINER_NOUNS = ("container", "receptacle", "vessel")
 """Nouns for anything that things can be put into; a vessel is no furniture."""
 THING_NOUNS = (

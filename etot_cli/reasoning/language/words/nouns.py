@@ -29,6 +29,7 @@ DETERMINERS = f"""
     whichever, any
 """
 ALL_SO_MANY = f"all ({_COUNT})"
+THE_SO_MANY = f"the ({_COUNT})"
 GENERAL_NOUNS = """
     everything, anything, something, everything else, all else, the (rest|others|other ones),
     all (others|the others|the rest)

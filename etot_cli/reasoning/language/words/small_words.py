@@ -23,7 +23,8 @@ WITHOUT_MEANING = f"""
     immediately, right away, right now, for me, fully, completely, all the way, wide, there after,
     one (by one|after the other|after another), one at a time, in the process, if you please,
     (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
-    pls, plz, thx, (would|will|could|can) you, any way you like, at the moment, at present, for now,
+    pls, plz, thx, ty, lol, haha, hehe, btw, fyi, (would|will|could|can) you, any way you like,
+    at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
     [and] that is (it|all|everything),
@@ -281,4 +282,6 @@ LOOK_FOR = """
     find, locate, look (for|at), search for, identify, choose, select, approach, reach for,
     (go|move|drive|walk|navigate) [over] (to|towards)
 """
+REACH = "reach[ing], look[ing], go[ing]"
+"""Before what something is taken out of."""
 SO_THAT = "so that, such that, so, in such a way that"

@@ -154,6 +154,8 @@ TAKEN_AWAY = """
     (taken|lifted|got|gotten|brought) (off|down)
 """
 TAKEN_FROM = "taken, lifted, pulled, moved, cleared, brought, got, gotten"
+BEING_TAKEN = ("taken", "removed", "lifted", "pulled", "moved", "brought", "picked", "fetched")
+"""After these "put" is said of the same thing, in the passive."""
 TAKEN_UP = "picked up, lifted up, grabbed, fetched, retrieved, collected"
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
@@ -191,6 +193,7 @@ NOT_BE = """
     (should|must|shall|may|can|had better) (not|no longer)
     (be|stay|remain|go|lie|stand|(end|finish|wind) up|get)
     [left|kept|put|lying|standing|sitting|placed],
+    (is|are) not to (be|go|stay|lie|stand|end up) [left|kept|put|placed],
     (does|do) not (belong|go)
 """
 TAKEN_BY = "(is|are) [already|currently|now] (taken|occupied|used|filled|in use) by"
@@ -213,6 +216,8 @@ CONTAINED = """
 """
 """Between a vessel and what is to be in it."""
 STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
+STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
+"""Before what something is never to be in or on."""
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
 FALL = "(fall|roll|slip|slide|tumble|drop) [down]"
 NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"

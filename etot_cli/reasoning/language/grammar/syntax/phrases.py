@@ -60,6 +60,11 @@ class NounPhrase:
         """Whether "one" or "ones" stands for the noun."""
         return self.head in ("one", "ones")
 
+    @property
+    def may_be_much(self) -> bool:
+        """Whether "all of it" may be said of what one noun names ("the food", "the stuff")."""
+        return self.head in MASS_NOUNS or self.head == "stuff" or self.pronoun == "it"
+
     def called(self, *noun: str) -> NounPhrase:
         """The phrase with another noun, such as what "one" stands for."""
         return replace(self, words=(*self.words[:-1], *noun))
