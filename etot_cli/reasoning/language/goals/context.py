@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -28,7 +28,7 @@ from etot_cli.reasoning.language.reference.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.places import Places
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.several import Phrases
-from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.space import rests_in_mouth, touches
 from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
 from etot_cli.skills.action import GraspPose
@@ -201,8 +201,15 @@ class Context:
         if len(outer) != 1 or self.discourse.put & {*themes}:
             return ()
         ((place, below),) = outer
+        place = self.entered(place, things)
         fits = place.relation is Relation.INSIDE or can_be(below, Role.SURFACE, self.scene)
         return (place,) if fits and below.name != DESK else ()
+
+    def entered(self, place: Place, things: Iterable[Thing]) -> Place:
+        """The place that things leave for others: what rests in a vessel's mouth leaves that."""
+        below = () if place.where is None else self.discourse.things(place.where)
+        in_it = any(rests_in_mouth(thing, at, self.scene) for thing in things for at in below)
+        return replace(place, relation=Relation.INSIDE) if in_it else place
 
     def mention_part(self, place: Place) -> None:
         """After "take the key out" "the drawer" is the one that it was in, if none was named."""

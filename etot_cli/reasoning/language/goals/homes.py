@@ -186,6 +186,7 @@ def in_stead(
         why = "one of them is in or on the other"
         raise ReferenceProblem(where.word, "say where each one is to go" if others else why, 2)
     (place, *more) = _left_by(context, things, where.word)
+    place = context.entered(place, things)
     if more:
         raise ReferenceProblem(where.word, REASONS["where"], 3)
     for said in context.places.of(where.around, themes):

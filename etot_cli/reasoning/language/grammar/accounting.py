@@ -54,7 +54,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     word_set,
 )
-from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.reasoning.language.words.places import FREE_SPOT, SOMEWHERE_FREE, Prep
 from etot_cli.reasoning.language.words.small_words import (
     FRAMES,
     SO_LONG,
@@ -109,6 +109,7 @@ _FIXED = """
 _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
     f", {manner.NOT_STACKED}, {SO_LONG}"
+    f", {FREE_SPOT}, {SOMEWHERE_FREE}"
 )
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 

@@ -168,6 +168,18 @@ OVER = sequence(
 
 
 _to = sequence(places.TO, TARGETS, build=_toward(Toward.TO))
+_free = either(
+    sequence(
+        f"(to|in|into|at|on|onto) ({places.FREE_SPOT}) (on [top of]|of)",
+        TARGETS,
+        build=_toward(Toward.ON),
+    ),
+    sequence(
+        f"(to|in|into|at) ({places.FREE_SPOT}) (in|inside)", TARGETS, build=_toward(Toward.INSIDE)
+    ),
+    sequence(places.SOMEWHERE_FREE, either(ONTO, INTO)),
+    sequence(either(ONTO, INTO), places.SOMEWHERE_FREE),
+)
 _top_of = sequence(
     places.ONTO,
     noun_phrase,
@@ -188,6 +200,7 @@ _place = either(
     _AT_END,
     OVER,
     _to,
+    _free,
     _top_of,
     AT_LEVEL,
     NEXT_LEVEL,
@@ -304,6 +317,7 @@ _directed = either(
     sequence(places.INTO_DIRECTED, TARGETS, build=_toward(Toward.INSIDE)),
     sequence(places.ONTO_DIRECTED, TARGETS, build=_toward(Toward.ON)),
     _to,
+    _free,
 )
 _directed = either(
     _directed,

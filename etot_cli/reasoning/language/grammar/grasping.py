@@ -51,7 +51,10 @@ def _other(pose: GraspPose) -> GraspPose:
 
 def _ruled_out(given: Input, at: int) -> list[Result]:
     """A way not to grasp; behind "from the shelf" "not from the top" may say from where instead."""
-    said = {"from", "off", "out"} & {*given.words[:at]}
+    said = any(
+        word in ("off", "out") or (word == "from" and not _POSE.find(given, index))
+        for index, word in enumerate(given.words[:at])
+    )
     return [
         (end, _other(pose))
         for end, pose in _POSE.find(given, at)

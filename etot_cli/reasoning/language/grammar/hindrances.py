@@ -139,6 +139,7 @@ HINDRANCE = either(
                 f"{words.STANDS_OUT}, {words.STUCK}", _OF_IT, _TOO_FAR, optional(_FOR_IT_TO_MOVE)
             ),
             sequence(words.STANDS_OUT, _TOO_FAR, _FOR_IT_TO_MOVE),
+            sequence(_kept(words.TOO_BIG), _FOR_IT_TO_MOVE),
         ),
         build=_standing_out,
     ),

@@ -46,7 +46,7 @@ _WHAT = (
     rf"|which{_OF_THEM}(?: (?:goes|go|ends? up|is put) (?:where|in which))?"
     rf"|what (?:happens to|becomes of){_WORDS}+|whether(?! you\b| i\b| we\b){_WORDS}+|{_WHETHER})"
 )
-_MANNER = r"(?:grasp|grip|pose|orientation|order|way)"
+_MANNER = r"(?:(?:grasp|grip|approach) (?:direction|pose)|grasp|grip|pose|orientation|order|way)"
 _LEFT_OPEN = re.compile(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
     rf"|{_WHAT} {_NO_MATTER}|(?:no matter )?whether(?! you\b){_WORDS}+ or not"

@@ -119,15 +119,16 @@ def lies_in(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     info = scene.infos.get(landmark.name)
     tray = info is not None and matches_any(info.label.split()[-1], OPEN_SURFACES)
     return (
-        (tray or _in_mouth(thing, landmark, scene)) and rests_on(thing, landmark, scene)
+        (tray and rests_on(thing, landmark, scene)) or rests_in_mouth(thing, landmark, scene)
     ) or any(is_inside(scene, thing.name, address) for address in addresses(landmark, scene))
 
 
-def _in_mouth(thing: Thing, vessel: Thing, scene: SceneState) -> bool:
-    """Whether what rests on a vessel's rim is said to be in it, which no lid is."""
+def rests_in_mouth(thing: Thing, vessel: Thing, scene: SceneState) -> bool:
+    """Whether a thing rests on a vessel's rim and is said to be in it, which no lid is."""
     info, held = scene.infos.get(vessel.name), scene.infos.get(thing.name)
     open_above = info is not None and info.container and not (info.surface or info.parts)
-    return open_above and held is not None and not is_flat(held)
+    told_in = open_above and held is not None and not is_flat(held)
+    return told_in and rests_on(thing, vessel, scene)
 
 
 def touches(upper: Thing, lower: Thing, scene: SceneState) -> bool:

@@ -79,10 +79,18 @@ BOTH_SIDES = {
     (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
 }
 SAFELY = """
-    out of the way, (in|into|to|at|on) a safe (place|spot|location), to safety,
-    (somewhere|some place) safe, out of harm 's way
+    out of the way, (to|into) (a|an|some) (free|empty|clear) (spot|place|space|area),
+    (in|into|to|at|on) a safe (place|spot|location), to safety,
+    (somewhere|some place) (safe|free), out of harm 's way
 """
 """Where nothing happens to it, which the plan sees to."""
+FREE_SPOT = """
+    (a|an|any|some|the) (free|empty|clear|open|vacant|unoccupied)
+    (spot|place|space|area|part|patch)|
+    (free|empty|open) space
+"""
+SOMEWHERE_FREE = "(somewhere|anywhere|some place) (free|clear|empty)"
+"""Before, or behind, what it is on: where there is room, which every plan looks for."""
 SOMEWHERE = "(somewhere|anywhere|some place) [safe] [~comma]"
 """Before a place that is said more closely."""
 UP_OR_DOWN = "up, down"
@@ -144,11 +152,11 @@ PREPOSITIONS: dict[Prep, str] = {
 }
 INTO = "in to, into, inside [of], in, within"
 ON_TOP_OF = "on [the] top of, atop"
-ONTO = f"onto, on to, on, upon, {ON_TOP_OF}, to the top of"
+ONTO = f"onto, on to, on, upon, {ON_TOP_OF}, (to|onto) the top of"
 AT_END = {"at the top": "at the top of", "at the bottom": "(at|on|to) the bottom of"}
 OVER = "over"
 INTO_DIRECTED = "in to, into, inside [of]"
-ONTO_DIRECTED = "onto, on to, on top of, over, to the top of"
+ONTO_DIRECTED = "onto, on to, on top of, over, (to|onto) the top of"
 TO = "[over] to"
 AMONG = """
     over, among, amongst, between, across, into, in, onto, on, to

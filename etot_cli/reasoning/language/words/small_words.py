@@ -139,7 +139,8 @@ FRAMES = f"""
 """
 _AT_END = """
     (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn|day|session|shift|
-    experiment|exercise|game|lesson|test|demo|process))], in the end
+    experiment|exercise|game|lesson|test|demo|process))], in the end,
+    in the (final|end|target|goal) (state|configuration|arrangement)
 """
 _WHEN_DONE = """
     (when|once|after|by the time)
