@@ -65,6 +65,7 @@ from etot_cli.reasoning.language.grammar.word_order import (
     BROUGHT,
     FOLLOWING,
     FRONTED,
+    LISTED,
     NAMED_BEHIND,
     SAID_AHEAD,
 )
@@ -319,6 +320,7 @@ PUT = either(
     SAID_AHEAD,
     FRONTED,
     FOLLOWING,
+    LISTED,
     NAMED_BEHIND,
     ALONG_WITH,
     sequence(
