@@ -8,10 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from operator import add
 
-from etot_cli.reasoning.language.grammar.chains import then_done
-from etot_cli.reasoning.language.grammar.clauses import Reading
+from etot_cli.reasoning.language.grammar.chains import CHAIN, then_done
+from etot_cli.reasoning.language.grammar.clauses import LEFT_OUT, Reading
+from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.exclusions import changed, excluding
+from etot_cli.reasoning.language.grammar.modifiers import (
+    CONTRASTED,
+    DESCRIBED,
+    excepting,
+    quality_alone,
+)
+from etot_cli.reasoning.language.grammar.parsing import either, optional, phrase, sequence, variants
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
@@ -31,6 +40,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
+from etot_cli.reasoning.language.grammar.topics import AS_IT_IS
+from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -132,6 +143,65 @@ def any_such(rest: Reading, said: NounPhrase) -> Reading | None:
     return None if new is None else (*rest[:-1], replace(rest[-1], clause=new))
 
 
+def _open_choice(np: NounPhrase) -> bool:
+    """Whether a phrase leaves open which one of several things is meant."""
+    first = np.determiner.removeprefix("just ").removeprefix("only ").split()[:1]
+    return first in (["a"], ["an"], ["any"], ["one"]) and bool(np.words or np.pronoun == "them")
+
+
+def choosing(rest: Reading, denied: bool, said: NounPhrase | Modifier) -> Reading | None:
+    """A request about one of several things, with what is said behind it of the one that is chosen
+    ("put one pen in the cup, and it must not be a red one"); None where it is no choice, or where
+    the place is one, too.
+    """
+    taken = rest[-1].clause
+    again = isinstance(taken, PutClause) and taken.groups[0].things.phrases[0].pronoun == "it"
+    at = -2 if again and rest[1:] else -1
+    marks = _marks(taken.groups[0]) if isinstance(taken, PutClause) else []
+    if any(map(_open_choice, marks)):
+        return None
+
+    def told(np: NounPhrase) -> NounPhrase | None:
+        return _chosen(np, denied, said) if _open_choice(np) else None
+
+    new = changed(rest[at].clause, told)
+    done = [*rest]
+    if new is not None:
+        done[at] = replace(rest[at], clause=new)
+    return None if new is None else tuple(done)
+
+
+def _chosen(np: NounPhrase, denied: bool, said: NounPhrase | Modifier) -> NounPhrase | None:
+    """One of several things, with what it is, or is not."""
+    if isinstance(said, Modifier):
+        so = any(word in STATES for word in said.words)  # what is to be empty is emptied
+        return None if so else np.told_by(replace(said, denied=denied))
+    if not said.determiner:
+        return None
+    if denied:
+        out = excepting((said,))
+        return None if out is None else np.told_by(out)
+    fits = said.is_elliptic or said.head == np.head
+    if np.pronoun or not fits or said.determiner not in ("a", "an", "the"):
+        return None
+    of = said.determiner == "the" or np.determiner.endswith("the")
+    words = (*np.words[:-1], singular(np.head)) if of else np.words
+    determiner = said.determiner if of else np.determiner
+    more = tuple(word for word in said.words[:-1] if word not in np.words)
+    told = replace(np, determiner=determiner, words=(*more, *words))
+    return told.told_by(*said.modifiers)
+
+
+_IT_IS = sequence(
+    OPTIONAL_COMMA,
+    "[and|but] it (must|should|has to|needs to|ought to|may|can|is to)",
+    either(phrase("not be", True), phrase("be", False)),
+    either(noun_phrase, quality_alone),
+    build=lambda denied, said: (denied, said),
+)
+"""Behind a choice, what the one that is chosen is, or is not."""
+
+
 def but_not(rest: Reading, out: Modifier) -> Reading | None:
     """What is left out behind "it", of a choice before ("pick any cup and put it there, but not the
     red one"); where it is about a choice of places as well, that may be meant.
@@ -148,3 +218,17 @@ def but_not(rest: Reading, out: Modifier) -> Reading | None:
             new = excluding(rest[-2].clause, out)
             return None if new is None else (*rest[:-2], replace(rest[-2], clause=new), rest[-1])
     return None
+
+
+_BY_NOW = optional(small_words.BY_NOW)
+TOLD_BEHIND = either(
+    variants(
+        sequence(CHAIN, COMMA, _BY_NOW, phrase("it is, they are"), _BY_NOW, DESCRIBED, _BY_NOW),
+        lambda found: told_behind(found[0], found[1].split()[0], found[2]),
+    ),
+    sequence(CHAIN, COMMA, AS_IT_IS, build=add),
+    sequence(CHAIN, COMMA, noun_phrase, small_words.ANY_WILL_DO, build=any_such),
+    sequence(CHAIN, OPTIONAL_COMMA, either(LEFT_OUT, CONTRASTED), build=but_not),
+    sequence(CHAIN, _IT_IS, build=lambda rest, said: choosing(rest, *said)),
+)
+"""A request, with what is said behind it of what it speaks of."""

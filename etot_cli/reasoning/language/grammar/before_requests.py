@@ -5,12 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from operator import add
 
-from etot_cli.reasoning.language.grammar.afterthoughts import (
-    any_such,
-    but_not,
-    out_of_the_way,
-    told_behind,
-)
+from etot_cli.reasoning.language.grammar.afterthoughts import TOLD_BEHIND, out_of_the_way
 from etot_cli.reasoning.language.grammar.ahead import not_so
 from etot_cli.reasoning.language.grammar.announced import (
     ONE_FOR_EACH,
@@ -31,7 +26,6 @@ from etot_cli.reasoning.language.grammar.chains import (
 )
 from etot_cli.reasoning.language.grammar.clauses import (
     LED_CLAUSE,
-    LEFT_OUT,
     Reading,
     plain,
 )
@@ -48,21 +42,15 @@ from etot_cli.reasoning.language.grammar.headlines import (
     PLACED,
     taken_out,
 )
-from etot_cli.reasoning.language.grammar.modifiers import (
-    CONTRASTED,
-    DESCRIBED,
-)
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
-    phrase,
     sequence,
     silent,
     some,
     valued,
-    variants,
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER, SO
 from etot_cli.reasoning.language.grammar.predicates import BOTH_ARE
@@ -74,7 +62,7 @@ from etot_cli.reasoning.language.grammar.prohibitions import (
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.reaching import SEPARATING
-from etot_cli.reasoning.language.grammar.states import ENSURE, STATE
+from etot_cli.reasoning.language.grammar.states import ENSURE, STATE, states
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,
@@ -161,21 +149,7 @@ IN_THE_END = either(
 """How things are, where it is said that they are to be so in the end."""
 
 
-_NOW = optional(small_words.BY_NOW)
-
-
 _AND = either(COMMA, "and, and then, then")
-
-
-_TOLD_BEHIND = either(
-    variants(
-        sequence(CHAIN, COMMA, _NOW, phrase("it is, they are"), _NOW, DESCRIBED, _NOW),
-        lambda found: told_behind(found[0], found[1].split()[0], found[2]),
-    ),
-    sequence(CHAIN, COMMA, AS_IT_IS, build=add),
-    sequence(CHAIN, COMMA, noun_phrase, small_words.ANY_WILL_DO, build=any_such),
-    sequence(CHAIN, OPTIONAL_COMMA, either(LEFT_OUT, CONTRASTED), build=but_not),
-)
 
 
 WITH_MORE_BEFORE_IT = either(
@@ -196,6 +170,14 @@ WITH_MORE_BEFORE_IT = either(
         ),
         COMMA,
         either(CHAIN, PLACED),
+        build=add,
+    ),
+    sequence(
+        # "Set up the shelf so that the cans are on the upper board"
+        verbs.ARRANGE,
+        NAMED,
+        small_words.SO_THAT,
+        plain(sequence(states, build=EnsureClause)),
         build=add,
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
@@ -239,8 +221,8 @@ WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=out_of_the_way,
     ),
-    _TOLD_BEHIND,
-    sequence(_TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
+    TOLD_BEHIND,
+    sequence(TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
     sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by", CHAIN, build=add),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.doubles import (
     IN_TURN,
     NEITHER,
     ONLY_THESE,
+    PARENTHETIC,
     SIDE_BY_SIDE,
     UNLESS_THERE,
     bared,
@@ -308,7 +309,7 @@ LED_CLAUSE = Rule(
         variants(sequence(LEAD, CLAUSE), _spoken),
         sequence(
             LEAD,
-            either(BOTH_WAYS, ONLY_THESE, IN_TURN),
+            either(BOTH_WAYS, ONLY_THESE, IN_TURN, PARENTHETIC),
             build=lambda orders, said: None if orders else said,
         ),
         plain(

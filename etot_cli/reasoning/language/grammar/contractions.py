@@ -25,6 +25,7 @@ CONTRACTIONS = (
         r"\1 that ",
     ),
     (r"\bfor me (?=(?:out|off|from|on|in|into|onto|to|and)\b)", ""),
+    (r"\bi\.e\b\.?,?", "that is"),
     (r"\bgimme\b", "give me"),
     (r"\blemme\b", "let me"),
     (r"\bwanna\b", "want to"),

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     either,
@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
 )
+from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.states import ENSURE, OPEN_OR_CLOSED
@@ -134,6 +135,19 @@ def _so_in_turn(
 
 
 IN_TURN = so_in_turn(NP_LIST)
+
+
+PARENTHETIC = located(
+    sequence(
+        # "Move the pen, without touching the book, to the tray"
+        either(sequence(verbs.SET_DOWN, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
+        WITHOUT,
+        COMMA,
+        DESTINATIONS,
+        build=lambda things, avoided, where: (put_to(things, where), avoided),
+    ),
+    lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
+)
 
 
 def _side_by_side(clause: Clause) -> Clause | None:

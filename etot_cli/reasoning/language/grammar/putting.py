@@ -68,6 +68,7 @@ from etot_cli.reasoning.language.grammar.word_order import (
     BROUGHT,
     FOLLOWING,
     FRONTED,
+    LISTED,
     NAMED_BEHIND,
     SAID_AHEAD,
 )
@@ -322,6 +323,7 @@ PUT = either(
     SAID_AHEAD,
     FRONTED,
     FOLLOWING,
+    LISTED,
     NAMED_BEHIND,
     ALONG_WITH,
     sequence(

@@ -53,7 +53,13 @@ _STILL_SO = sequence("still", WHERE, build=lambda where: ("still", where))
 """Where things are to stay."""
 SO = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, DESTINATIONS)
 """How things are."""
-PREDICATE = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, WHERE, _STILL_SO)
+PREDICATE = either(
+    OPEN_OR_CLOSED,
+    IN_HAND,
+    _NOT_SO,
+    sequence(optional(sequence("out of the way", OPTIONAL_COMMA)), WHERE),
+    _STILL_SO,
+)
 """How things are to be."""
 
 
@@ -137,8 +143,17 @@ def _held(np: NounPhrase, held: NounPhrase) -> State:
     return State((held,), (Destination(Toward.INSIDE, (np,)),))
 
 
-def _each_so(nps: tuple[NounPhrase, ...], said: str, predicate: Any) -> State | None:
+_WITH_OTHERS = optional(sequence(OPTIONAL_COMMA, "together with, along with", NP_LIST), ())
+"""Behind where things are, what else is there."""
+
+
+def _each_so(
+    nps: tuple[NounPhrase, ...], said: str, predicate: Any, more: tuple[NounPhrase, ...] = ()
+) -> State | None:
     """How several things are; no one thing is "both" so."""
+    if more and (said or isinstance(predicate, str) or not isinstance(predicate[0], Destination)):
+        return None
+    nps = (*nps, *more)
     one = len(nps) == 1 and bool(nps[0].words) and singular(nps[0].head) == nps[0].head
     return None if said == "both" and one else state_of(all_of(nps, said), predicate)
 
@@ -150,6 +165,7 @@ def being(verb: str) -> Parser:
         verb,
         optional(phrase("both, all"), ""),
         PREDICATE,
+        _WITH_OTHERS,
         build=_each_so,
     )
 
@@ -197,11 +213,12 @@ def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
 _AND_SO = sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of)
 _ALL_SO = sequence(
     PREDICATE,
+    _WITH_OTHERS,
     either(
         some(_AND_SO, most=4),
         sequence(small_words.BY_THE_END, some(_AND_SO, least=1, most=4)),
     ),
-    build=lambda predicate, more: lambda nps: (state_of(nps, predicate), *more),
+    build=lambda predicate, others, more: lambda nps: (_each_so(nps, "", predicate, others), *more),
 )
 
 

@@ -39,6 +39,10 @@ def _paired(parts: list[str]) -> list[str]:
 
 
 _LOOK_FOR = re.compile(rf"\b(?:{'|'.join(spellings(small_words.LOOK_FOR))}) [^,]*$")
+_OF_A_CHOICE = re.compile(
+    r"(?:and |but )?it (?:must|should|has to|needs to)(?: not)? be (?:an?|the) [\w ]+ one"
+)
+"""What is said of one of several things that was left to choose; no state ends in "one"."""
 _AHEAD = frozenset({*spellings(small_words.FRAMES), "please", "now", "first", "then"})
 
 
@@ -66,6 +70,8 @@ def sentences_of(text: str) -> list[str]:
         if found and _is_looked_for(found[-1]):
             # What is looked for, and what is to be done with it.
             found[-1] = f"{found[-1].removesuffix(QUESTION).strip()}, {part}"
+        elif found and _OF_A_CHOICE.fullmatch(part):
+            found[-1] = f"{found[-1]}, {part}"
         elif part.removesuffix(QUESTION).strip(" ,:"):
             found.append(part)
     return found

@@ -122,7 +122,7 @@ def _named_behind(
     """Several things that are announced together; "the green one" is one of these."""
     noun = singular(whole.head)
     every = noun == whole.head and whole.words == ("everything",)
-    counted = NUMBERS.get(whole.determiner) == len(nps)
+    counted = {"both": 2, **NUMBERS}.get(whole.determiner) == len(nps)
     some = not whole.determiner and is_category(whole.head)  # "food in the basket: …"
     several = nps[1:] or (not whole.determiner and nps[0].is_elliptic)
     if not several or not (every or counted or some or whole.determiner in _ALL_THESE):
@@ -134,6 +134,20 @@ def _named_behind(
 
 
 _ALL_THESE = ("", "the", "these", "those", "all", "all the")
+_THAT_IS = "(that is|those are|namely|meaning) [~comma]"
+_LISTED = sequence(COMMA, _THAT_IS, NP_LIST, OPTIONAL_COMMA)
+LISTED = quiet(
+    sequence(
+        either(
+            sequence(verbs.PUT, noun_phrase, _LISTED),
+            sequence(noun_phrase, _LISTED, verbs.MODAL),
+            sequence(verbs.WANTED, noun_phrase, _LISTED, optional("to (go|be)")),
+        ),
+        DESTINATIONS,
+        build=lambda found, where: _named_behind(found[0], where, found[1]),
+    )
+)
+"""The same before the place ("the fruit, that is the apple and the pear, goes in the bowl")."""
 NAMED_BEHIND = quiet(
     sequence(
         either(
@@ -143,7 +157,7 @@ NAMED_BEHIND = quiet(
         ),
         DESTINATIONS,
         COMMA,
-        optional("that is, those are, namely, meaning, i mean"),
+        optional(f"{_THAT_IS}, i mean"),
         NP_LIST,
         build=_named_behind,
     )

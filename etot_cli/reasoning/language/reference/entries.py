@@ -166,7 +166,9 @@ class Entry:
         """Whether its label is for a pack of that ("soy sauce bottle", "coke can")."""
         solid = self.info is not None and not self.info.container
         (*said, pack) = self.called[0]
-        named = (said == [word] and not before) or said[-2:] == [before, word]
+        # A can of tomato soup is soup; a jar of peanut butter is no butter.
+        plain = said[-1:] == [word] and not {*said[:-1]} & COMPOUNDS.get(word, frozenset())
+        named = (plain and not before) or said[-2:] == [before, word]
         return solid and named and pack in PACKS and word in PACKED
 
     def is_serving_of(self, word: str) -> bool:

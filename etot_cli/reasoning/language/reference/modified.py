@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import CLEARED, Modifier
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
 from etot_cli.reasoning.language.reference.determiners import Quantity
+from etot_cli.reasoning.language.reference.entries import EXACT, HEAD
 from etot_cli.reasoning.language.reference.landmarks import (
     HOLDING,
     RANKED,
@@ -182,8 +183,11 @@ def left_out(
     vocabulary: Vocabulary,
     scene: SceneState,
     landmarks: Callable[[NounPhrase, str], list[Thing]],
+    notes: list[str],
 ) -> tuple[list[Thing], set[Thing]]:
-    """The things but for those that a phrase takes out, and these; ``landmarks`` gives them."""
+    """The things but for those that a phrase takes out, and these; ``landmarks`` gives them;
+    ``notes`` grows.
+    """
     out: set[Thing] = set()
     for word in phrase.without:
         meant = with_quality(things, word, phrase, vocabulary, scene)
@@ -212,9 +216,17 @@ def left_out(
                 if modifier.denied:
                     named = {*things} - named  # "but only the red one"
                 out |= named
-    excepting = any(item.prep is Prep.EXCEPT and not item.denied for item in phrase.modifiers)
+    excepting = [m for m in phrase.modifiers if m.prep is Prep.EXCEPT and not m.denied]
     if excepting and not out & set(things):
-        raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
+        entries = [vocabulary.entries()[thing] for thing in things]
+        out_nps = [np for item in excepting for np in item.phrases]
+        behind = all(np.text in phrase.text and not np.is_elliptic for np in out_nps)
+        # Who leaves the star out of "the blocks", which are but cubes, may count it among these.
+        own = all(entry.grade(words[-1]) in (EXACT, HEAD) for entry in entries)
+        if not (own and behind and things[1:]):
+            raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
+        said = " and ".join(np.text for np in out_nps)
+        notes.append(f"{said!r} is none of {names_of_things(things)}: nothing is left out")
     left = [thing for thing in things if thing not in out]
     if not left:
         raise ReferenceProblem(phrase.text, "nothing is left without those", 1)

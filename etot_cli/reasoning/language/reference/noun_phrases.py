@@ -248,7 +248,9 @@ class Resolver:
         )
         meant = partial(self._landmarks, pronoun)
         words = asked.words
-        things, unmeant = left_out(things, phrase, words, self._vocabulary, self._scene, meant)
+        things, unmeant = left_out(
+            things, phrase, words, self._vocabulary, self._scene, meant, notes
+        )
         check_modified(asked, modifiers, things, unmeant, self._vocabulary, self._scene)
         alone = [] if unmeant else things  # "the big one, not the small one": it tells them apart
         idle = idle_words(match, modifiers, alone, self._scene, phrase.text, notes)
