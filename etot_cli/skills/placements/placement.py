@@ -41,6 +41,9 @@ CLEARANCE = 0.001
 RAISES = (0.0, 0.006, 0.014, 0.026, 0.042)
 """Higher up the hand may be able to open where it cannot at the bottom, and the wrist of a level
 hand may clear the floor [m]."""
+SLANTING, STRAIGHT = 0.7, 0.9998
+"""Cosines of ways out to straight ahead and to each other: a hand points in by no more than 40° to
+either side; on the way through a shelf 1° makes a few millimetres, as much as a finger opens."""
 MAX_TRIES, TRIES_AGAIN = 40, 8
 """Places of one action that are looked at exactly, and when somebody is thought away."""
 SAME_PLACE = 0.012
@@ -181,9 +184,12 @@ class _Way:
         return None
 
     def _may_be_raised(self, raised: float) -> bool:
-        """Whether it is the floor that hand or arm met, and what falls from so high stays there."""
-        floor = self._support.owner or DESK
-        return self._place.drop + raised <= SHORT_DROP and floor in map(owner_of, self._met)
+        """Whether it is the floor or what is below it that hand or arm met, and what falls from so
+        high stays there.
+        """
+        below = {self._support.owner, DESK}
+        falls = self._place.drop + raised
+        return falls <= SHORT_DROP and not below.isdisjoint(map(owner_of, self._met))
 
     def _down(self, raised: float, hover: float) -> Placement | None:
         belief, attached = self._belief, self._attached
@@ -213,30 +219,63 @@ class _Way:
         return Placement(up[-1], down, *release, drop=self._place.drop + raised)
 
     def through_front(self) -> Placement | None:
-        """Level in through the front, and back out the same way."""
+        """Level in through the front, and back out the same way; let go a little higher up where
+        the hand would meet the floor.
+        """
+        for raised in RAISES:
+            if raised and not self._may_be_raised(raised):
+                break
+            placement = self._inward(raised)
+            if placement is not None or not self.reached:
+                return placement
+        return None
+
+    def _inward(self, raised: float) -> Placement | None:
         belief, attached, support = self._belief, self._attached, self._support
         checker, arm = belief.checker, belief.arm
         checker.set_fingers(belief.opening)
-        tool = self._target @ attached.in_tool.inverse()
+        self._met = []
+        self._let_go = self._target.moved(UP * raised)
+        tool = self._let_go @ attached.in_tool.inverse()
         inside = arm.reach(tool, belief.commanded)
-        self.reached = inside.reached
+        self.reached |= inside.reached
         if not inside.reached or self._is_hit(inside.joints, self._bearers):
             return None
+        self.reached = False
         low, high = checker.extent(attached.name, self._target.rotation)
-        out = np.array([*support.axes[0], 0.0])
+        normal = np.array([*support.axes[0], 0.0])
         depth = float(support.local(self._target.position[None, :2])[0, 0])
-        length = support.front - depth - float(np.minimum(low * out, high * out).sum()) + OUTSIDE
-        for higher in (ENTRY_HIGHER, 0.0):
-            poses = straight(tool, tool.moved(out * length + UP * higher), LOWER_STEP)
-            path, count = arm.line(poses, inside.joints)
-            self.reached = count == len(poses)
-            if not self.reached or any(self._is_hit(row, self._bearers) for row in path):
-                continue
-            release = self._widest_release([inside.joints, *path], CLEARANCE)
-            if release is not None:
-                down = np.vstack([path[-2::-1], inside.joints])
-                return Placement(path[-1], down, path, release, 0.0, length)
+        length = support.front - depth - float(np.minimum(low * normal, high * normal).sum())
+        for out in self._ways_out(normal, tool):
+            far = (length + OUTSIDE) / float(out @ normal)
+            for higher in (ENTRY_HIGHER, 0.0):
+                poses = straight(tool, tool.moved(out * far + UP * higher), LOWER_STEP)
+                path, count = arm.line(poses, inside.joints)
+                if count < len(poses):
+                    continue
+                self.reached = True
+                if any(self._is_hit(row, self._bearers) for row in path):
+                    continue
+                release = self._widest_release([inside.joints, *path], CLEARANCE)
+                if release is not None:
+                    down = np.vstack([path[-2::-1], inside.joints])
+                    return Placement(path[-1], down, path, release, raised, far)
         return None
+
+    def _ways_out(self, normal: Vector, tool: Pose) -> list[Vector]:
+        """Level unit vectors (3,) out through the front: straight, as the hand points, and along
+        the object. Fingers that go out straight and are turned to that, or the object is, would
+        take along what they have let go.
+        """
+        size = self._belief.world.entries[self._attached.name].info.size
+        along = self._target.rotation[:, int(np.argmax(size))]
+        found = [normal]
+        for way in (tool.rotation[:, 2], along):
+            level = way * np.array([1.0, 1.0, 0.0]) * np.sign(way @ normal)
+            level /= max(float(np.linalg.norm(level)), 1e-9)
+            if level @ normal > SLANTING and all(level @ one < STRAIGHT for one in found):
+                found.append(level)
+        return found
 
     def _is_hit(self, joints: Vector, touching: set[str]) -> bool:
         hits = self._belief.checker.hits(
