@@ -92,9 +92,11 @@ def test_what_the_branch_put_there_is_not_taken_out_again() -> None:
     assert revision(failed(start, plan, 3, reason, before)) is None
 
 
-def test_what_the_hand_cannot_take_out_of_furniture_is_grasped_otherwise() -> None:
+@pytest.mark.parametrize("openness", [1.0, 0.8])
+def test_what_the_hand_cannot_take_out_of_furniture_is_grasped_otherwise(openness: float) -> None:
+    """Before a door is opened wider, which nobody asked for."""
     start = scenes.scene(
-        scenes.cabinet("locker", (0.6, 0.2), 1.0),
+        scenes.cabinet("locker", (0.6, 0.2), openness),
         scenes.item("can", at=(0.6, 0.2), on="locker", inside="locker"),
     )
     step = failed(
@@ -438,6 +440,37 @@ def test_what_the_goal_wants_in_place_comes_back() -> None:
     assert format_plan(revised.actions) == (
         "[PICK UP, apple] [PUT ON, desk] [PICK UP, holder] [PUT ON, drawer] "
         "[PICK UP, apple] [PUT INTO, holder]"
+    )
+
+
+@pytest.mark.parametrize(
+    ("kind", "lies", "stance"),
+    [
+        ("cup", False, "upright"),
+        ("bottle", False, "upright"),
+        ("bottle", True, "lying on its side"),
+    ],
+)
+def test_what_may_be_anywhere_on_the_desk_stays_at_its_safe_place(
+    kind: str, lies: bool, stance: str
+) -> None:
+    start = scenes.scene(
+        scenes.cabinet("cupboard", (0.5, 0.2), 1.0),
+        scenes.item("thing", kind, at=(0.35, 0.2), size=(0.07, 0.07, 0.12)),
+    )
+    if lies:
+        start = changed(
+            start, thing={"toppled": True, "quaternion": (0.7071068, 0.7071068, 0.0, 0.0)}
+        )
+    reasoner = BuiltinReasoner()
+    text = f"Close the cupboard. The thing must be {stance} on the desk."
+    (branch,) = reasoner.propose(Assignment(text), start)
+    rollout = record(start, effect=False, cause=cause(CauseKind.BLOCKED, "thing", "cupboard"))
+    verdict = reasoner.judge(branch.actions[0], rollout)
+    revised = first_revision(reasoner, FailedStep(branch, 0, rollout, verdict, start))
+    assert revised is not None
+    assert format_plan(revised.actions) == (
+        f"[PICK UP, thing] [PUT ON, desk] ({stance.split()[0]}) [CLOSE, cupboard]"
     )
 
 

@@ -67,18 +67,49 @@ def test_what_is_held_from_the_side_is_laid_on_a_chest(seed: int) -> None:
     assert laid(run, "[PUT ON, chest]", LEVEL) == "chest"
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize(("diameter", "height"), [(0.056, 0.15), (0.06, 0.18)])
-def test_what_is_round_is_laid_on_a_low_board_with_the_hand_level(
-    diameter: float, height: float, seed: int
-) -> None:
-    """Held from above near its end; rolled onto a side of its own, it had one finger below it."""
-    rack = {"kind": "shelf", "size": [0.24, 0.34, 0.16], "mass": 3.0, "at": [0.64, -0.04],
+def board_and_bottle(
+    diameter: float, height: float, x: float, clear: float, y: float = 0.2
+) -> dict[str, Any]:
+    """A shelf at ``x`` before the robot, so much clear above its lower board, and a bottle."""
+    rack = {"kind": "shelf", "size": [0.24, 0.34, clear + 0.02], "mass": 3.0, "at": [x, -0.04],
             "yaw_deg": 180}  # fmt: skip
     bottle = {"kind": "cylinder", "diameter": diameter, "height": height, "mass": 0.3}
-    run = episode(seed, rack=rack, thing=bottle | {"at": [0.31, 0.2]})
+    return {"rack": rack, "thing": bottle | {"at": [0.31, y]}}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("diameter", "height", "x"),
+    [(0.056, 0.15, 0.64), (0.06, 0.18, 0.64), (0.052, 0.17, 0.55), (0.046, 0.17, 0.55)],
+)
+def test_what_is_round_is_laid_on_a_low_board_with_the_hand_level(
+    diameter: float, height: float, x: float, seed: int
+) -> None:
+    """Held from above near its end; rolled onto a side of its own, it had one finger below it. Near
+    the base the hand gets out at a slant only, and what is thin it lets go a little higher up.
+    """
+    run = episode(seed, **board_and_bottle(diameter, height, x, 0.135))
     assert laid(run, "[PUT ON, rack.bottom]", " (vertical)").startswith("rack")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("diameter", [0.046, 0.054, 0.064])
+def test_what_was_laid_on_the_desk_is_taken_as_it_lies(diameter: float, seed: int) -> None:
+    """It lies across the way to the base, where a level hand has room at its end."""
+    run = episode(seed, **board_and_bottle(diameter, 0.17, 0.55, 0.136, 0.24))
+    assert laid(run, "[PUT ON, desk]", LEVEL) == "desk"
+    assert laid(run, "[PUT ON, rack.bottom]", LEVEL).startswith("rack")
+
+
+def test_what_fits_without_the_hand_is_not_too_large() -> None:
+    """It lies along the board only, and the hand that holds it so cannot."""
+    run = episode(**board_and_bottle(0.063, 0.225, 0.55, 0.14))
+    run.must("[PICK UP, thing] (vertical)")
+    cause = run.do("[PUT ON, rack.bottom] (lying)").record.cause
+    assert cause is not None and cause.kind is CauseKind.UNREACHABLE
+    assert cause.text == "the hand has no room on rack.bottom as it holds thing"
 
 
 def test_what_lies_stays_lying_and_stands_up_again() -> None:

@@ -38,11 +38,15 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
     if not goals:
         return revised
     start = failed.start
-    revised = replace(revised, actions=_without_last_openings(revised.actions, goals, start))
-    sketch = Sketch(start, revised.actions)
-    for name in _taken_away(revised.actions):
-        wanted = _wanted_from_start(name, goals, start)
-        for relation, target, where in wanted or _filled_elsewhere(name, revised.actions, start):
+    kept = _without_last_openings(revised.actions, goals, start)
+    away = _taken_away(kept)
+    wanted = {name: _wanted_from_start(name, goals, start) for name in away}
+    for name, put in away.items():
+        kept = _as_wanted(kept, put, wanted[name])
+    revised = replace(revised, actions=kept)
+    sketch = Sketch(start, kept)
+    for name in away:
+        for relation, target, where in wanted[name] or _filled_elsewhere(name, kept, start):
             if not sketch.holds(name, relation, target, where):
                 sketch.put(name, relation, target, where=where)
                 break
@@ -70,10 +74,23 @@ def _without_last_openings(actions: Actions, goals: Iterable[Goal], start: Scene
     return actions
 
 
-def _taken_away(actions: Sequence[Action]) -> list[str]:
-    """Objects whose last put in a branch is to a safe place."""
-    puts = {held: action for held, action, _ in in_hand(actions, None) if action.verb in PUTS}
-    return [name for name, put in puts.items() if name is not None and put.safe]
+def _taken_away(actions: Sequence[Action]) -> dict[str, int]:
+    """Objects whose last put in a branch is to a safe place, and where in the branch that is."""
+    walk = enumerate(in_hand(actions, None))
+    puts = {held: index for index, (held, action, _) in walk if action.verb in PUTS}
+    return {name: put for name, put in puts.items() if name is not None and actions[put].safe}
+
+
+def _as_wanted(actions: Actions, put: int, homes: Iterable[_Home]) -> Actions:
+    """The branch with an object stood or laid at the safe place of a put as a goal asks for, where
+    that wants it on the same floor anywhere: nothing has to come back from there.
+    """
+    action = actions[put]
+    for relation, target, where in homes:
+        anywhere = all(one.relation.is_stance for one in where)
+        if (relation, target) == (Relation.ON, action.target) and anywhere:
+            return (*actions[:put], replace(action, where=where), *actions[put + 1 :])
+    return actions
 
 
 def _filled_elsewhere(name: str, actions: Sequence[Action], start: SceneState) -> list[_Home]:

@@ -234,6 +234,8 @@ class _Case:
         # What keeps the hand from its own contents does so wherever it stands.
         vessels = carriers(self.scene, self.action.target)
         anywhere = self.cause.kind is CauseKind.NO_GRASP and vessels.issuperset(culprits)
+        if self._is_furniture_alone():
+            yield from regrasped(self.failed, self.index, self.cause.kind)
         for name in culprits:
             placed = placed_by(self.actions, name, self.index)
             if placed is not None:

@@ -23,7 +23,9 @@ DOWN = 0.6
 ON_ITS_HEAD = float(np.cos(np.radians(RIGHTED_DEG)))
 """What stood on its head leans in the hand by no more than what stands (cosine)."""
 ALONG = 2
-"""The body axis about which a cylinder is round."""
+"""The body axis along which things stand, and about which a cylinder is round."""
+MOST_DISCOMFORT = 2.0
+"""The worst that :func:`discomfort` tells."""
 MAX_LAID = 2
 """Ways to lie that are tried."""
 TIPPED = np.radians(40)
@@ -164,19 +166,40 @@ def orientations(
     return found
 
 
+def all_turns(base: Vector) -> list[Vector]:
+    """An orientation (3, 3) turned about the vertical, all round."""
+    return [turn_about(UP, turn) @ base for turn in TURNS]
+
+
 def _turned(
     belief: Belief, attached: Attached, support: Support, base: Vector, *, laid: bool
 ) -> list[Orientations]:
     if support.from_front:
         inward = np.array([*-support.axes[0], 0.0])
         return [Orientations(inward_rotations(attached, base, inward), laid)]
-    rotations = [turn_about(UP, turn) @ base for turn in TURNS]
+    rotations = all_turns(base)
     # The desk is everywhere; what matters is how the arm stands now.
     near = belief.object_pose(attached.name).position if support.owner is None else support.center
     costs = [float(discomfort(belief, attached, item, near[None, :2])[0]) for item in rotations]
+    if support.owner is None:
+        costs = [
+            cost + MOST_DISCOMFORT * _points_at_base(belief, attached, item, near[:2])
+            for cost, item in zip(costs, rotations, strict=True)
+        ]
     ranked = [rotations[i] for i in np.argsort(np.round(costs, 6), kind="stable")]
     batches = range(0, len(ranked), TURNS_AT_ONCE)
     return [Orientations(ranked[i : i + TURNS_AT_ONCE], laid) for i in batches]
+
+
+def _points_at_base(belief: Belief, attached: Attached, rotation: Vector, near: Vector) -> bool:
+    """Whether what lies turned to ``rotation`` (3, 3) around ``near`` (2,), base frame [m], has its
+    length along the way to the base rather than across it. A level hand takes it along its length,
+    and would have to be between the base and what lies there.
+    """
+    info = belief.world.entries[attached.name].info
+    along = rotation[:2, ALONG]
+    lain = has_top(info) and lies(info, (*quaternion_of(rotation),))
+    return lain and abs(float(along @ near)) > abs(float(along[0] * near[1] - along[1] * near[0]))
 
 
 def laid_rotations(belief: Belief, attached: Attached, base: Vector) -> list[Vector]:

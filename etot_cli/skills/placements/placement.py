@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -42,6 +43,9 @@ CLEARANCE = 0.001
 RAISES = (0.0, 0.006, 0.014, 0.026, 0.042)
 """Higher up the hand may be able to open where it cannot at the bottom, and the wrist of a level
 hand may clear the floor [m]."""
+SLANTING, STRAIGHT = 0.7, 0.9998
+"""Cosines of ways out to straight ahead and to each other: a hand points in by no more than 40° to
+either side; on the way through a shelf 1° makes a few millimetres, as much as a finger opens."""
 MAX_TRIES, TRIES_AGAIN = 40, 8
 """Places of one action that are looked at exactly, and when somebody is thought away."""
 SAME_PLACE = 0.012
@@ -182,9 +186,12 @@ class _Way:
         return None
 
     def _may_be_raised(self, raised: float) -> bool:
-        """Whether it is the floor that hand or arm met, and what falls from so high stays there."""
-        floor = self._support.owner or DESK
-        return self._place.drop + raised <= SHORT_DROP and floor in map(owner_of, self._met)
+        """Whether it is the floor or what is below it that hand or arm met, and what falls from so
+        high stays there.
+        """
+        below = {self._support.owner, DESK}
+        falls = self._place.drop + raised
+        return falls <= SHORT_DROP and not below.isdisjoint(map(owner_of, self._met))
 
     def _down(self, raised: float, hover: float) -> Placement | None:
         belief, attached = self._belief, self._attached
@@ -214,21 +221,35 @@ class _Way:
         return Placement(up[-1], down, *release, drop=self._place.drop + raised)
 
     def through_front(self) -> Placement | None:
-        """Level in through the front, and back out the same way."""
+        """Level in through the front, and back out the same way; let go a little higher up where
+        the hand would meet the floor.
+        """
+        for raised in RAISES:
+            if raised and not self._may_be_raised(raised):
+                break
+            placement = self._inward(raised)
+            if placement is not None or not self.reached:
+                return placement
+        return None
+
+    def _inward(self, raised: float) -> Placement | None:
         belief, attached, support = self._belief, self._attached, self._support
         checker, arm = belief.checker, belief.arm
         checker.set_fingers(belief.opening)
-        tool = self._target @ attached.in_tool.inverse()
+        self._met = []
+        self._let_go = self._target.moved(UP * raised)
+        tool = self._let_go @ attached.in_tool.inverse()
         low, high = checker.extent(attached.name, self._target.rotation)
-        out = np.array([*support.axes[0], 0.0])
+        normal = np.array([*support.axes[0], 0.0])
         depth = float(support.local(self._target.position[None, :2])[0, 0])
-        length = support.front - depth - float(np.minimum(low * out, high * out).sum()) + OUTSIDE
+        length = support.front - depth - float(np.minimum(low * normal, high * normal).sum())
         for inside in self._bends(tool):
             if self._is_hit(inside, self._bearers):
                 self.reached = True
                 continue
-            for higher in (ENTRY_HIGHER, 0.0):
-                poses = straight(tool, tool.moved(out * length + UP * higher), LOWER_STEP)
+            for out, higher in product(self._ways_out(normal, tool), (ENTRY_HIGHER, 0.0)):
+                far = (length + OUTSIDE) / float(out @ normal)
+                poses = straight(tool, tool.moved(out * far + UP * higher), LOWER_STEP)
                 path, count = arm.line(poses, inside)
                 if count < len(poses):
                     continue
@@ -238,7 +259,7 @@ class _Way:
                 release = self._widest_release([inside, *path], CLEARANCE)
                 if release is not None:
                     down = np.vstack([path[-2::-1], inside])
-                    return Placement(path[-1], down, path, release, 0.0, length)
+                    return Placement(path[-1], down, path, release, raised, far)
         return None
 
     def _bends(self, tool: Pose) -> Iterator[Vector]:
@@ -254,6 +275,21 @@ class _Way:
         hits = belief.checker.hand_hits(tool, clearance=CLEARANCE, part=HandPart.ALL)
         if not {*map(owner_of, hits)} - {self._attached.name}:
             yield from arm.solutions(tool, belief.commanded)
+
+    def _ways_out(self, normal: Vector, tool: Pose) -> list[Vector]:
+        """Level unit vectors (3,) out through the front: straight, as the hand points, and along
+        the object. Fingers that go out straight and are turned to that, or the object is, would
+        take along what they have let go.
+        """
+        size = self._belief.world.entries[self._attached.name].info.size
+        along = self._target.rotation[:, int(np.argmax(size))]
+        found = [normal]
+        for way in (tool.rotation[:, 2], along):
+            level = way * np.array([1.0, 1.0, 0.0]) * np.sign(way @ normal)
+            level /= max(float(np.linalg.norm(level)), 1e-9)
+            if level @ normal > SLANTING and all(level @ one < STRAIGHT for one in found):
+                found.append(level)
+        return found
 
     def _is_hit(self, joints: Vector, touching: set[str]) -> bool:
         hits = self._belief.checker.hits(

@@ -22,7 +22,7 @@ from etot_cli.skills.placements.judging import (
     Request,
     Turned,
 )
-from etot_cli.skills.placements.orientation import orientations
+from etot_cli.skills.placements.orientation import all_turns, orientations
 from etot_cli.skills.placements.relief import free_distance, under
 from etot_cli.skills.placements.undersides import Stamps
 from etot_cli.world.pose import Pose
@@ -90,6 +90,8 @@ class PlaceFinder:
             yield from self._again(rehearsed)
         request = self._request
         groups = orientations(self._belief, request.attached, self._support, request.stance)
+        if request.bare:  # no hand keeps it from any turn
+            groups = [replace(one, rotations=all_turns(one.rotations[0])) for one in groups]
         if as_held:
             groups = [group for group in groups if not group.laid]
         judge, grid = self._judge, self._judge.grid()

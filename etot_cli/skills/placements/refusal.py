@@ -75,7 +75,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         return failed(
             CauseKind.UNREACHABLE,
             [*owner, name],
-            f"{name} is held so that the hand would be below it {_preposition(request)} {address}",
+            f"the hand has no room {_preposition(request)} {address} as it holds {name}",
         )
     return failed(
         CauseKind.NO_ROOM,
