@@ -34,12 +34,6 @@ def _to_do(told: re.Match[str]) -> str:
     return f"{PAST[told[1]]} {done}"
 
 
-def _any_of(places: str) -> str:
-    """Any of some places, or all of them ("the drawer, the holder or both")."""
-    named = re.sub(r",? or both$", "", places.replace("and/or", "or"))
-    return named if " or " in named else re.sub(r", (?=\w)", " or ", named)
-
-
 PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     (_ONCE_DONE, _to_do),
     (
@@ -114,11 +108,6 @@ PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], s
         rf"(?=(?:in|on) {NAMED})",
         r"neither the \1 nor the \2 should be left ",
     ),
-    (
-        r"\b(?:i|we) do not want ((?:the|my) [\w ]+?) or ((?:the|my) [\w ]+?) (?:to be )?left "
-        rf"(?=(?:in|on) {NAMED})",
-        r"neither \1 nor \2 should be left ",
-    ),
     # What a pronoun means, said behind it
     (
         r"\b(?:it|them)((?: (?!it\b|them\b)[^.,; ]+)*), ((?:the|my) (?:\w+ ){0,2}?\w+),? i mean"
@@ -129,14 +118,6 @@ PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], s
         r"\b(neither (?:of the )?(\w+?)s? should (?:have|hold|contain) [^.;]*[.,;] [^.;]*? "
         r"(?:in|into|on)) one of them\b",
         r"\1 one of the \2s",
-    ),
-    # What is used for things that are not to be left where they are
-    (
-        rf"(\bneither [^.;:]*? should be left (?:in|on) [^.,;:]*[.;:,]) (?:please )?use "
-        rf"({NAMED} [^.,;:]*?(?:, {NAMED} [^.,;:]*?)?,? (?:and/or|or) {NAMED} [^.,;:]*?|"
-        rf"{NAMED} [^.,;:]*?,? {NAMED} [^.,;:]*? or both)"
-        r"(?: for (?:them|both|that|this))?(?=[.,;!?]| and\b|$)",
-        lambda said: f"{said[1]} put them in {_any_of(said[2])}",
     ),
     (rf"\bneither (?:of the )?(\w+?)s? should (?:have|hold|contain) ({NAMED} [^.,:;]*?)"
      r"(?: in (?:it|them))?(?=[.,;!?]|$| and\b)", r"\2 should not be in either \1"),

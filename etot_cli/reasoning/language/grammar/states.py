@@ -341,7 +341,18 @@ ENSURE = either(
         sequence(
             either(
                 sequence(NP_LIST, verbs.NOT_BE),
-                sequence("(i|we) do not want", NP_LIST, optional(_TO_BE)),
+                sequence(
+                    "(i|we) do not want",
+                    either(
+                        NP_LIST,
+                        sequence(
+                            separated(noun_phrase, "or, nor"),
+                            build=lambda nps: nps if nps[1:] else None,
+                        ),
+                    ),
+                    optional(_TO_BE),
+                    optional("left, lying, standing, sitting"),
+                ),
                 sequence(
                     "neither",
                     separated(noun_phrase, "nor"),

@@ -13,7 +13,12 @@ from etot_cli.reasoning.language.grammar.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.coordination import all_of
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED, FILLED
+from etot_cli.reasoning.language.grammar.destinations import (
+    DESTINATIONS,
+    DIRECTED,
+    FILLED,
+    TARGETS,
+)
 from etot_cli.reasoning.language.grammar.grasping import GRASPED, HELD_SO, POSES
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -297,6 +302,17 @@ def _used(
     return PutClause(groups)
 
 
+def _used_for(
+    nps: tuple[NounPhrase, ...], things: Things | None, toward: Toward
+) -> PutClause | None:
+    """Things go into or onto any of several, or what was spoken of does into or onto one."""
+    if things is not None and len(nps) == 1:
+        return None  # that is told above
+    them = NounPhrase(pronoun="them", text="them")
+    return put_to(things or Things((them,)), (Destination(toward, nps, FILLED),))
+
+
+_ANY_OF = sequence(either(TARGETS, NP_LIST), optional("[~comma] or both"))
 FILL = quiet(
     either(
         sequence(
@@ -327,6 +343,15 @@ FILL = quiet(
             some(sequence(LIST, noun_phrase, "for", ALL_THINGS, build=lambda *pair: pair), most=4),
             optional(sequence(OPTIONAL_COMMA, "[and|but] not", noun_phrase), None),
             build=_used,
+        ),
+        *(
+            sequence(
+                "use",
+                _ANY_OF,
+                optional(sequence("for", ALL_THINGS), None),
+                build=partial(_used_for, toward=toward),
+            )
+            for toward in (Toward.INSIDE, Toward.TO)
         ),
     )
 )
