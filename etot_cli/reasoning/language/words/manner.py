@@ -107,6 +107,12 @@ SEPARATELY = """
     not (both|all) (in|on) the same (one|place),
     each (in|on) (its|their) own [one], each (in|on) (a different|a separate|another) (one|place)
 """
+PARTED = """
+    [to be] [kept|put|stored|placed] (separate|separated|separately|apart [from each other]),
+    [away] (in|into|at|to) [two|three] (different|separate) (places|spots|locations|positions)
+"""
+"""Of things of which it is told next which goes where."""
+AS_ONE = "together, [both|all] (in|into|to|at) the same (place|spot|container)"
 ONE_EACH = """
     one each, one (in|into|on|onto|to|for) each [of them], one (in|on) every one, one per,
     one to each, one in each one
