@@ -181,7 +181,6 @@ def _ensured(*said_states: State | None) -> EnsureClause | None:
 
 
 _EACH = phrase("each, both, all")
-_TO_BE = f"to (be|end up|go|stand|sit|lie|stay|remain), {verbs.DONE}"
 _TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie|stay), {verbs.DONE}, {verbs.BE_PUT}")
 
 
@@ -260,7 +259,7 @@ def _together(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...] 
     return None if said and (one or (said == "both" and len(nps) > 2)) else all_of(nps, said)
 
 
-_BE_TOGETHER = silent(phrase(_TO_BE))
+_BE_TOGETHER = silent(phrase(verbs.TO_BE_THERE))
 _TOGETHER = either(
     sequence(NP_LIST, _BE_TOGETHER, optional(_ALL, ""), build=_together),
     sequence(NP_LIST, _ALL, optional(_BE_TOGETHER), build=_together),
@@ -315,7 +314,7 @@ ENSURE = either(
     sequence(
         "(i|we) do not want",
         sequence(noun_phrase, build=_there_is_none),
-        optional(_TO_BE),
+        optional(verbs.TO_BE_THERE),
         DESTINATIONS,
         optional(small_words.ANY_MORE),
         build=lambda nps, so: _ensured(state_of(nps, so)),
@@ -324,7 +323,7 @@ ENSURE = either(
         sequence(
             either(
                 sequence(NP_LIST, verbs.NOT_BE),
-                sequence("(i|we) do not want", NP_LIST, optional(_TO_BE)),
+                sequence("(i|we) do not want", NP_LIST, optional(verbs.TO_BE_THERE)),
                 sequence(
                     "neither",
                     separated(noun_phrase, "nor"),

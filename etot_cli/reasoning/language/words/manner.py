@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 OPEN_STATE = "[still] [wide|all the way|fully|completely] open, opened"
-CLOSED_STATE = "[still] [fully|completely|properly|all the way] (closed|shut)"
+CLOSED_STATE = """
+    [still] [fully|completely|properly|all the way] (closed|shut) [behind (it|them)]
+"""
 A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""

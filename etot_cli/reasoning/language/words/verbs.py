@@ -225,6 +225,7 @@ COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
 DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 """What is wanted of a thing that is to go somewhere."""
+TO_BE_THERE = f"to (be|end up|go|stand|sit|lie|stay|remain), {DONE}"
 PICKED_UP = "picked up, grabbed, lifted [up], fetched, took"
 WERE = f"""
     (is|are|was|were|[could|would] be) [{_BROUGHT}|{_BEING}|to be],
@@ -280,6 +281,7 @@ NEED_NOT_BE = """
     need not (move|be moved|be touched|go anywhere)
 """
 """Behind what may be left as it is."""
+MAY_GO = "(can|may|could|might) [just] (go|end up|stand|lie|be|stay|be (put|placed))"
 NEED_NOT_GO = """
     (does|do) not (need|have) to (go|be [put]|stay|remain), need not (go|be [put]|stay|remain)
 """
