@@ -1,7 +1,8 @@
-"""What is told of a thing that is not so by now, and has to be in the end."""
+"""What is told of a thing that is not so by now, and has to be, or may be, in the end."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.relations import parts_of
@@ -14,7 +15,9 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
+from etot_cli.reasoning.language.reference.antecedents import Mention
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import STATES
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -103,3 +106,17 @@ def _upon_closed(
         for item in where
     ]
     return tuple(found), shut
+
+
+def so_by_then(context: Context, index: int, word: str, before: Sequence[Mention]) -> bool:
+    """Whether a part may be open or closed by then: it is now, or something was done with it."""
+    things = context.discourse.things(index)
+    done_with = context.discourse.things(
+        *(m.referent for m in before if m.role is not Role.SURFACE)
+    )
+    spoken = any(
+        one.name == other.name and (one.part == other.part or not (one.part and other.part))
+        for one in things
+        for other in done_with
+    )
+    return spoken or all(state_holds(word, thing, context.scene) for thing in things)

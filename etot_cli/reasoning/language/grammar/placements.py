@@ -49,6 +49,13 @@ PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], s
         r"(?=(?:in|on|inside|into|onto) (?:the|my)\b)",
         lambda said: f"{said[1]}{said[2]} should be {said[3] or 'inside'} or ",
     ),
+    # Who may leave it open need not close it
+    (
+        r"\b(?:you (?:can|may|could)|it (?:is|would be) (?:fine|ok|okay|all right) (?:to|if you))"
+        rf" (?:just |also )?(?:leave|keep) ({NAMED} [^.,;]*?|it|them) (?=(?:open|closed|shut)\b)",
+        r"\1 may stay ",
+    ),
+    (r"\b(?:can|may|could) be (?:left|kept) (?=(?:open|closed|shut)\b)", "may stay "),
     # Two headlines of one request ("toy out. then close the drawer")
     (
         r"(^|[.;!]\s+)((?:the |my )?(?:\w+ )?\w+ out)[.;!]\s+"

@@ -99,15 +99,17 @@ def _opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...
     return State(subjects, word="closed" if so == "open" else "open", denied=True)
 
 
-_STAYS = sequence(
-    NP_LIST,
-    verbs.STAY,
-    PREDICATE,
-    silent(optional(small_words.ALL_ALONG)),
-    build=lambda nps, predicate: (
-        None if (state := state_of(nps, predicate)) is None else replace(state, kept=True)
-    ),
-)
+_ALWAYS = optional(phrase(small_words.ALL_ALONG, True), False)
+
+
+def _staying(nps: tuple[NounPhrase, ...], said: str, predicate: Any, always: bool) -> State | None:
+    """What stays so; of what "may" do so nothing is asked."""
+    state = state_of(nps, predicate)
+    allowed = bool({"can", "may"} & {*said.split()})
+    return None if state is None else replace(state, kept=True, always=always, allowed=allowed)
+
+
+_STAYS = sequence(NP_LIST, phrase(verbs.STAY), PREDICATE, _ALWAYS, build=_staying)
 
 
 _THEREIN = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
@@ -204,9 +206,9 @@ _ALL_SO = sequence(
 )
 
 
-def _kept_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
+def _kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> EnsureClause:
     """What is to be open or closed all along."""
-    return EnsureClause((State(nps, word=word, kept=True),))
+    return EnsureClause((State(nps, word=word, kept=True, always=always),))
 
 
 BESIDES_SO = either(
@@ -222,12 +224,10 @@ BESIDES_SO = either(
         "with",
         NP_LIST,
         either(
-            sequence(
-                "kept, staying, remaining", OPEN_OR_CLOSED, silent(optional(small_words.ALL_ALONG))
-            ),
-            sequence(OPEN_OR_CLOSED, small_words.ALL_ALONG),
+            sequence("kept, staying, remaining", OPEN_OR_CLOSED, _ALWAYS),
+            sequence(OPEN_OR_CLOSED, small_words.ALL_ALONG, build=lambda word: (word, True)),
         ),
-        build=_kept_so,
+        build=lambda nps, said: _kept_so(nps, *said),
     ),
 )
 """What is said of other things behind what is asked for (", with the cup on the desk")."""
@@ -292,7 +292,7 @@ ENSURE = either(
         verbs.KEEP,
         NP_LIST,
         OPEN_OR_CLOSED,
-        silent(optional(small_words.ALL_ALONG)),
+        _ALWAYS,
         build=_kept_so,
     ),
     sequence(NP_LIST, verbs.MODAL, OPEN_OR_CLOSED, small_words.ALL_ALONG, build=_kept_so),
