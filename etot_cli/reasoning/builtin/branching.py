@@ -137,7 +137,11 @@ def _candidates(
                 continue
             for selected in product(*poses):
                 branch, left_open = _branch(ordered, choice, selected, scene, course)
-                yield _Candidate(branch, left_open, goal.constraints)
+                constraints = tuple(
+                    item if item.referent is None else item.about(choice.things[item.referent])
+                    for item in goal.constraints
+                )
+                yield _Candidate(branch, left_open, constraints)
 
 
 def _branch(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from etot_cli.reasoning.builtin.goal import Constraint, Keep, Relation
+from etot_cli.reasoning.builtin.goal import Constraint, Goal, Keep, Relation
 from etot_cli.reasoning.builtin.harm import CHANGED, displacement
 from etot_cli.reasoning.builtin.relations import is_at, is_closed, is_open
 from etot_cli.reasoning.builtin.rules import in_hand
@@ -24,6 +24,18 @@ def broken_constraint(
             if _does(action, held, constraint, scene):
                 return f"step {index}, {action}: {_wish(constraint)}"
     return None
+
+
+def spares_none(actions: Sequence[Action], goal: Goal, scene: SceneState) -> bool:
+    """Whether a plan does what it must not with each of the things that a choice leaves one of."""
+    left = [item for item in goal.constraints if item.referent is not None]
+    return any(
+        all(
+            broken_constraint(actions, (item.about(option),), scene)
+            for option in goal.referents[item.referent or 0].options
+        )
+        for item in left
+    )
 
 
 def cause_of_breach(

@@ -7,7 +7,7 @@ referents by their place in :attr:`Goal.referents`, so that "a cup … it" is on
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from etot_cli.skills.action import GraspPose
@@ -168,12 +168,20 @@ class Constraint:
 
     ``names``: objects or addresses of parts. ``places``: relation and address, for ``Keep.AWAY``.
     ``needless``: it was only said that it need not happen, which tells what else is meant.
+    ``referent``: what it is about where that depends on a choice ("one ball … the other"); there
+    are no ``names`` until the choice is made.
     """
 
     keep: Keep
     names: tuple[str, ...]
     places: tuple[tuple[Relation, str], ...] = ()
     needless: bool = False
+    referent: int | None = None
+
+    def about(self, things: Iterable[Thing]) -> Constraint:
+        """The same of what its referent stands for."""
+        names = dict.fromkeys(thing.name for thing in things)
+        return replace(self, names=tuple(names), referent=None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,11 @@ from dataclasses import replace
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.completion import completed
-from etot_cli.reasoning.builtin.constraints import broken_constraint, cause_of_breach
+from etot_cli.reasoning.builtin.constraints import (
+    broken_constraint,
+    cause_of_breach,
+    spares_none,
+)
 from etot_cli.reasoning.builtin.goal import Constraint, Goal
 from etot_cli.reasoning.builtin.judging import judge_action
 from etot_cli.reasoning.builtin.reflection import reflect_on
@@ -71,6 +75,7 @@ class BuiltinReasoner:
             revised
             for revised in revisions
             if broken_constraint(revised.actions, self._constraints, failed.start) is None
+            and not any(spares_none(revised.actions, goal, failed.start) for goal in self._goals)
         )
 
     @property

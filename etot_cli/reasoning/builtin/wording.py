@@ -23,6 +23,8 @@ def formal(goal: Goal) -> str:
     kept = []
     for item in goal.constraints:
         names = ", ".join(item.names)
+        if item.referent is not None:
+            names = _choice(item.referent, goal)
         if item.keep is Keep.AWAY:
             places = (f"{relation.value} {place}" for relation, place in item.places)
             where = " or ".join(dict.fromkeys(places))

@@ -29,6 +29,9 @@ def tower(context: Context, clause: TowerClause) -> None:
     if clause.reverses:
         _reverse(context, clause)
         return
+    if clause.placed:
+        _layer_by_layer(context, clause, clause.placed)
+        return
     context.tell_others(clause.things, clause.base)
     text = clause.things.text
     # "Stack them: the red one, …": nothing was spoken of before
@@ -59,6 +62,22 @@ def tower(context: Context, clause: TowerClause) -> None:
         place = _upon(context, lower, upper, under, inside=clause.nested)
         context.steps.append(Put((above,), (place,)))
     context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
+
+
+def _layer_by_layer(context: Context, clause: TowerClause, placed: PutClause) -> None:
+    """Each thing where it is said to go, upon what is at the bottom.
+
+    Raises:
+        ReferenceProblem: of something that was spoken of it is not said where it goes.
+    """
+    spoken = clause.whole and (context.discourse.mentions or not clause.whole.phrases[0].pronoun)
+    whole = context.phrases.things(clause.whole, Role.ANY) if clause.whole and spoken else ()
+    put(context, placed)
+    named = context.phrases.things(clause.things, Role.ANY)
+    left = {*context.discourse.things(*whole)} - {*context.discourse.things(*named)}
+    if left:
+        names = ", ".join(sorted(thing.name for thing in left))
+        raise ReferenceProblem(clause.things.text, f"say where {names} goes", 2)
 
 
 def _reverse(context: Context, clause: TowerClause) -> None:

@@ -172,8 +172,12 @@ def _meaning(goal: Goal) -> Goal:
             steps.append(replace(step, what=tuple(map(renumbered, step.what)), places=places))
         else:
             steps.append(replace(step, what=renumbered(step.what)))
+    constraints = tuple(
+        item if item.referent is None else replace(item, referent=renumbered(item.referent))
+        for item in goal.constraints
+    )
     for index, number in used.items():
         apart = goal.referents[index].distinct_from
         distinct = tuple(sorted(used[other] for other in apart if other in used))
         referents[number] = replace(referents[number], distinct_from=distinct)
-    return Goal(tuple(referents), tuple(steps), goal.constraints)
+    return Goal(tuple(referents), tuple(steps), constraints)

@@ -17,6 +17,11 @@ from etot_cli.reasoning.language.goals.placing import cover, reorient
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.putting import ensure, put
 from etot_cli.reasoning.language.goals.removing import remove
+from etot_cli.reasoning.language.goals.so_in_the_end import (
+    closed_with,
+    put_on_closed,
+    told_by_contents,
+)
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.putting import DOWN
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -34,9 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     TowerClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Destination,
     NounPhrase,
-    State,
     Things,
     Toward,
 )
@@ -100,14 +103,19 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             grasp(context, clause)
         case PutClause():
             moved = {*context.discourse.put}
+            clause, so = put_on_closed(context, clause)
             put(context, clause)
+            for state in so:
+                ensure(context, state)
             context.steps = _after_a_lift(clause, context, moved)
         case RemoveClause():
             remove(context, clause)
         case MoveClause():
             context.tell_so(clause.things, opens=clause.opens)
             if not clause.opens:
-                clause = _with_contents(context, clause)
+                clause, so = closed_with(context, clause)
+                for state in so:
+                    ensure(context, state)
             for index in in_turns(context, clause.things, clause.turns, Role.PART):
                 index = _moved(context, clause, index)
                 context.steps.append(Open(index) if clause.opens else Close(index))
@@ -115,7 +123,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                     context.discourse.last_places = _into(context, index)
         case EnsureClause():
             for state in clause.states:
-                ensure(context, state)
+                state, so = told_by_contents(context, state)
+                for item in (state, *so):
+                    ensure(context, item)
         case TowerClause():
             tower(context, clause)
         case SwapClause():
@@ -171,26 +181,6 @@ def _into(context: Context, index: int) -> tuple[Place, ...]:
     parts = parts_of(context.scene, thing)
     holds = not more and len(parts) == 1 and parts[0].container
     return (Place(Relation.INSIDE, index),) if holds else ()
-
-
-def _with_contents(context: Context, clause: MoveClause) -> MoveClause:
-    """Who closes a drawer "with the toy in it" wants it there, be it there by now or not."""
-    phrases = []
-    for np in clause.things.phrases:
-        held = [m for m in np.modifiers if m.prep is Prep.CONTAINING and not m.denied]
-        said = len(held) == 1 and " with " in np.text and all(map(_is_the_one, held[0].phrases))
-        if said:
-            try:
-                context.phrases.meaning(np, Role.PART)
-            except ReferenceProblem:
-                np = np.without_modifier(held[0])
-            ensure(context, State(held[0].phrases, (Destination(Toward.INSIDE, (np,)),)))
-        phrases.append(np)
-    return replace(clause, things=replace(clause.things, phrases=tuple(phrases)))
-
-
-def _is_the_one(np: NounPhrase) -> bool:
-    return quantity_of(np.determiner).definite and bool(np.words)
 
 
 def _moved(context: Context, clause: MoveClause, index: int) -> int:

@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
+    EnsureClause,
     ReorientClause,
 )
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
@@ -75,10 +76,11 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     last = state.context.last
     forbidden = goal.constraints or isinstance(last, AvoidClause)
     named = isinstance(last, ReorientClause) and last.only_named
+    allowed = isinstance(last, EnsureClause) and all(state.allowed for state in last.states)
     remark = last.remark if isinstance(last, ReorientClause) else ""
     wished = " is for " in remark or " are for " in remark  # to be put there?
-    if wished or not (goal.steps or state.asked or not (forbidden or named)):
-        said = "how things are" if named else "what not to do"
+    if wished or not (goal.steps or state.asked or not (forbidden or named or allowed)):
+        said = "how things are" if named else "what may be" if allowed else "what not to do"
         text = sentences[-1 if wished else 0].text
         raise ReferenceProblem(text, f"this says {said}, but not what to do", 2)
     return without_needless(goal)

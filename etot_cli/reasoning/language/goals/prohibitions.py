@@ -101,7 +101,11 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     if clause.avoid is Avoid.MOVE and role is not Role.PART and one_way:
         leave_among(context, indices)
     if all(is_not_chosen(context, index) for index in indices) and role is not Role.PART:
-        return  # no step moves it
+        if clause.avoid in _LEAVING:
+            context.constraints += (
+                Constraint(_KEEPS[clause.avoid], (), referent=index) for index in indices
+            )
+        return
     if clause.avoid is Avoid.MOVE and any(is_only(np.determiner) for np in clause.things.phrases):
         homes = [context.home(thing) for thing in context.discourse.things(*indices)]
         check_alone(context, clause.things.phrases, indices, homes)
@@ -243,8 +247,11 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
         context.constraints.append(Constraint(_KEEPS[clause.avoid], others))
 
 
-def keep_as_it_is(context: Context, index: int, word: str, *, every: bool) -> None:
-    """What is open or closed by now, and is to stay so, must not be moved in between.
+def keep_as_it_is(
+    context: Context, index: int, word: str, *, every: bool, always: bool = False
+) -> None:
+    """What is open or closed by now, and is to stay so, must not be moved in between; what is
+    closed ``always`` must not be opened at all.
 
     Of a chest of drawers that was spoken of as "the drawer" or "the drawers", only what is so by
     now is meant; ``every``: all are.
@@ -254,7 +261,7 @@ def keep_as_it_is(context: Context, index: int, word: str, *, every: bool) -> No
         context.discourse.as_it_stands(index, holds)
     for thing in context.discourse.things(index):
         for part in parts_of(context.scene, thing):
-            if holds(context.scene, part):
+            if holds(context.scene, part) or (always and word == "closed"):
                 keep = Keep.OPEN if word == "open" else Keep.CLOSED
                 name = f"{part.owner}.{part.name}"
                 context.constraints.append(Constraint(keep, (name,)))

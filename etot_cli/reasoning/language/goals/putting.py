@@ -60,6 +60,7 @@ from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is,
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.ruled_out import not_beside, rule_out
 from etot_cli.reasoning.language.goals.sharing import check_stance, is_left, rest_there, shared
+from etot_cli.reasoning.language.goals.so_in_the_end import so_by_then
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -219,12 +220,18 @@ def ensure(context: Context, state: State) -> None:
         for phrase in state.subjects:
             if phrase.determiner in ("a", "an"):
                 phrase = replace(phrase, determiner="one")  # of the drawers, not the whole chest
+            known = [*context.discourse.mentions]
             for index in context.phrases.refer(phrase, Role.PART):
+                if state.allowed and not so_by_then(context, index, state.word, known):
+                    context.discourse.notes.append(f"{phrase.text!r} may be {state.word}, or not")
+                    continue
                 if state.denied:
                     leave_out(context, index, state.word)
                 if state.kept:
                     all_of_them = quantity_of(phrase.determiner).every
-                    keep_as_it_is(context, index, state.word, every=all_of_them)
+                    keep_as_it_is(
+                        context, index, state.word, every=all_of_them, always=state.always
+                    )
                 leave_among_turned(context, index, opens=state.word == "open")
                 context.steps.append(_made(index, opens=state.word == "open"))
                 _not_instead(context, phrase, index, opens=state.word == "open")

@@ -219,6 +219,8 @@ def _said(node: object) -> Iterator[str]:
             yield from ("empty",) if avoid is Avoid.PUT else ()
         case Beside(text=text) if "other side of" in text:
             yield "other"
+        case Beside(relation=Nearby.AWAY, text=text) if "from in front of" in text:
+            yield "front"
         case Beside(relation=Nearby.AWAY | Nearby.AT_LEFT | Nearby.AT_RIGHT):
             yield _canonical("far")
         case Beside(relation=Nearby.AT_FRONT | Nearby.AT_BACK as side):

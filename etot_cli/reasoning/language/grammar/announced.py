@@ -15,7 +15,12 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutGroup,
     ReorientClause,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State, Things
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    State,
+    Things,
+)
 from etot_cli.reasoning.language.grammar.topics import are_several
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.categories import members_of
@@ -92,6 +97,19 @@ def in_detail(first: Reading, rest: Reading) -> Reading | None:
 def shared_out(topic: Reading, rest: Reading) -> Reading | None:
     """Several things are taken, and each of them goes somewhere of its own."""
     return each_sorted(topic, rest) if are_several(topic[0].clause) else None
+
+
+def parted(topic: Reading, rest: Reading) -> Reading | None:
+    """Several things that are to be in different places, and then which of them goes where."""
+    where: list[tuple[Destination, ...]] = []
+    for said in rest:
+        match said.clause:
+            case PutClause(groups=groups):
+                where += [group.destinations for group in groups]
+            case EnsureClause(states=states):
+                where += [so.destinations for so in states if so.destinations]
+    apart = len(where) > 1 and len({*where}) == len(where)
+    return each_sorted(topic, rest) if apart else None
 
 
 def _each_and_one(words: tuple[str, ...], places: tuple[str, ...]) -> Reading:

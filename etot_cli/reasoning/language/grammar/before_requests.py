@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.announced import (
     each_sorted,
     in_detail,
     one_for_each,
+    parted,
     shared_out,
 )
 from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
@@ -81,6 +82,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY, SOURCE
+from etot_cli.reasoning.language.grammar.togetherness import PARTED
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
     AS_IT_STANDS,
@@ -182,6 +184,7 @@ WITH_MORE_BEFORE_IT = either(
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
     sequence(plain(either(PUT, ENSURE)), COLON, PLACED, build=in_detail),
+    sequence(plain(PARTED), COMMA, either(BARE_CHAIN, CHAIN), build=parted),
     sequence(ONE_FOR_EACH, COLON, BARE_CHAIN, build=one_for_each),
     sequence(plain(either(EMPTY, UNSTACK)), COLON, BARE_CHAIN, build=add),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),

@@ -88,6 +88,7 @@ from etot_cli.reasoning.language.grammar.taking import (
     PICK,
     REMOVE,
 )
+from etot_cli.reasoning.language.grammar.togetherness import IN_ONE_PLACE
 from etot_cli.reasoning.language.grammar.towers import TOWER
 from etot_cli.reasoning.language.grammar.unstacking import REVERSED, SPREAD
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART, WANTED, WISHED
@@ -170,7 +171,7 @@ _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
         *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, HOLD, WISHED, TOLD_APART, BOTH_SO),
-        *(SPREAD, REVERSED, ONLY_THESE_MAY, GRASP, REACHED),
+        *(SPREAD, REVERSED, ONLY_THESE_MAY, GRASP, REACHED, IN_ONE_PLACE),
     )
 )
 

@@ -3,25 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
+from etot_cli.reasoning.language.grammar.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import either, sequence
-from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, put_to
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, in_a_stance
 from etot_cli.world.spatial import Nearby
 
 
-def _laid_down(things: Things, where: tuple[Destination, ...]) -> PutClause | None:
+def _laid_down(things: Things, where: tuple[Destination, ...], extras: Any) -> PutClause | None:
     """What lies where it is put; "upright" and "back" say something else of it."""
     lying = in_a_stance(Nearby.LYING, where)
-    return None if lying is None else put_to(things, lying)
+    return None if lying is None else put_of((PutGroup(things, lying),), extras)
 
 
 LAID_DOWN = sequence(
     "lay[ing]",
     either(sequence(THINGS, "down"), sequence("down", THINGS)),
     DESTINATIONS,
+    EXTRAS,
     build=_laid_down,
 )
 

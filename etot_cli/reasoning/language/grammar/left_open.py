@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.grammar.remarks import (
     IsName,
     asks_besides,
 )
-from etot_cli.reasoning.language.words.lexicon import THING_NOUNS
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS
 
 _I = r"(?:i|we)"
 _NOT_CARING = (
@@ -46,6 +46,7 @@ _WHAT = (
     rf"|which{_OF_THEM}(?: (?:goes|go|ends? up|is put) (?:where|in which))?"
     rf"|what (?:happens to|becomes of){_WORDS}+|whether(?! you\b| i\b| we\b){_WORDS}+|{_WHETHER})"
 )
+_ON_DESK = rf"(?: on the (?:{'|'.join(DESK_NOUNS)}))?"
 _MANNER = r"(?:(?:grasp|grip|approach) (?:direction|pose)|grasp|grip|pose|orientation|order|way)"
 _LEFT_OPEN = re.compile(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
@@ -54,7 +55,8 @@ _LEFT_OPEN = re.compile(
     rf"|(?:any|either) {_MANNER} (?:is fine|is ok|is okay|will do|would do|works)"
     r"(?: (?:for|with|by) me)?"
     r"|(?:the|my|our) (?:(?!not\b)\w+ ){1,3}(?:can|may|might|could)"
-    r" (?:go|be|end up|stand|lie|be put) (?:just )?(?:anywhere|wherever)(?: you (?:like|want))?"
+    r" (?:go|be|end up|stand|lie|be put) (?:just )?"
+    rf"(?:(?:anywhere|wherever)(?: you (?:like|want)| else{_ON_DESK})?|elsewhere{_ON_DESK})"
     r"|do (?:what|as|it how|it however|whatever) you (?:like|want|please)"
 )
 _WHICH_PLACE = re.compile(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
@@ -32,6 +33,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     NUMBERS,
@@ -93,7 +95,7 @@ _PARTS = sequence(
     either(COMMA, at_end),
     build=_parts,
 )
-_COORDINATION = sequence(
+_LIST = sequence(
     noun_phrase,
     some(
         either(
@@ -104,6 +106,23 @@ _COORDINATION = sequence(
     ),
     build=_listed,
 )
+
+
+def _out_of(nps: tuple[NounPhrase, ...]) -> bool:
+    """Whether some of all these are meant ("one of the apple and the pear")."""
+    number, of, *_ = (*nps[0].determiner.split(), "", "")
+    single = singular(nps[0].head) == nps[0].head and nps[0].head not in MASS_NOUNS
+    return bool(nps[1:]) and of == "of" and single and number in (*NUMBERS, "either")
+
+
+def _one_out_of(nps: tuple[NounPhrase, ...]) -> Things | None:
+    """One of several things that are named one by one."""
+    (number, _, *the), text = nps[0].determiner.split(), nps[0].text.split(maxsplit=2)
+    first = replace(nps[0], determiner=" ".join(the), text=text[-1])
+    return Things((first, *nps[1:]), either=True) if number in ("one", "either") else None
+
+
+_COORDINATION = sequence(_LIST, build=lambda nps: None if _out_of(nps) else nps)
 _COLOR = word(lambda given, text: basic_color(text) is not None and text not in COMMON_NOUNS)
 _COLORED_ONES = sequence(
     _COLOR, build=lambda color: (NounPhrase("all", (color, "ones"), text=color),)
@@ -171,6 +190,7 @@ ALL_THINGS = valued(NP_LIST, Things)
 CHOICE = Rule(
     either(
         sequence(alternatives(noun_phrase, 5), build=_one_of),
+        sequence(_LIST, build=lambda nps: _one_out_of(nps) if _out_of(nps) else None),
         sequence(noun_phrase, EITHER_SIDE, build=one_so),
         sequence(
             alternatives(noun_phrase, 1),

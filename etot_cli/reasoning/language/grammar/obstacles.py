@@ -10,6 +10,11 @@ from collections.abc import Callable
 
 _WHAT = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
 _AWAY = r"(?:out of the way(?! of\b)|aside|away(?! from\b))"
+_FROM_THE_FRONT = r"(?:away )?from (?:in front|the front) of\b"
+_NOT_TO_BE = (
+    r"(?:(?:must|should|may|can|shall) not (?:be|stand|get|stay|remain|lie)"
+    r"(?: left| standing| lying)?|(?:is|are|has|have) not to be)"
+)
 _ENDS = r"(?=[,.;!?]| (?:and|then|so)\b|$)"
 _BLOCKS = (
     r"(?:(?:is |are )?(?:blocking|obstructing)|blocks|obstructs"
@@ -42,7 +47,12 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"(?=(?: first| beforehand| before\b[^.;!?]*)?(?:[.;!?,]| (?:and|then)\b|$))",
         r"\1 out of the way",
     ),
-    (rf"\bclear ({_WHAT}|it|them) (?={_AWAY}{_ENDS})", r"move \1 "),
+    (rf"\bclear ({_WHAT}|it|them) (?={_AWAY}{_ENDS}|{_FROM_THE_FRONT})", r"move \1 "),
+    (
+        rf"({_WHAT}) {_NOT_TO_BE} in the way(?= of (?:{_WHAT}|it)|{_ENDS})",
+        r"move \1 out of the way",
+    ),
+    (rf"({_WHAT}) {_NOT_TO_BE} in ({_WHAT})(?:'s| 's) way{_ENDS}", r"move \1 out of the way of \2"),
     # What is asked for next says how
     (
         rf"({_HINDERS}[^.;!?]*)(?:[.;!?]+|,) (?:so |and |please )*{_FIX}"

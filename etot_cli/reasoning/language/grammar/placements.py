@@ -37,10 +37,26 @@ def _to_do(told: re.Match[str]) -> str:
 PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     (_ONCE_DONE, _to_do),
     (
-        rf"(^|[.;:,] |\b(?:and|but) )((?:the|my) (?:\w+ ){{0,2}}?\w+) (?:can|may|might|could) "
-        rf"{_LIE}({_THERE} or) (?:{_LIE})?(?=(?:in|on|inside|into|onto) (?:the|my)\b)",
-        r"\1\2 should be \3 ",
+        rf"(^|[.;:,] |\b(?:and|but) )((?:the|my) (?:\w+ ){{0,2}}?\w+|it|\w+) "
+        r"(?:can|may|might|could|must|should|has to|have to) "
+        rf"{_LIE}(?:({_THERE})|in(?: there)?) or (?:{_LIE})?"
+        r"(?=(?:in|on|inside|into|onto) (?:the|my)\b)",
+        lambda said: f"{said[1]}{said[2]} should be {said[3] or 'inside'} or ",
     ),
+    # Who may leave it open need not close it
+    (
+        r"\b(?:you (?:can|may|could)|it (?:is|would be) (?:fine|ok|okay|all right) (?:to|if you))"
+        rf" (?:just |also )?(?:leave|keep) ({NAMED} [^.,;]*?|it|them) (?=(?:open|closed|shut)\b)",
+        r"\1 may stay ",
+    ),
+    (r"\b(?:can|may|could) be (?:left|kept) (?=(?:open|closed|shut)\b)", "may stay "),
+    # Two headlines of one request ("toy out. then close the drawer")
+    (
+        r"(^|[.;!]\s+)((?:the |my )?(?:\w+ )?\w+ out)[.;!]\s+"
+        r"(?=(?:and |then |next |after that )|(?:\w+ ){1,3}(?:closed|shut|open)(?=[.;!]|$))",
+        r"\1\2, ",
+    ),
+    (r"\bone (\w+|\w+ \w+) only(?=[.,;!?]|$)", r"only one \1"),
     (r"\bno longer (?=(?:in|on|inside) )", "not "),
     (
         r"\bwherever you (?:like|want),? (?:either )?(?:in )?(?:the )?(\w+(?: \w+)?)"

@@ -124,6 +124,15 @@ AVOID = either(
         DESTINATIONS,
         build=partial(AvoidClause, Avoid.PUT, negated=True, needless=True),
     ),
+    sequence(
+        # "The cup can go anywhere but the drawer"
+        THINGS,
+        f"{verbs.MAY_GO} (anywhere|wherever you (like|want)) [else]",
+        OPTIONAL_COMMA,
+        nouns.EXCEPT,
+        either(DESTINATIONS, sequence(NP_LIST, build=lambda nps: (Destination(Toward.TO, nps),))),
+        build=lambda things, where: AvoidClause(Avoid.PUT, things, where, negated=True),
+    ),
     sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
     sequence(
         THINGS,

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Rule,
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -50,6 +51,10 @@ def _quantified(things: Things, said: str) -> Things | None:
     single = all(singular(np.head) == np.head for np in things.phrases)
     if len(nps) > 1 and (single or (said == "both" and len(nps) == 2)):
         nps = tuple((np,) for np in things.phrases)  # "the cup and the scissors both"
+        if said == "each":
+            (first,), *more = nps
+            each = f"each of {first.determiner}".strip()
+            nps = ((replace(first, determiner=each),), *more)
     several = len(nps) > 1 or nps[0] != things.phrases[:1]
     return replace(things, phrases=sum(nps, ())) if several and not things.either else None
 
@@ -89,7 +94,16 @@ def _tabled(things: Things, place: NounPhrase) -> PutGroup | None:
 
 
 _PUT_GROUP = sequence(
-    either(THINGS, sequence(THINGS, OPTIONAL_COMMA, phrase("both, all, each"), build=_quantified)),
+    either(
+        THINGS,
+        sequence(
+            THINGS,
+            silent(optional("away")),
+            OPTIONAL_COMMA,
+            one_of({said: f"{said} [of them]" for said in ("both", "all", "each")}),
+            build=_quantified,
+        ),
+    ),
     optional(
         either(
             phrase("standing [up]", Nearby.UPRIGHT),

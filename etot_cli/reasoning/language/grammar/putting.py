@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.common import (
     COLON,
     COMMA,
     LIST,
+    LIST_COMMA,
     OPTIONAL_COMMA,
     noun_phrase,
 )
@@ -180,6 +181,17 @@ def _in_after(things: Things, said: str) -> PutClause:
     return put_to(things, (Destination(Toward.WITH, (np,), said),))
 
 
+def _safely(things: Things) -> PutClause:
+    """Out of the way: of what "the ball in front of the drawer" is said to be in front of."""
+    marks = [
+        m for np in things.phrases for m in np.modifiers if m.prep in (Prep.FRONT, Prep.BEHIND)
+    ]
+    if len(things.phrases) > 1 or [m.denied for m in marks] != [False]:
+        return replace(put_to(things, DOWN), far_fetched=1)
+    away = (Beside(Nearby.AWAY, m.phrases, m.phrases[0].text) for m in marks)
+    return put_to(things, (Destination(Toward.BESIDE, beside=tuple(away)),))
+
+
 def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
     return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
 
@@ -213,7 +225,7 @@ PUT = either(
     sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
-            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.DONE)),
+            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.TO_BE_THERE)),
         ),
         DESTINATIONS,
         some(EXTRA, least=1, most=2),
@@ -231,13 +243,13 @@ PUT = either(
     sequence(
         either(sequence(verbs.PUT, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
         "aside, to one side",
-        build=lambda things: put_to(things, DOWN),
+        build=lambda things: replace(_safely(things), far_fetched=0),
     ),
     sequence(
         # With what is opened next it is rather out of the way of that.
         either(sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS), sequence(ALL_THINGS, verbs.MODAL)),
         places.SAFELY,
-        build=lambda things: replace(put_to(things, DOWN), far_fetched=1),
+        build=_safely,
     ),
     sequence(
         ALL_THINGS,
@@ -364,8 +376,10 @@ PUT = either(
             LIST,
             most=5,
         ),
+        # "Get the cup and the pen onto the tray, pen in the cup"
+        some(sequence(LIST_COMMA, PUT_GROUP), most=3),
         EXTRAS,
-        build=put_of,
+        build=lambda groups, more, extras: put_of((*groups, *more), extras),
     ),
     sequence(
         # "Clear it all off the tray and onto the shelf"

@@ -105,15 +105,17 @@ def _opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...
     return State(subjects, word="closed" if so == "open" else "open", denied=True)
 
 
-_STAYS = sequence(
-    NP_LIST,
-    verbs.STAY,
-    PREDICATE,
-    silent(optional(small_words.ALL_ALONG)),
-    build=lambda nps, predicate: (
-        None if (state := state_of(nps, predicate)) is None else replace(state, kept=True)
-    ),
-)
+_ALWAYS = optional(phrase(small_words.ALL_ALONG, True), False)
+
+
+def _staying(nps: tuple[NounPhrase, ...], said: str, predicate: Any, always: bool) -> State | None:
+    """What stays so; of what "may" do so nothing is asked."""
+    state = state_of(nps, predicate)
+    allowed = bool({"can", "may"} & {*said.split()})
+    return None if state is None else replace(state, kept=True, always=always, allowed=allowed)
+
+
+_STAYS = sequence(NP_LIST, phrase(verbs.STAY), PREDICATE, _ALWAYS, build=_staying)
 
 
 _THEREIN = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
@@ -197,7 +199,6 @@ def _ensured(*said_states: State | None) -> EnsureClause | None:
 
 
 _EACH = phrase("each, both, all")
-_TO_BE = f"to (be|end up|go|stand|sit|lie|stay|remain), {verbs.DONE}"
 _TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie|stay), {verbs.DONE}, {verbs.BE_PUT}")
 
 
@@ -222,9 +223,9 @@ _ALL_SO = sequence(
 )
 
 
-def _kept_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
+def _kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> EnsureClause:
     """What is to be open or closed all along."""
-    return EnsureClause((State(nps, word=word, kept=True),))
+    return EnsureClause((State(nps, word=word, kept=True, always=always),))
 
 
 BESIDES_SO = either(
@@ -240,12 +241,10 @@ BESIDES_SO = either(
         "with",
         NP_LIST,
         either(
-            sequence(
-                "kept, staying, remaining", OPEN_OR_CLOSED, silent(optional(small_words.ALL_ALONG))
-            ),
-            sequence(OPEN_OR_CLOSED, small_words.ALL_ALONG),
+            sequence("kept, staying, remaining", OPEN_OR_CLOSED, _ALWAYS),
+            sequence(OPEN_OR_CLOSED, small_words.ALL_ALONG, build=lambda word: (word, True)),
         ),
-        build=_kept_so,
+        build=lambda nps, said: _kept_so(nps, *said),
     ),
 )
 """What is said of other things behind what is asked for (", with the cup on the desk")."""
@@ -277,7 +276,7 @@ def _together(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...] 
     return None if said and (one or (said == "both" and len(nps) > 2)) else all_of(nps, said)
 
 
-_BE_TOGETHER = silent(phrase(_TO_BE))
+_BE_TOGETHER = silent(phrase(verbs.TO_BE_THERE))
 _TOGETHER = either(
     sequence(NP_LIST, _BE_TOGETHER, optional(_ALL, ""), build=_together),
     sequence(NP_LIST, _ALL, optional(_BE_TOGETHER), build=_together),
@@ -310,7 +309,7 @@ ENSURE = either(
         verbs.KEEP,
         NP_LIST,
         OPEN_OR_CLOSED,
-        silent(optional(small_words.ALL_ALONG)),
+        _ALWAYS,
         build=_kept_so,
     ),
     sequence(NP_LIST, verbs.MODAL, OPEN_OR_CLOSED, small_words.ALL_ALONG, build=_kept_so),
@@ -332,7 +331,7 @@ ENSURE = either(
     sequence(
         "(i|we) do not want",
         sequence(noun_phrase, build=_there_is_none),
-        optional(_TO_BE),
+        optional(verbs.TO_BE_THERE),
         DESTINATIONS,
         optional(small_words.ANY_MORE),
         build=lambda nps, so: _ensured(state_of(nps, so)),
@@ -350,7 +349,7 @@ ENSURE = either(
                             build=lambda nps: nps if nps[1:] else None,
                         ),
                     ),
-                    optional(_TO_BE),
+                    optional(verbs.TO_BE_THERE),
                     optional("left, lying, standing, sitting"),
                 ),
                 sequence(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from etot_cli.reasoning.language.grammar.common import (
     COMMA,
     LIST,
@@ -16,11 +18,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
     optional,
+    phrase,
     quiet,
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
@@ -136,6 +139,85 @@ ON_A_BASE = quiet(
     )
 )
 """Something is the base of a tower, and what goes on it is told from there up."""
+
+
+def _placed(lowest: NounPhrase, layers: tuple[PutGroup, ...]) -> TowerClause | None:
+    """What stands at the bottom, be it a piece of furniture, and each layer on or in one below."""
+    below, groups = [lowest], list[PutGroup]()
+    for layer in layers:
+        (np,), (where,) = layer.things.phrases, layer.destinations
+        (target,) = where.targets
+        under = [item for item in below if item.words == target.words]
+        if target.pronoun or target.words == ("one",):
+            under = [below[-1]] if target.text in ("it", "that", "that one") else []
+        if not under:
+            return None
+        groups.append(PutGroup(layer.things, (replace(where, targets=(under[-1],)),)))
+        below.append(np)
+    return TowerClause(Things(tuple(below)), placed=PutClause(tuple(groups)))
+
+
+_GOES = optional(f"{verbs.BE}, {verbs.LIES}, go[es]")
+PLACED_LAYERS = quiet(
+    sequence(
+        sequence(noun_phrase, _GOES, manner.AT_BOTTOM),
+        some(
+            sequence(
+                NEXT,
+                noun_phrase,
+                _GOES,
+                one_of(
+                    {
+                        Toward.INSIDE: "in, inside, into",
+                        Toward.ON: "[right|directly] (on|onto|upon|on top of|above|over)",
+                    }
+                ),
+                noun_phrase,
+                build=lambda np, to, below: PutGroup(Things((np,)), (Destination(to, (below,)),)),
+            ),
+            least=1,
+            most=4,
+        ),
+        build=_placed,
+    )
+)
+"""What is at the bottom, and where each of the others goes ("box at the bottom, cup on it, …")."""
+SO = either(
+    sequence(optional("like this"), COMMA),
+    sequence(OPTIONAL_COMMA, "with, where, so that, such that"),
+)
+"""Before what goes where in a tower."""
+_SO_MANY = sequence(one_of({n: said for said, n in NUMBERS.items()}), optional(WORDS, ()))
+A_TOWER = sequence(
+    f"{verbs.BUILD}, {verbs.WANT}",
+    either(
+        sequence(verbs.A_TOWER, optional(sequence("of [the]", _SO_MANY), (0, ()))),
+        sequence("a", _SO_MANY, "tower, stack, pile"),
+    ),
+)
+"""What is to be built, of how many things (0: not said) and how these are called."""
+
+
+def _as_many_placed(
+    announced: tuple[int, tuple[str, ...]], tower: TowerClause
+) -> TowerClause | None:
+    """A tower of as many things as were announced, if it was said how many."""
+    count, words = announced
+    return tower if count in (0, len(tower.things.phrases)) and not words else None
+
+
+LAYERED = either(
+    sequence(
+        verbs.STACK,
+        optional(either(phrase("things, these things", ()), THINGS), ()),
+        optional("up"),
+        SO,
+        PLACED_LAYERS,
+        build=lambda whole, tower: replace(tower, whole=whole or None),
+    ),
+    sequence(A_TOWER, SO, PLACED_LAYERS, build=_as_many_placed),
+)
+"""The same behind what is to be built."""
 FIRST_TO_LAST = sequence(
     "first",
     noun_phrase,

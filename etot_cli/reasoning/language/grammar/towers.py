@@ -7,7 +7,6 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -24,10 +23,14 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.grammar.tower_bases import (
+    A_TOWER,
     FIRST_TO_LAST,
+    LAYERED,
     NEXT,
     ON_A_BASE,
     ONE_ON_THE_OTHER,
+    PLACED_LAYERS,
+    SO,
 )
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
@@ -83,17 +86,6 @@ def _with_nouns(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
         replace(np, words=(*np.words, nouns[0])) if out and np.words and nouns else np
         for np, out in zip(nps, bare, strict=True)
     )
-
-
-_SO_MANY = sequence(one_of({n: said for said, n in NUMBERS.items()}), optional(WORDS, ()))
-_A_TOWER = sequence(
-    f"{verbs.BUILD}, {verbs.WANT}",
-    either(
-        sequence(verbs.A_TOWER, optional(sequence("of [the]", _SO_MANY), (0, ()))),
-        sequence("a", _SO_MANY, "tower, stack, pile"),
-    ),
-)
-"""What is to be built, of how many things (0: not said) and how these are called."""
 
 
 def _announced(
@@ -159,8 +151,6 @@ _COLOR = sequence(
 _UPWARD = sequence(
     OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
 )
-_SO = either(COMMA, sequence(OPTIONAL_COMMA, "with, where, so that, such that"))
-"""Before what goes where in a tower."""
 _LAYER = sequence(
     noun_phrase,
     optional(verbs.BE),
@@ -193,13 +183,15 @@ _LAYERS = valued(
 """All of a tower from the bottom up."""
 _TOWER_ENDS = optional(
     either(
-        sequence(_SO, _ENDS),
+        sequence(SO, _ENDS),
         # In "a tower with the blue block at the bottom" "the blue" is no thing of its own.
         sequence(_ENDS, build=lambda ends: ends if ends[0][0].determiner else None),
         sequence(OPTIONAL_COMMA, manner.WIDEST_BELOW, build=lambda: ()),
     ),
     None,
 )
+
+
 _TOWER = either(
     sequence(
         # "Stack the red block on the green one on the blue one"
@@ -271,14 +263,15 @@ _TOWER = either(
     sequence(
         THINGS,
         verbs.FORM_A_TOWER,
-        _SO,
+        SO,
         _LAYERS,
         build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
     ),
     ON_A_BASE,
-    sequence(_A_TOWER, optional(DESTINATIONS, ()), _SO, _ENDS, build=_of_its_ends),
+    LAYERED,
+    sequence(A_TOWER, optional(DESTINATIONS, ()), SO, _ENDS, build=_of_its_ends),
     variants(
-        sequence(_A_TOWER, optional(DESTINATIONS, ()), optional(_SO), _LAYERS),
+        sequence(A_TOWER, optional(DESTINATIONS, ()), optional(SO), _LAYERS),
         lambda found: [
             TowerClause(Things(nps), upward=True, base=found[1])
             for nps in [_announced(found[0], found[2])]
@@ -287,7 +280,7 @@ _TOWER = either(
     ),
     sequence(
         either(verbs.STACK, sequence(verbs.BUILD, verbs.OUT_OF)),
-        optional(sequence(THINGS, optional("up"), _SO), None),
+        optional(sequence(THINGS, optional("up"), SO), None),
         _LAYERS,
         build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
     ),
@@ -312,6 +305,7 @@ def _only_layers(first: Any, more: Any) -> TowerClause | None:
 
 
 STACKED = either(
+    PLACED_LAYERS,
     sequence(_ENDS, build=_only_ends),
     sequence(_LAYER, _MORE_LAYERS, build=_only_layers),
     sequence(

@@ -8,6 +8,7 @@ from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.common import (
     EMPTY_WORDS,
     LIST,
+    OPTIONAL_COMMA,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, FILLED
@@ -17,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     one_of,
     optional,
     phrase,
+    quiet,
     sequence,
     some,
 )
@@ -75,6 +77,16 @@ WANTED = either(
         optional("it, them"),
         DESTINATIONS,
         build=put_to,
+    ),
+    quiet(
+        sequence(
+            # "On the tray I want the cup with the pen in it"
+            DESTINATIONS,
+            OPTIONAL_COMMA,
+            f"{verbs.WANTED}, {verbs.THERE_BE}",
+            NP_LIST,
+            build=lambda where, nps: EnsureClause((State(nps, where),)),
+        )
     ),
     sequence(verbs.WANTED, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
     sequence(verbs.WANTED, ALL_THINGS, verbs.GONE, noun_phrase, build=RemoveClause),

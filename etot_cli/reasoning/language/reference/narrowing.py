@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.discourse import Discourse
 from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.usual_form import usual_form
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
     JOINT_NOUNS,
@@ -89,12 +90,14 @@ def of_last_choice(resolved: Resolved, discourse: Discourse) -> Resolved:
 
 
 def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Resolved | None:
-    """After "the pen and the key on the shelf" of the same clause "one" is one of these, and "the
-    other" what is left of two after "one of them" or "the pen or the key"; None where that is not
-    said.
+    """After "the pen and the key on the shelf" of the same clause, or named before it, "one" is one
+    of these, and "the other" what is left of two after "one of them" or "the pen or the key"; None
+    where that is not said.
     """
     said = [item for item in discourse.mentions if item.role is role is Role.THEME]
-    if phrase.modifiers or phrase.words not in ((), ("one",)) or not said:
+    rest = quantity_of(usual_form(phrase).determiner)
+    bare = phrase.words in ((), ("one",)) or (rest.other and not usual_form(phrase).words)
+    if phrase.modifiers or not bare or not said:
         return None
     noun, chosen = said[-1].noun, discourse.referents[said[-1].referent].options
     known = {item.referent for item in said if len(discourse.referents[item.referent].options) == 1}
@@ -104,10 +107,23 @@ def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Reso
     )
     if phrase.determiner == "the other" and choice and len(chosen) == 2:
         return Resolved(chosen, definite=True, other=True, noun=noun, again=True)
+    all_others = rest.other and (rest.every or rest.count == len(chosen) - 1)
+    if all_others and said[-1].either and len(chosen) > 1:
+        left = tuple(tuple(t for o in chosen if o != option for t in o) for option in chosen)
+        return Resolved(left, definite=True, other=True, noun=noun, every=True, again=True)
+    if rest.other and rest.every:
+        return None
     here = {item.referent for item in said if item.clause == discourse.clause} & known
     if not here and said[-1].clause == discourse.clause - 1:
-        here = {said[-1].referent} & known  # "take the pens out and put one into the cup"
+        # "Take the pens out and put one into the cup"; of several cups "one" may be any cup.
+        last = [item for item in said if item.clause == said[-1].clause]
+        alike = all(same_noun(item.noun, noun) for item in last)
+        here = {item.referent for item in (last[-1:] if alike else last)} & known
     things = dict.fromkeys(thing for index in sorted(here) for thing in discourse.things(index))
+    again = choice and said[-1].clause == discourse.clause
+    if phrase.determiner == "one" and again and len(chosen) > 1:
+        # "One in the drawer, one in the holder": each is another one.
+        return Resolved(chosen, other=True, noun=noun, again=True)
     if phrase.determiner not in ("one", "") or len(things) < 2:
         return None
     options = tuple((thing,) for thing in things)

@@ -26,7 +26,8 @@ from etot_cli.reasoning.language.reference.usual_form import GENERAL, chooses, i
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
 
-_BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my two")
+_BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my two",
+         "each of the two")  # fmt: skip
 """Of two things of a sort; where there are more, of those that were spoken of."""
 
 
@@ -224,7 +225,8 @@ class Referents(Meanings):
             return ()
         fitting: set[Thing] = set()
         with suppress(ReferenceProblem):
-            options = self.meaning(replace(phrase, determiner="all"), role).options
+            said = replace(phrase, determiner="all", words=phrase.words or ("objects",))
+            options = self.meaning(said, role).options
             fitting = {thing for option in options for thing in option}
         spoken: dict[Thing, int] = {}
         for mention in self.discourse.mentions:

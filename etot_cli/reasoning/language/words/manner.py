@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 OPEN_STATE = "[still] [wide|all the way|fully|completely] open, opened"
-CLOSED_STATE = "[still] [fully|completely|properly|all the way] (closed|shut)"
+CLOSED_STATE = """
+    [still] [fully|completely|properly|all the way] (closed|shut) [behind (it|them)]
+"""
 A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
@@ -107,6 +109,12 @@ SEPARATELY = """
     not (both|all) (in|on) the same (one|place),
     each (in|on) (its|their) own [one], each (in|on) (a different|a separate|another) (one|place)
 """
+PARTED = """
+    [to be] [kept|put|stored|placed] (separate|separated|separately|apart [from each other]),
+    [away] (in|into|at|to) [two|three] (different|separate) (places|spots|locations|positions)
+"""
+"""Of things of which it is told next which goes where."""
+AS_ONE = "together, [both|all] (in|into|to|at) the same (place|spot|container)"
 ONE_EACH = """
     one each, one (in|into|on|onto|to|for) each [of them], one (in|on) every one, one per,
     one to each, one in each one

@@ -107,7 +107,8 @@ NEARBY: dict[Nearby, str] = {
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
     Nearby.AWAY: (
-        "[far|well|a safe distance] away from, far from, [well] clear of, out of the way of"
+        "[far|well|a safe distance] away from, far from, [well] clear of, out of the way of, "
+        "[away] from in front of, away from the front of"
     ),
 }
 GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to, as (close|near) to"

@@ -175,6 +175,8 @@ class TowerClause:
     """What they are all of."""
     again: tuple[NounPhrase, ...] = ()
     """Layers that are named once more, as what the next one goes on."""
+    placed: PutClause | None = None
+    """Where each thing goes that is not at the bottom, told layer by layer."""
 
 
 @dataclass(frozen=True, slots=True)

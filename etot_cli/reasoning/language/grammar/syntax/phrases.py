@@ -172,6 +172,7 @@ class State:
     ``word``: the adjective in "the drawer is closed". ``kept``: it is so and has to stay so.
     ``denied``: it was said that the opposite must not be ("is not open"), or that they must not be
     there. ``going``: they go or belong there, which says nothing of what is there already.
+    ``always``: it must be so all the time. ``allowed``: it may be so, which asks for nothing.
     """
 
     subjects: tuple[NounPhrase, ...]
@@ -180,6 +181,8 @@ class State:
     kept: bool = False
     denied: bool = False
     going: bool = False
+    always: bool = False
+    allowed: bool = False
 
 
 def in_a_stance(stance: Nearby, where: tuple[Destination, ...]) -> tuple[Destination, ...] | None:

@@ -1,0 +1,122 @@
+"""What is told of a thing that is not so by now, and has to be, or may be, in the end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.relations import parts_of
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.syntax.clauses import MoveClause, PutClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    State,
+    Toward,
+)
+from etot_cli.reasoning.language.reference.antecedents import Mention
+from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.states import state_holds
+from etot_cli.reasoning.language.words.lexicon import STATES
+from etot_cli.reasoning.language.words.places import Prep
+
+_HOLDING = {Prep.CONTAINING: Toward.INSIDE, Prep.BEARING: Toward.ON}
+
+
+def closed_with(context: Context, clause: MoveClause) -> tuple[MoveClause, list[State]]:
+    """Who closes a drawer "with the toy in it" wants it there, be it there by now or not."""
+    phrases, inside = [], list[State]()
+    for np in clause.things.phrases:
+        np, held = _and_contents(context, np, Role.PART)
+        inside += [] if held is None else [held]
+        phrases.append(np)
+    return replace(clause, things=replace(clause.things, phrases=tuple(phrases))), inside
+
+
+def told_by_contents(context: Context, state: State) -> tuple[State, list[State]]:
+    """What is wanted somewhere "with the apple in it", which is not in there by now: how that is to
+    be, and what is to be in it in the end.
+    """
+    if state.word or state.denied or state.kept:
+        return state, []
+    subjects, inside = [], list[State]()
+    for np in state.subjects:
+        plain, held = _and_contents(context, np, Role.THEME)
+        if held is not None and plain != np:
+            context.discourse.notes.append(f"{np.text!r}: so in the end")
+            inside.append(held)
+        subjects.append(plain)
+    where, shut = _upon_closed(context, state.destinations)
+    return replace(state, subjects=tuple(subjects), destinations=where), [*inside, *shut]
+
+
+def put_on_closed(context: Context, clause: PutClause) -> tuple[PutClause, list[State]]:
+    """What goes "on top of the closed drawer", which is to be closed in the end."""
+    groups, shut = [], list[State]()
+    for group in clause.groups:
+        where, more = _upon_closed(context, group.destinations)
+        groups.append(replace(group, destinations=where))
+        shut += more
+    return replace(clause, groups=tuple(groups)), shut
+
+
+def _and_contents(context: Context, np: NounPhrase, role: Role) -> tuple[NounPhrase, State | None]:
+    """A phrase that tells a thing by what is in or on it, without that where it is not so by now,
+    and that it is so; None where the phrase says no such thing.
+    """
+    held = [m for m in np.modifiers if m.prep in _HOLDING and not m.denied]
+    if not (len(held) == 1 and " with " in np.text and all(map(_is_the_one, held[0].phrases))):
+        return np, None
+    try:
+        context.phrases.meaning(np, role)
+        if held[0].prep is Prep.BEARING:
+            return np, None  # it tells which
+    except ReferenceProblem:
+        np = np.without_modifier(held[0])
+        if [len(option) for option in context.phrases.meaning(np, role).options] != [1]:
+            raise
+    return np, State(held[0].phrases, (Destination(_HOLDING[held[0].prep], (np,)),))
+
+
+def _is_the_one(np: NounPhrase) -> bool:
+    return quantity_of(np.determiner).definite and bool(np.words)
+
+
+def _upon_closed(
+    context: Context, where: tuple[Destination, ...]
+) -> tuple[tuple[Destination, ...], list[State]]:
+    """Places on top of what is closed by a drawer or door of its own, and that it is closed."""
+    shut: list[State] = []
+
+    def plain(np: NounPhrase) -> NounPhrase:
+        words = tuple(word for word in np.words if STATES.get(word) != "closed")
+        if words in ((), np.words) or not quantity_of(np.determiner).definite:
+            return np
+        whole = replace(np, words=words)
+        options = context.phrases.meaning(whole, Role.SURFACE).options
+        things = [thing for option in options for thing in option]
+        if len(things) != 1 or things[0].part or len(parts_of(context.scene, things[0])) != 1:
+            return np  # of two drawers "the closed one" may be either
+        shut.append(State((whole,), word="closed"))
+        return whole
+
+    found = [
+        item.going_to(plain) if item.toward is Toward.ON and len(where) == 1 else item
+        for item in where
+    ]
+    return tuple(found), shut
+
+
+def so_by_then(context: Context, index: int, word: str, before: Sequence[Mention]) -> bool:
+    """Whether a part may be open or closed by then: it is now, or something was done with it."""
+    things = context.discourse.things(index)
+    done_with = context.discourse.things(
+        *(m.referent for m in before if m.role is not Role.SURFACE)
+    )
+    spoken = any(
+        one.name == other.name and (one.part == other.part or not (one.part and other.part))
+        for one in things
+        for other in done_with
+    )
+    return spoken or all(state_holds(word, thing, context.scene) for thing in things)
