@@ -60,7 +60,7 @@ from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is,
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.ruled_out import not_beside, rule_out
 from etot_cli.reasoning.language.goals.sharing import check_stance, is_left, rest_there, shared
-from etot_cli.reasoning.language.goals.so_in_the_end import so_by_then
+from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along, so_by_then
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -229,9 +229,8 @@ def ensure(context: Context, state: State) -> None:
                     leave_out(context, index, state.word)
                 if state.kept:
                     all_of_them = quantity_of(phrase.determiner).every
-                    keep_as_it_is(
-                        context, index, state.word, every=all_of_them, always=state.always
-                    )
+                    so = state.word
+                    keep_as_it_is(context, index, so, every=all_of_them, always=state.always)
                 leave_among_turned(context, index, opens=state.word == "open")
                 context.steps.append(_made(index, opens=state.word == "open"))
                 _not_instead(context, phrase, index, opens=state.word == "open")
@@ -258,6 +257,8 @@ def ensure(context: Context, state: State) -> None:
     before, done = context.discourse.put - away, len(context.steps)
     said = replace(put_to(Things(state.subjects), state.destinations), stays=state.kept)
     put(context, said, wherever=True, going=state.going)
+    if state.always:
+        rest_all_along(context, said.groups[0].things, done)
     for step in (step for step in context.steps[done:] if isinstance(step, Put)):
         again = before.intersection(step.what)
         if again and any(place.beside for place in step.places):

@@ -5,18 +5,27 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from etot_cli.reasoning.builtin.goal import Put, Relation
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax.clauses import MoveClause, PutClause
+from etot_cli.reasoning.language.goals.prohibitions import avoid
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
+    AvoidClause,
+    MoveClause,
+    PutClause,
+)
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
     State,
+    Things,
     Toward,
 )
 from etot_cli.reasoning.language.reference.antecedents import Mention
 from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import STATES
 from etot_cli.reasoning.language.words.places import Prep
@@ -120,3 +129,24 @@ def so_by_then(context: Context, index: int, word: str, before: Sequence[Mention
         for other in done_with
     )
     return spoken or all(state_holds(word, thing, context.scene) for thing in things)
+
+
+def rest_all_along(context: Context, rests: Things, first: int) -> None:
+    """What is to be somewhere all the time, as steps from ``first`` on say, must not be moved.
+
+    Raises:
+        ReferenceProblem: it is not there by now, or it is in a drawer, with which it moves.
+    """
+    things = context.discourse.things
+    for step in (step for step in context.steps[first:] if isinstance(step, Put)):
+        within = any(place.relation is Relation.INSIDE for place in step.places)
+        places = things(*(place.where for place in step.places if place.where is not None))
+        for thing in things(*step.what):
+            if not any(touches(thing, at, context.scene) for at in places):
+                why = "it is not there by now, and cannot be so all the time"
+                raise ReferenceProblem(thing.name, why, 3)
+            if within and any(parts_of(context.scene, at) for at in places):
+                why = "it moves with what it is in; say only where it is to be in the end"
+                raise ReferenceProblem(thing.name, why, 3)
+    del context.steps[first:]
+    avoid(context, AvoidClause(Avoid.MOVE, rests))
