@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -242,9 +243,9 @@ class _Way:
         return None
 
     def _bends(self, tool: Pose) -> Iterator[Vector]:
-        """Joint values (n,) at a tool pose: those next to where the arm is; then, where only the
-        arm met something and not the hand, bent otherwise: so it may pass beside what stands before
-        a front.
+        """Joint values (n,) at a tool pose: those next to where the arm is; then, if the hand has
+        room there, bent otherwise: so the arm may pass beside what stands before a front, or get
+        further out from there.
         """
         belief, arm = self._belief, self._belief.arm
         nearest = arm.reach(tool, belief.commanded)
@@ -253,7 +254,7 @@ class _Way:
         yield nearest.joints
         hits = belief.checker.hand_hits(tool, clearance=CLEARANCE, part=HandPart.ALL)
         if not {*map(owner_of, hits)} - {self._attached.name}:
-            yield from arm.solutions(tool, belief.commanded)
+            yield from islice(arm.solutions(tool, belief.commanded), 1, None)
 
     def _is_hit(self, joints: Vector, touching: set[str]) -> bool:
         hits = self._belief.checker.hits(
