@@ -115,6 +115,11 @@ def test_what_something_fastened_covers_is_grasped_from_the_side() -> None:
     assert revision(step) == level
     step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "nut", "can"))
     assert level not in revisions(step), "what can be moved goes first"
+    beside = scenes.scene(bridge, scenes.item("can", at=(0.3, 0.0)))
+    held = scenes.scene(bridge, scenes.item("can", at=(0.3, 0.0)), holding="can")
+    there = "[PICK UP, can] [PUT ON, desk] (at 0.500 0.000)"
+    step = failed(beside, there, 1, cause(CauseKind.NO_ROOM, "bridge", "can"), before=held)
+    assert "[PICK UP, can] (horizontal) [PUT ON, desk] (at 0.500 0.000)" in revisions(step)
 
 
 def test_what_comes_from_a_drawer_in_a_doors_way_is_taken_out_before() -> None:

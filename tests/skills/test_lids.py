@@ -56,6 +56,7 @@ def box(
     friction: float = 0.1,
     end: float = 1.8,
     handle: str = BAR,
+    front: bool = True,
     **more: Any,
 ) -> Episode:
     """A box with a closed lid, a die in it; ``end`` of the lid's range [rad]."""
@@ -65,7 +66,7 @@ def box(
         handle=handle.format(x=depth - 0.02),
     )  # fmt: skip
     (folder / "kit.xml").write_text(text)
-    part = {"joint": "hinge", "container_site": "room", "front_site": "hold"}
+    part = {"joint": "hinge", "container_site": "room"} | ({"front_site": "hold"} if front else {})
     kit = {"kind": "mjcf", "file": "kit.xml", "fixed": True, "yaw_deg": 180, "parts": {"lid": part}}
     return Episode(make_scene(folder, kit={**kit, "at": [0.43, -0.08], **more}, die=DIE), seed)
 
@@ -116,6 +117,13 @@ def test_lid_that_cannot_be_brought_to_where_it_stays(tmp_path: Path) -> None:
     assert record.cause is not None and record.cause.kind is CauseKind.UNREACHABLE
     assert record.cause.text.endswith("let go of below 70% of its travel, it falls shut")
     box(tmp_path, friction=0.3, **same).must("[OPEN, kit]")
+
+
+def test_lid_without_a_handle_offers_nothing_to_hold(tmp_path: Path) -> None:
+    """What the file does not mark is not known, and nothing that is shut is pushed open."""
+    record = box(tmp_path, front=False).do("[OPEN, kit]").record
+    assert record.cause is not None and record.cause.kind is CauseKind.NO_GRASP
+    assert record.cause.objects == ("kit",)
 
 
 @pytest.mark.parametrize(

@@ -358,3 +358,14 @@ def test_a_level_hand_takes_a_thing_out_from_under_whatever_is_above_it(
     after = run.must("[PICK UP, bottle] (horizontal)")
     assert after.holding == "bottle"
     run.must("[PUT ON, desk] (at 0.340 -0.280)")
+
+
+@pytest.mark.parametrize(("mass", "slips"), [(0.3, False), (1.0, True), (4.2, True)])
+def test_what_is_too_heavy_for_its_friction_is_said_to_be(mass: float, slips: bool) -> None:
+    ingot = {"kind": "cylinder", "diameter": 0.06, "height": 0.2, "mass": mass, "friction": 0.1,
+             "slippery": True, "at": [0.40, 0.20]}  # fmt: skip
+    record = episode(ingot=ingot).do("[PICK UP, ingot]").record
+    assert record.effect is not slips
+    if slips:
+        assert record.cause is not None and record.cause.kind is CauseKind.SLIP
+        assert f"{mass:.2f} kg" in record.cause.text and "mm wide" not in record.cause.text

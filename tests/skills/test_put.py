@@ -417,6 +417,13 @@ def test_goes_on_every_board_of_a_shelf(board: str, seed: int) -> None:
     assert not after.states["mug"].toppled
 
 
+BRIDGE = """<mujoco model="bridge"><worldbody><body name="bridge">
+<geom type="box" size="0.08 0.008 0.12" pos="0 0.13 0.12"/>
+<geom type="box" size="0.08 0.008 0.12" pos="0 -0.13 0.12"/>
+<geom type="box" size="0.08 0.138 0.006" pos="0 0 0.246"/>
+</body></worldbody></mujoco>"""
+"""A deck on two walls, 0.24 m above the desk."""
+
 CAN = {"kind": "cylinder", "diameter": 0.06, "height": 0.07, "mass": 0.12}
 """Something to stand another thing on."""
 
@@ -539,3 +546,34 @@ def test_an_arm_that_meets_what_stands_before_a_front_bends_otherwise(
     after = run.must("[PUT ON, rack.low]")
     assert after.states["vial"].on == ("rack.low",)
     assert after.states["block"].on == ("rack.low",)
+
+
+@pytest.mark.parametrize(
+    ("yaw", "x", "place"),
+    [(0, 0.46, "desk"), (-35, 0.48, "desk"), (90, 0.46, "desk"), (20, 0.46, "plate")],
+)
+@pytest.mark.slow
+def test_a_level_hand_puts_a_thing_under_whatever_hangs_over_the_place(
+    yaw: float, x: float, place: str, tmp_path: Path
+) -> None:
+    """From the side that is open: no front is marked there, and from above there is only a roof."""
+    (tmp_path / "bridge.xml").write_text(BRIDGE)
+    bridge = {"kind": "mjcf", "file": "bridge.xml", "at": [x, 0.04], "yaw_deg": yaw, "fixed": True}
+    plate = {"kind": "cylinder", "diameter": 0.14, "height": 0.012, "mass": 0.3}
+    where = [x, 0.04] if place == "plate" else [0.30, 0.32]
+    can = {"kind": "cylinder", "diameter": 0.05, "height": 0.12, "mass": 0.15, "at": [0.34, -0.28]}
+    run = Episode(make_scene(tmp_path, bridge=bridge, plate=plate | {"at": where}, can=can))
+    run.must("[PICK UP, can] (horizontal)")
+    told = "" if place == "plate" else f" (at {x:.3f} 0.030)"
+    after = run.must(f"[PUT ON, {place}]{told}")
+    assert after.states["can"].on == (place,) and not after.states["can"].toppled
+    assert np.hypot(*np.subtract(after.states["can"].position[:2], [x, 0.035])) < 0.05
+
+
+def test_from_above_it_is_the_roof_that_is_in_the_way() -> None:
+    roof = {"kind": "box", "size": [0.2, 0.25, 0.02], "at": [0.46, 0.04, 0.38], "fixed": True}
+    run = episode(roof=roof, ball=BALL | {"at": [0.34, -0.28]})
+    run.must("[PICK UP, ball]")
+    record = run.do("[PUT ON, desk] (at 0.460 0.030)").record
+    assert record.cause is not None and record.cause.kind is CauseKind.NO_ROOM
+    assert record.cause.objects == ("roof", "ball")

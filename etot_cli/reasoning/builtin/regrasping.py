@@ -119,11 +119,13 @@ def _is_out_of_reach(failed: FailedStep, cause: CauseKind) -> bool:
 
 def _is_roofed(failed: FailedStep) -> bool:
     """Whether the place that the action puts to or takes from is got at through a front, its own or
-    that of what bears it, or a grasp is obstructed by nothing but what is neither moved nor opened.
+    that of what bears it, or nothing is in the way of object and hand but what is neither moved nor
+    opened.
     """
     scene, target = failed.record.before, failed.branch.actions[failed.index].target
-    if (cause := failed.verdict.cause or failed.record.cause) and cause.kind is CauseKind.NO_GRASP:
-        above = {owner_of(name) for name in cause.objects} - {owner_of(target)}
+    cause = failed.verdict.cause or failed.record.cause
+    if cause is not None and cause.kind in (CauseKind.NO_GRASP, CauseKind.NO_ROOM):
+        above = {owner_of(name) for name in cause.objects} - {owner_of(target), scene.holding}
         infos = [scene.infos[name] for name in above if name in scene.infos]
         if infos and not any(info.movable or info.parts for info in infos):
             return True

@@ -114,6 +114,11 @@ class PartSearch:
         self._nearly = min(NEARLY_OPEN, goal - self._enough + LEAST) if opening else NEARLY_CLOSED
 
     @property
+    def _is_shut(self) -> bool:
+        """Whether it is to be opened and is shut."""
+        return self.opening and fraction_open(self.part, self._travel.value) <= CLOSED_AT
+
+    @property
     def faces_away(self) -> bool:
         """Whether it has handles, on the side of its furniture that faces away from the base."""
         if self.part.outer is None or not any(grasp.bar for grasp in self.part.grasps):
@@ -147,10 +152,9 @@ class PartSearch:
         hindered: list[_Hold] = []
         partial: list[_Partial] = []
         found = False
-        shut = self.opening and fraction_open(self.part, self._travel.value) <= CLOSED_AT
         for hold in self._holds():
             # Nothing that is shut can be pushed open from inside, though its walls have room there.
-            self.has_hold = self.has_hold or hold.contact.grip or not shut
+            self.has_hold = self.has_hold or hold.contact.grip or not self._is_shut
             if not hold.met.free:
                 hindered.append(hold)
                 self._seen.update(hold.met.others)
@@ -222,7 +226,9 @@ class PartSearch:
 
         An opening hand grips rather than pushes, a closing one pushes rather than grips.
         """
-        faces = (self.part.inner, self.part.back) if self.opening else (self.part.outer,)
+        faces = [self.part.inner, self.part.back] if self.opening else [self.part.outer]
+        if self._is_shut and not self.part.grasps:
+            faces = []  # nothing stands out that a finger could get behind
         pushed: list[Contact] = [
             push for face in faces if face is not None for push in pushes(self._travel, face)
         ]

@@ -160,11 +160,28 @@ def _friction(belief: Belief, name: str, grasp: Grasp) -> dict[str, float]:
     """The coefficient that a grasp needs, for its slant and the weight, and the share of what there
     is between pads and thing.
     """
+    bearing, there = _bearing_friction(belief, name)
+    needed = grasp.friction + bearing
+    return {"friction_needed": needed, "friction_share": needed / there}
+
+
+def _bearing_friction(belief: Belief, name: str) -> tuple[float, float]:
+    """The coefficient with which two pads bear a thing's weight, and that of pads and thing."""
     world = belief.world
     weight = world.entries[name].info.mass * -float(world.model.opt.gravity[2])
-    needed = grasp.friction + weight / (2.0 * world.robot.spec.gripper.force)
     there = grip_friction(world.model, world.robot.pads[0], world.geoms_of(name))
-    return {"friction_needed": needed, "friction_share": needed / there}
+    return weight / (2.0 * world.robot.spec.gripper.force), there
+
+
+def _too_heavy(belief: Belief, name: str) -> str | None:
+    """That no grasp bears a thing's weight, if so."""
+    needed, there = _bearing_friction(belief, name)
+    mass = belief.world.entries[name].info.mass
+    if needed <= there:
+        return None
+    return (
+        f"({mass:.2f} kg take a friction of {needed:.2f} at the pads' force, there is {there:.2f})"
+    )
 
 
 def pick_outcome(
@@ -202,7 +219,7 @@ def pick_outcome(
         # The fingers came to rest on it: they were never around it.
         return too_wide(name, width, opening, trace.seconds)
     else:
-        text = f"{name} slipped out of the fingers {widths}"
+        text = f"{name} slipped out of the fingers {_too_heavy(belief, name) or widths}"
     return failed(CauseKind.SLIP, [name], text, trace.seconds, another_way=another)
 
 

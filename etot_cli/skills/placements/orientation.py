@@ -123,7 +123,7 @@ def orientations(
     now = belief.object_pose(attached.name).rotation
     base = resting_rotation(belief, attached)
     hangs = has_top(entry.info) and abs(now[2, 2]) < LEVEL
-    enters_level = support.from_front and hangs and _points_down(belief)
+    enters_level = support.from_front and hangs and points_down(belief)
     found: list[Orientations] = []
     if entry.upright_matters and stance is Nearby.LYING:
         ways = [base, *laid_rotations(belief, attached, base)]
@@ -287,8 +287,9 @@ def _approach(attached: Attached, rotation: Vector) -> Vector:
 def _level_tool(belief: Belief) -> Vector:
     """The present tool orientation turned to point straight down or level, whichever is nearer."""
     rotation = belief.tool().rotation
-    return rotation_between(rotation[:, 2], -UP) @ rotation if _points_down(belief) else rotation
+    return rotation_between(rotation[:, 2], -UP) @ rotation if points_down(belief) else rotation
 
 
-def _points_down(belief: Belief) -> bool:
+def points_down(belief: Belief) -> bool:
+    """Whether the hand comes from above rather than level."""
     return bool(belief.tool().rotation[2, 2] < -DOWN)

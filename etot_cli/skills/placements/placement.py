@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import product
+from itertools import islice, product
 
 import numpy as np
 
@@ -263,9 +263,9 @@ class _Way:
         return None
 
     def _bends(self, tool: Pose) -> Iterator[Vector]:
-        """Joint values (n,) at a tool pose: those next to where the arm is; then, where only the
-        arm met something and not the hand, bent otherwise: so it may pass beside what stands before
-        a front.
+        """Joint values (n,) at a tool pose: those next to where the arm is; then, if the hand has
+        room there, bent otherwise: so the arm may pass beside what stands before a front, or get
+        further out from there.
         """
         belief, arm = self._belief, self._belief.arm
         nearest = arm.reach(tool, belief.commanded)
@@ -274,7 +274,7 @@ class _Way:
         yield nearest.joints
         hits = belief.checker.hand_hits(tool, clearance=CLEARANCE, part=HandPart.ALL)
         if not {*map(owner_of, hits)} - {self._attached.name}:
-            yield from arm.solutions(tool, belief.commanded)
+            yield from islice(arm.solutions(tool, belief.commanded), 1, None)
 
     def _ways_out(self, normal: Vector, tool: Pose) -> list[Vector]:
         """Level unit vectors (3,) out through the front: straight, as the hand points, and along

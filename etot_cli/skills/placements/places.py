@@ -6,7 +6,7 @@ after that, for the best places only (``placement.py``).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -79,11 +79,14 @@ class PlaceFinder:
         self._judge = Judge(belief, request, {} if stamps is None else stamps)
         self._relief = self._judge.relief
 
-    def places(self, *, as_held: bool = False) -> Iterator[Place]:
+    def places(
+        self, *, as_held: bool = False, kinds: Iterable[Quality] = Quality
+    ) -> Iterator[Place]:
         """The places, the best first; worked out as they are asked for.
 
         Args:
             as_held: only those where the object is not laid down.
+            kinds: only these, in order.
         """
         rehearsed = self._request.rehearsed
         if rehearsed is not None and not as_held:
@@ -97,7 +100,7 @@ class PlaceFinder:
         judge, grid = self._judge, self._judge.grid()
         standing: list[list[Judged]] = []
         anywhere: list[list[Judged]] = []
-        for quality in Quality:
+        for quality in kinds:
             # Where it may stand at all is told from a few points; the rest waits until it is asked
             # for, which is seldom.
             may_stand = quality < Quality.PILED

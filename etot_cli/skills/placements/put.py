@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,9 +11,16 @@ from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Preference, Request
+from etot_cli.skills.placements.orientation import points_down
+from etot_cli.skills.placements.overhang import from_open_side
 from etot_cli.skills.placements.placement import Placement, Tally, placements
 from etot_cli.skills.placements.refusal import why_no_place
-from etot_cli.skills.placements.support import UPRIGHT, container_support, surface_support
+from etot_cli.skills.placements.support import (
+    UPRIGHT,
+    Support,
+    container_support,
+    surface_support,
+)
 from etot_cli.skills.placements.wanted import wanted_spots
 from etot_cli.world.pose import Pose
 from etot_cli.world.spatial import Nearby
@@ -45,6 +53,11 @@ def put_places(
     if lying and not can_lie(belief.world.entries[name].info):
         yield failed(CauseKind.PRECONDITION, [name], f"{name} cannot be laid down: {NO_SIDE}")
         return
+    at = tuple(
+        where.point for where in action.where if where.point is not None and not where.denied
+    )
+    if on and not support.from_front and not points_down(belief):
+        support = _under_overhang(belief, support, at, name) or support
     request = Request(
         belief.attach(name),
         support,
@@ -52,9 +65,7 @@ def put_places(
         absent=belief.riders(name),
         strict=on and action.safe,
         preference=_preference(belief, action, name),
-        at=tuple(
-            where.point for where in action.where if where.point is not None and not where.denied
-        ),
+        at=at,
         rehearsed=rehearsed,
         stance=next((w.relation for w in action.where if w.relation.is_stance), None),
     )
@@ -65,6 +76,20 @@ def put_places(
         yield placement
     if not found:
         yield why_no_place(belief, request, tally)
+
+
+def _under_overhang(
+    belief: Belief, floor: Support, at: Sequence[tuple[float, float]], name: str
+) -> Support | None:
+    """A floor, or of the desk what is around the place that was asked for, as a level hand gets at
+    it under what hangs over it; None where nothing does.
+    """
+    if floor.owner is not None:
+        return from_open_side(belief, floor)
+    size = max(belief.world.entries[name].info.size)  # it fits, however it is turned
+    around = (replace(floor, center=np.array([*point, floor.center[2]]), half=np.full(2, size))
+              for point in at)  # fmt: skip
+    return next((found for one in around if (found := from_open_side(belief, one))), None)
 
 
 def _preference(belief: Belief, action: Action, name: str) -> Preference | None:

@@ -58,8 +58,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             f"{_listed(guilty)} in the way",
         )
     cleared = replace(request, absent=request.absent.union(everybody))
-    held_so = _has_good_place(belief, cleared)
-    if tally.obstructed or held_so:
+    if tally.obstructed or _has_good_place(belief, cleared, stamps):
         fixed = [
             other
             for other in tally.blockers.most(excluding=[name])
@@ -71,7 +70,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             [*(fixed or owner), name],
             f"{text} {'into' if request.support.is_container else 'onto'} {address}",
         )
-    if _has_good_place(belief, replace(cleared, bare=True)):
+    if _has_good_place(belief, replace(cleared, bare=True), stamps):
         return failed(
             CauseKind.UNREACHABLE,
             [*owner, name],
@@ -84,10 +83,10 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     )
 
 
-def _has_good_place(belief: Belief, request: Request) -> bool:
+def _has_good_place(belief: Belief, request: Request, stamps: Stamps) -> bool:
     """Whether there is one as far as height maps tell."""
-    place = next(PlaceFinder(belief, request).places(), None)
-    return place is not None and place.quality is Quality.GOOD
+    places = PlaceFinder(belief, request, stamps).places(kinds=(Quality.GOOD,))
+    return next(places, None) is not None
 
 
 def _suspects(belief: Belief, request: Request, tally: Tally) -> tuple[list[str], list[str]]:

@@ -80,7 +80,7 @@ def surface_support(belief: Belief, address: str) -> Support | None:
     if rotation[2, 2] < EVEN:
         return _whatever_is_up(belief, address)
     center = body.xpos + rotation @ np.array(surface.center)
-    axes, half = _level_axes(rotation), np.array(surface.half)
+    axes, half = level_axes(rotation), np.array(surface.half)
     top = Support(address, center, axes, half, surface.round, owner=owner_of(address))
     return _under_roof(belief, top) or top
 
@@ -119,7 +119,7 @@ def _space(belief: Belief, address: str, region: Region, *, is_container: bool) 
     if rotation[2, 2] < UPRIGHT:
         return None
     floor = body.xpos + rotation @ (np.array(region.center) - np.array([0.0, 0.0, region.half[2]]))
-    half, axes = np.array(region.half[:2]), _level_axes(rotation)
+    half, axes = np.array(region.half[:2]), level_axes(rotation)
     out = rotation @ np.array(region.opening)
     from_front = bool(abs(out[2]) < LEVEL)
     if from_front:
@@ -143,7 +143,7 @@ def _space(belief: Belief, address: str, region: Region, *, is_container: bool) 
     )
 
 
-def _level_axes(rotation: Vector) -> Vector:
+def level_axes(rotation: Vector) -> Vector:
     """The sides of a body (3, 3) that stands upright, as seen from above (2, 2)."""
     first = rotation[:2, 0] / np.hypot(*rotation[:2, 0])
     return np.array([first, [-first[1], first[0]]])
