@@ -195,7 +195,7 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
     discourse = context.discourse
     referent = discourse.referents[theme]
     fixed = [place.where for place in places if place.where is not None and not place.beside]
-    if theme in discourse.put or referent.distinct_from:
+    if theme in discourse.put or (referent.distinct_from and not stays):
         return  # which "the other one" is depends on the choice before it
     targets = [target for index in fixed for target in discourse.things(index)]
     others = tuple((thing,) for thing in discourse.fitting.get(theme, ()) if not stays)
@@ -205,6 +205,8 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
         for thing in dict.fromkeys(thing for option in every for thing in option)
         if any(touches(thing, target, context.scene) for target in targets)
     ]
+    if referent.distinct_from and not there:
+        return
     sweeping = stays and targets and referent.text.startswith(tuple(GENERAL))
     if sweeping and not there:
         raise ReferenceProblem(referent.text, "there is nothing to be left", 3)
@@ -215,7 +217,8 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
     )
     if sweeping:
         options = (tuple(there),)  # "leave everything on the tray"
-    if options and {*there} & {*discourse.things(theme)} and options != referent.options:
+    tells = stays or {*there} & {*discourse.things(theme)}
+    if options and tells and options != referent.options:
         discourse.referents[theme] = replace(referent, options=options)
         names = ", ".join(thing.name for thing in there)
         which = "one" if stays else "none"

@@ -178,7 +178,9 @@ def put(
             places = with_stance(context, themes, places, stance)
         if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
             places = tuple(spread(context, place) for place in places)
-        for index in () if wherever else themes:
+        referents = context.discourse.referents
+        others = [i for i in themes if clause.stays and referents[i].distinct_from]
+        for index in others if wherever else themes:
             choose_by_place(context, index, places, stays=clause.stays)
         if clause.stays:
             leave_there(context, themes, places)
