@@ -87,8 +87,8 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
     framed = (
         r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body) |(you )?see |time |"
     )
-    framed += r"don't|never|hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |(\w+ )?\w+: |"
-    framed += r"right, |\w+, \w+\. )"
+    framed += r"don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
+    framed += r"(\w+ )?\w+: |right, |\w+, \w+\. )"
     if re.match(framed, text):
         return  # it has a frame of its own
     if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:

@@ -63,9 +63,10 @@ def test_a_drawer_is_shut_before_something_goes_below_it(seed: int, tmp_path: Pa
 @pytest.mark.slow
 @pytest.mark.parametrize("at", [[0.66, 0.25], [0.70, 0.0], [0.60, 0.35]])
 def test_what_is_far_is_reached_with_a_level_hand(at: list[float], tmp_path: Path) -> None:
-    """A hand that points down does not reach that far."""
+    """A hand that points down does not reach that far, unless it lays the can down."""
     can = {"kind": "cylinder", "diameter": 0.05, "height": 0.08, "at": [0.4, -0.2], "mass": 0.1}
-    report = planned("far", [{"at": ["can", at]}], {"can": can}, tmp_path)
+    goal = [{"at": ["can", at]}, {"upright": "can"}]
+    report = planned("far", goal, {"can": can}, tmp_path)
     assert report.plan[0] == "[PICK UP, can] (horizontal)"
 
 
