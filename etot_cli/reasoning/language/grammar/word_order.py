@@ -74,7 +74,8 @@ def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> Put
         not (np.words or np.pronoun) or is_descriptive(np.head) for np in last
     ):
         return None
-    vague = any(item.toward is Toward.TO for item in where)
+    # "Take it out and put in the cup" rather puts it into that.
+    vague = any(item.toward is Toward.TO or item.word == "in" for item in where)
     return replace(put_to(Things(nps), where), far_fetched=int(vague))
 
 
