@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.headlines import (
     HEADLINE,
     PLACED,
@@ -63,7 +64,7 @@ from etot_cli.reasoning.language.grammar.prohibitions import (
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.reaching import SEPARATING
-from etot_cli.reasoning.language.grammar.states import ENSURE, STATE, states
+from etot_cli.reasoning.language.grammar.states import STATE, states
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,

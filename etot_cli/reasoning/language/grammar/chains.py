@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.common import (
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doubles import so_in_turn
+from etot_cli.reasoning.language.grammar.ensuring import OF_SEVERAL
 from etot_cli.reasoning.language.grammar.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so, timed
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, begins_like_a_verb
@@ -36,15 +37,8 @@ from etot_cli.reasoning.language.grammar.passives import (
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
-from etot_cli.reasoning.language.grammar.putting import VERBLESS
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import (
-    BESIDES_SO,
-    OF_SEVERAL,
-    OPEN_OR_CLOSED,
-    SHUT,
-    states,
-)
+from etot_cli.reasoning.language.grammar.states import BESIDES_SO, OPEN_OR_CLOSED, SHUT, states
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,
@@ -59,6 +53,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Noun
 from etot_cli.reasoning.language.grammar.taking import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.trees import nodes
+from etot_cli.reasoning.language.grammar.verbless import VERBLESS
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.places import Prep

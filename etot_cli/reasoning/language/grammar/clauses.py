@@ -25,7 +25,9 @@ from etot_cli.reasoning.language.grammar.doubles import (
     bared,
     with_others,
 )
+from etot_cli.reasoning.language.grammar.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.exclusions import but_some, excluding, of_the_things
+from etot_cli.reasoning.language.grammar.flanking import FLANKED
 from etot_cli.reasoning.language.grammar.grasping import GRASP
 from etot_cli.reasoning.language.grammar.holding import HOLD
 from etot_cli.reasoning.language.grammar.input import Input, Result
@@ -60,10 +62,9 @@ from etot_cli.reasoning.language.grammar.prohibitions import (
     WITHOUT,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP
-from etot_cli.reasoning.language.grammar.putting import FLANKED, PUT
+from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.reaching import REACHED
 from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
-from etot_cli.reasoning.language.grammar.states import ENSURE
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     Avoid,

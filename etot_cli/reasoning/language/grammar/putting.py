@@ -15,7 +15,6 @@ from etot_cli.reasoning.language.grammar.additions import (
     put_of,
 )
 from etot_cli.reasoning.language.grammar.common import (
-    COLON,
     COMMA,
     LIST,
     LIST_COMMA,
@@ -26,11 +25,16 @@ from etot_cli.reasoning.language.grammar.coordination import all_of, coordinated
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
     DIRECTED,
-    FILLED,
     INSTEAD,
     INTO,
     ONTO,
     ONWARD,
+)
+from etot_cli.reasoning.language.grammar.flanking import (
+    ON_BOTH_SIDES,
+    beside_others,
+    flanking,
+    to_others,
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.laying import LAID_DOWN, rather_laid_down
@@ -65,7 +69,6 @@ from etot_cli.reasoning.language.grammar.throwing import INSERTED, THROWN
 from etot_cli.reasoning.language.grammar.trees import UNSAID
 from etot_cli.reasoning.language.grammar.word_order import (
     ALONG_WITH,
-    ANNOUNCED,
     BROUGHT,
     FOLLOWING,
     FRONTED,
@@ -77,7 +80,6 @@ from etot_cli.reasoning.language.words import manner, nouns, places, small_words
 from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
-from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -86,8 +88,14 @@ _GOING = either(
     sequence(ALL_THINGS, verbs.MODAL),
     sequence(verbs.WANTED, ALL_THINGS, f"{verbs.DONE}, to (go|be)"),
 )
+
+
 _STACKS = frozenset(spellings(nouns.STACK))
+
+
 DOWN = (Destination(Toward.HERE, word="down"),)
+
+
 BACK = (Destination(Toward.HOME),)
 
 
@@ -119,60 +127,6 @@ def _put_away(verb: str, groups: tuple[PutGroup, ...], extras: Any) -> PutClause
 def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutClause | None:
     group = PutGroup(things, (Destination(Toward.TO, over),))
     return put_of((group,), extras, Grouping.SPREAD)
-
-
-def _flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
-    """Two things, one to the left and one to the right of another ("a cup on each side of it");
-    one alone may only be on either side.
-    """
-    (np, *more) = things.phrases
-    single = not more and singular(np.head) == np.head and "either" not in said
-    if single and np.determiner not in ("a", "an", "one", "two", "both"):
-        return None
-    if not more and np.determiner in ("a", "an", "one"):
-        things = Things((replace(np, determiner="two"),))
-    sides = (Nearby.LEFT, Nearby.RIGHT)
-    where = tuple(
-        Destination(Toward.BESIDE, beside=(Beside(side, (mark,), mark.text),)) for side in sides
-    )
-    return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
-
-
-_ON_BOTH_SIDES = phrase(places.ON_BOTH_SIDES)
-FLANKED = sequence(
-    "and, with", ALL_THINGS, _ON_BOTH_SIDES, phrase("it", NounPhrase(pronoun="it", text="it")),
-    build=_flanking,
-)  # fmt: skip
-"""Behind a clause about that ("… in the middle, with a cup on either side of it")."""
-
-
-def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
-    """In or on what other things are in or on ("put the spoon with the forks")."""
-    things, said = found
-    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
-    if all({"other", "others", "rest"} & {*np.determiner.split(), *np.words} for np in others):
-        # "With the other pens"; in "the rag in the jar with the other brush" they rather tell which
-        told = any(item.prep is Prep.IN for np in things.phrases for item in np.modifiers)
-        return replace(put_to(things, (where,)), far_fetched=2 * told)
-    out_of = (m.prep is Prep.FROM for np in things.phrases for m in np.modifiers)
-    there = [[item.prep for item in np.modifiers] in ([Prep.IN], [Prep.ON]) for np in others]
-    if all(there) and said != "in with":
-        # "With the pen in the cup" is where the pen is, if that is there.
-        return replace(put_to(things, (where,)), far_fetched=2)
-    described = any(np.modifiers for np in others) or not all(out_of)
-    inside = said == "in with"
-    known = (*THE_WORDS, *([""] if inside else ()))  # "in with teddy", "in with it"
-    named = not described and all(
-        (np.words or (inside and np.pronoun)) and np.determiner in known for np in others
-    )
-    return put_to(things, (where,)) if named else None
-
-
-def _to_others(things: Things, said: str, others: tuple[NounPhrase, ...]) -> PutClause | None:
-    """In or on what other things are in or on ("add the spoon to the forks in the drawer")."""
-    told = all(any(m.prep in (Prep.IN, Prep.ON) for m in np.modifiers) for np in others)
-    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
-    return replace(put_to(things, (where,)), far_fetched=2) if told else None
 
 
 def _in_after(things: Things, said: str) -> PutClause:
@@ -212,11 +166,17 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
 
 OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, optional("go[es]"), DESTINATIONS)))
 """From one place to another ("out of the box and on the desk")."""
+
+
 _A_PLACE = "a [new|nice|good|free|safe|proper] (place|spot|home|seat) [~comma]"
+
+
 _COMES_AND_GOES = """
     [should|must|has to|have to|can] come[s] (out|off) [of (it|there)] and
     [should|must|has to|have to|can|to] (go|goes|be put)
 """
+
+
 PUT = either(
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
     sequence("find[ing]", _A_PLACE, "for", THINGS, DESTINATIONS, build=put_to),
@@ -272,14 +232,14 @@ PUT = either(
         some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
         build=lambda first, more: PutClause((first, *more)),
     ),
-    sequence(BROUGHT, _ON_BOTH_SIDES, noun_phrase, build=_flanking),
+    sequence(BROUGHT, ON_BOTH_SIDES, noun_phrase, build=flanking),
     sequence(
         BROUGHT,
         places.NEARBY[Nearby.NEXT_TO],
         noun_phrase,
         OPTIONAL_COMMA,
         "one (on|to) (each|either) side",
-        build=lambda things, np: _flanking(things, "each", np),
+        build=lambda things, np: flanking(things, "each", np),
     ),
     sequence(
         either(FIRST_THEN, FROM_FIRST_TO_LAST),
@@ -306,7 +266,7 @@ PUT = either(
                 sequence(_GOING, phrase("with, together with, in with")),
             ),
             NP_LIST,
-            build=_beside_others,
+            build=beside_others,
         )
     ),
     sequence(
@@ -320,7 +280,7 @@ PUT = either(
             either(sequence("add[ing]", ALL_THINGS), sequence(ALL_THINGS, "go[es], belong[s]")),
             phrase("to"),
             NP_LIST,
-            build=_to_others,
+            build=to_others,
         )
     ),
     sequence(
@@ -396,41 +356,3 @@ PUT = either(
         )
     ),
 )
-
-
-def _put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
-    """Each thing to its place; "cup off the tray, tray in the box" does not send both there."""
-    for np in (np for group in groups for np in group.things.phrases[:-1]):
-        if {"off", "out"} & {*np.text.split()[1:]}:
-            return None
-    return put_of(groups, extras)
-
-
-def _listed(place: NounPhrase, things: Things) -> PutClause | None:
-    """What a table says of a place; "teapot: tray" rather says where the teapot goes, and "mugs on
-    the tray: the white ones" which go there.
-    """
-    which = place.modifiers and any(np.is_elliptic for np in things.phrases)
-    put = put_to(things, (Destination(Toward.TO, (place,), FILLED),))
-    return None if which else replace(put, far_fetched=1)
-
-
-VERBLESS = either(
-    sequence(noun_phrase, COLON, ALL_THINGS, build=_listed),
-    ANNOUNCED,
-    sequence(
-        # "Into the bin with it"
-        either(INTO, ONTO),
-        "with",
-        ALL_THINGS,
-        build=lambda where, things: put_to(things, (where,)),
-    ),
-    sequence(
-        ALL_THINGS,
-        sequence(SOURCE, LIST, either(DIRECTED, DESTINATIONS)),
-        build=lambda things, moved: PutClause((brought(things, *moved),)),
-    ),
-    sequence(PUT_GROUPS, EXTRAS, build=_put_down),
-    sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
-)
-"""Places for things without a word for doing; only whole sentences are so."""

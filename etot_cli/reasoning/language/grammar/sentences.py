@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.headlines import (
     PLACED,
     STARTING,
@@ -48,7 +49,6 @@ from etot_cli.reasoning.language.grammar.prohibitions import (
     WITHOUT,
 )
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import ENSURE
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     EnsureClause,

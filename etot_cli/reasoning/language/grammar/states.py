@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
@@ -12,8 +11,8 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.coordination import all_of, disagrees
-from etot_cli.reasoning.language.grammar.destinations import AS_SAID, DESTINATIONS, WHERE
+from etot_cli.reasoning.language.grammar.coordination import all_of
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, WHERE
 from etot_cli.reasoning.language.grammar.gapping import other_sides
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -23,12 +22,10 @@ from etot_cli.reasoning.language.grammar.parsing import (
     one_of,
     optional,
     phrase,
-    quiet,
     separated,
     sequence,
     silent,
     some,
-    valued,
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -39,20 +36,32 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
 """Denials before a noun, and of which things what is denied is said."""
+
+
 SHUT = phrase(manner.CLOSED_STATE, "closed")
+
+
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
+
+
 _NOT_SO = sequence(
     "not [left|kept]", either(OPEN_OR_CLOSED, DESTINATIONS), build=lambda found: ("not", found)
 )
+
+
 _STILL_SO = sequence("still", WHERE, build=lambda where: ("still", where))
 """Where things are to stay."""
+
+
 SO = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, DESTINATIONS)
 """How things are."""
+
+
 PREDICATE = either(
     OPEN_OR_CLOSED,
     IN_HAND,
@@ -90,10 +99,10 @@ def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None
     if all(np.determiner in ("a", "an", "any") for np in subjects):
         subjects = tuple(replace(np, determiner="all") for np in subjects)
         return EnsureClause((_opposite(subjects, word),))
-    return _ensured(opposite(subjects, word))
+    return ensured(opposite(subjects, word))
 
 
-def _there_is_none(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
+def there_is_none(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
     """What there should not be ("a cup", "any cups", "cups"): no such thing."""
     one = np.determiner in ("a", "an", "any", "") and not {*np.words} & {"", *THING_NOUNS}
     return (replace(np, determiner="no"),) if one and np.words else None
@@ -105,7 +114,7 @@ def _opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...
     return State(subjects, word="closed" if so == "open" else "open", denied=True)
 
 
-_ALWAYS = optional(phrase(small_words.ALL_ALONG, True), False)
+ALWAYS = optional(phrase(small_words.ALL_ALONG, True), False)
 
 
 def _staying(nps: tuple[NounPhrase, ...], said: str, predicate: Any, always: bool) -> State | None:
@@ -115,16 +124,16 @@ def _staying(nps: tuple[NounPhrase, ...], said: str, predicate: Any, always: boo
     return None if state is None else replace(state, kept=True, always=always, allowed=allowed)
 
 
-_STAYS = sequence(NP_LIST, phrase(verbs.STAY), PREDICATE, _ALWAYS, build=_staying)
+STAYS = sequence(NP_LIST, phrase(verbs.STAY), PREDICATE, ALWAYS, build=_staying)
 
 
-_THEREIN = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
+IN_OR_ON_IT = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
 
 
 _AS_WELL = sequence(OPTIONAL_COMMA, "and, as well as, together with, along with", NP_LIST)
 
 
-def _holds(
+def holding(
     np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward, more: tuple[NounPhrase, ...] = ()
 ) -> State | None:
     """What is in or on something; "the cup on it" is no cup on another one that it has."""
@@ -136,20 +145,16 @@ def _holds(
 def containing(verb: str) -> Parser:
     """What is in or on something, by a verb for that."""
     return either(
-        sequence(noun_phrase, verb, NP_LIST, optional(_THEREIN, Toward.INSIDE), build=_holds),
-        sequence(noun_phrase, verb, NP_LIST, _THEREIN, _AS_WELL, build=_holds),
+        sequence(noun_phrase, verb, NP_LIST, optional(IN_OR_ON_IT, Toward.INSIDE), build=holding),
+        sequence(noun_phrase, verb, NP_LIST, IN_OR_ON_IT, _AS_WELL, build=holding),
     )
-
-
-def _held(np: NounPhrase, held: NounPhrase) -> State:
-    return State((held,), (Destination(Toward.INSIDE, (np,)),))
 
 
 _WITH_OTHERS = optional(sequence(OPTIONAL_COMMA, "together with, along with", NP_LIST), ())
 """Behind where things are, what else is there."""
 
 
-def _each_so(
+def each_so(
     nps: tuple[NounPhrase, ...], said: str, predicate: Any, more: tuple[NounPhrase, ...] = ()
 ) -> State | None:
     """How several things are; no one thing is "both" so."""
@@ -168,11 +173,11 @@ def being(verb: str) -> Parser:
         optional(phrase("both, all"), ""),
         PREDICATE,
         _WITH_OTHERS,
-        build=_each_so,
+        build=each_so,
     )
 
 
-_NOT_FALLING = sequence(
+NOT_FALLING = sequence(
     either(sequence(NP_LIST, verbs.NOT_FALL), sequence(verbs.DO_NOT, "let", NP_LIST, verbs.FALL)),
     one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
     noun_phrase,
@@ -180,14 +185,17 @@ _NOT_FALLING = sequence(
 )
 STATE = either(
     being(f"{verbs.BE}, {verbs.LIES}"),
-    _STAYS,
-    _NOT_FALLING,
+    STAYS,
+    NOT_FALLING,
     containing("contains, holds, has, have"),
 )
+
+
 states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
 
 
-def _ensured(*said_states: State | None) -> EnsureClause | None:
+def ensured(*said_states: State | None) -> EnsureClause | None:
+    """How things are to be in the end; None where one of the states is none."""
     said = tuple(state for state in said_states if state is not None)
     if len(said) < len(said_states):
         return None
@@ -198,32 +206,25 @@ def _ensured(*said_states: State | None) -> EnsureClause | None:
     return EnsureClause(said)
 
 
-_EACH = phrase("each, both, all")
 _TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie|stay), {verbs.DONE}, {verbs.BE_PUT}")
-
-
-def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
-    """What "arrange everything so that …" asks for stands behind it."""
-    general = (*THING_NOUNS, "stack", "tower", "pile")
-    vague = np.head in DESK_NOUNS or matches_any(np.head, general)
-    plain = (np.pronoun == "it" or (vague and len(np.words) == 1)) and not np.modifiers
-    return EnsureClause(said) if plain else None
 
 
 # "…, the ball in the cup": the verb is left out.
 _AND_SO = sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of)
-_ALL_SO = sequence(
+
+
+ALL_SO = sequence(
     PREDICATE,
     _WITH_OTHERS,
     either(
         some(_AND_SO, most=4),
         sequence(small_words.BY_THE_END, some(_AND_SO, least=1, most=4)),
     ),
-    build=lambda predicate, others, more: lambda nps: (_each_so(nps, "", predicate, others), *more),
+    build=lambda predicate, others, more: lambda nps: (each_so(nps, "", predicate, others), *more),
 )
 
 
-def _kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> EnsureClause:
+def kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> EnsureClause:
     """What is to be open or closed all along."""
     return EnsureClause((State(nps, word=word, kept=True, always=always),))
 
@@ -233,196 +234,18 @@ BESIDES_SO = either(
         "with",
         NP_LIST,
         silent(optional(f"[still|left] (lying|standing|sitting|resting), staying, {verbs.DONE}")),
-        _ALL_SO,
+        ALL_SO,
         silent(optional("instead")),
-        build=lambda nps, said: _ensured(*said(nps)),
+        build=lambda nps, said: ensured(*said(nps)),
     ),
     sequence(
         "with",
         NP_LIST,
         either(
-            sequence("kept, staying, remaining", OPEN_OR_CLOSED, _ALWAYS),
+            sequence("kept, staying, remaining", OPEN_OR_CLOSED, ALWAYS),
             sequence(OPEN_OR_CLOSED, small_words.ALL_ALONG, build=lambda word: (word, True)),
         ),
-        build=lambda nps, said: _kept_so(nps, *said),
+        build=lambda nps, said: kept_so(nps, *said),
     ),
 )
 """What is said of other things behind what is asked for (", with the cup on the desk")."""
-
-
-def _going(verb: str, clause: EnsureClause | None) -> EnsureClause | None:
-    """What goes or belongs somewhere; what "go" there are several things."""
-    if clause is None:
-        return None
-    if {"go", "goes", "belong", "belongs"} & {*verb.split()}:
-        going = tuple(replace(state, going=not state.word) for state in clause.states)
-        clause = replace(clause, states=going)
-    odd = disagrees(clause.states[0].subjects, verb)
-    return replace(clause, far_fetched=OF_SEVERAL) if odd else clause
-
-
-def _so_wanted(cost: int, nps: tuple[NounPhrase, ...], said: Any) -> EnsureClause | None:
-    """How things are to be; "I want the plate on the right" is rather about the plate there."""
-    clause = _ensured(*said(nps))
-    return None if clause is None else replace(clause, far_fetched=cost)
-
-
-_ALL = phrase("both, all")
-
-
-def _together(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...] | None:
-    """Several things, of which it is said that all of them are meant."""
-    one = len(nps) == 1 and bool(nps[0].words) and singular(nps[0].head) == nps[0].head
-    return None if said and (one or (said == "both" and len(nps) > 2)) else all_of(nps, said)
-
-
-_BE_TOGETHER = silent(phrase(verbs.TO_BE_THERE))
-_TOGETHER = either(
-    sequence(NP_LIST, _BE_TOGETHER, optional(_ALL, ""), build=_together),
-    sequence(NP_LIST, _ALL, optional(_BE_TOGETHER), build=_together),
-)
-OF_SEVERAL = 2
-"""How far-fetched it is that one thing is meant where several are spoken of."""
-_THERE = (Destination(Toward.HERE, word=AS_SAID),)
-ENSURE = either(
-    sequence(verbs.ENSURE, states, build=EnsureClause),
-    sequence(
-        # "Those parcels are for the bin"
-        NP_LIST,
-        "is for, are for",
-        noun_phrase,
-        build=lambda nps, where: EnsureClause(
-            (State(nps, (Destination(Toward.INSIDE, (where,)),)),)
-        ),
-    ),
-    sequence(
-        # "The beaker is for the red vial and the marker"
-        noun_phrase,
-        "is for",
-        NP_LIST,
-        build=lambda np, held: EnsureClause(
-            (State(held, (Destination(Toward.INSIDE, (np,)),)),), far_fetched=1
-        ),
-    ),
-    sequence(verbs.ARRANGE, noun_phrase, small_words.SO_THAT, states, build=_arranged),
-    sequence(
-        verbs.KEEP,
-        NP_LIST,
-        OPEN_OR_CLOSED,
-        _ALWAYS,
-        build=_kept_so,
-    ),
-    sequence(NP_LIST, verbs.MODAL, OPEN_OR_CLOSED, small_words.ALL_ALONG, build=_kept_so),
-    sequence(
-        # "The drawer gets closed", "the drawer ends closed"
-        NP_LIST,
-        "get[s], end[s] [up]",
-        OPEN_OR_CLOSED,
-        build=lambda nps, state: EnsureClause((State(nps, word=state),)),
-    ),
-    sequence(
-        # "… and then that drawer can be closed"
-        NP_LIST,
-        "(can|may|could) be",
-        OPEN_OR_CLOSED,
-        build=lambda nps, state: EnsureClause((State(nps, word=state),)),
-    ),
-    sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
-    sequence(
-        "(i|we) do not want",
-        sequence(noun_phrase, build=_there_is_none),
-        optional(verbs.TO_BE_THERE),
-        DESTINATIONS,
-        optional(small_words.ANY_MORE),
-        build=lambda nps, so: _ensured(state_of(nps, so)),
-    ),
-    quiet(
-        sequence(
-            either(
-                sequence(NP_LIST, verbs.NOT_BE),
-                sequence(
-                    "(i|we) do not want",
-                    either(
-                        NP_LIST,
-                        sequence(
-                            separated(noun_phrase, "or, nor"),
-                            build=lambda nps: nps if nps[1:] else None,
-                        ),
-                    ),
-                    optional(verbs.TO_BE_THERE),
-                    optional("left, lying, standing, sitting"),
-                ),
-                sequence(
-                    "neither",
-                    separated(noun_phrase, "nor"),
-                    f"{verbs.MODAL}, {verbs.STAY}",
-                    build=lambda nps: nps if nps[1:] else None,
-                ),
-            ),
-            either(OPEN_OR_CLOSED, DESTINATIONS),
-            optional(f"{small_words.ANY_MORE}, like (this|that)"),
-            build=lambda nps, so: _ensured(opposite(nps, so)),
-        )
-    ),
-    *(
-        # "…, the tape should not", "…, the can should": go there, which was spoken of
-        sequence(NP_LIST, said, build=lambda nps, so=so: _ensured(so(nps, _THERE)))
-        for said, so in (
-            ("(does|do|should|must) not", opposite),
-            ("does, do, should, must, shall", State),
-        )
-    ),
-    sequence(
-        # "The tray should have the cup in it and the box the plate"
-        containing(verbs.CONTAIN),
-        some(sequence(LIST, noun_phrase, noun_phrase, build=_held), least=1, most=4),
-        build=lambda first, more: EnsureClause((first, *more)),
-    ),
-    sequence(
-        verbs.WANTED,
-        containing("to (contain|hold|have)"),
-        build=lambda state: EnsureClause((state,)),
-    ),
-    valued(
-        either(
-            sequence(optional("let"), _STAYS),
-            _NOT_FALLING,
-            being("end[s] up"),
-            containing(verbs.CONTAIN),
-            sequence(noun_phrase, verbs.END_WITH, NP_LIST, _THEREIN, build=_holds),
-        ),
-        lambda state: EnsureClause((state,)),
-    ),
-    quiet(
-        sequence(
-            NP_LIST,
-            either(
-                sequence(
-                    "should, must, shall, can, could, may",
-                    _EACH,
-                    "be, go, stand, lie, sit, end up, (be|get) (put|placed|moved)",
-                ),
-                sequence(_EACH, verbs.MODAL),
-            ),
-            PREDICATE,
-            build=lambda *said: _ensured(_each_so(*said)),
-        )
-    ),
-    sequence(
-        NP_LIST,
-        phrase(verbs.MODAL),
-        _ALL_SO,
-        build=lambda nps, verb, said: _going(verb, _ensured(*said(nps))),
-    ),
-    *(
-        sequence(*said, _ALL_SO, build=partial(_so_wanted, cost))
-        for cost, said in (
-            (0, (verbs.WANTED, _TOGETHER)),
-            (1, (verbs.WANTED, NP_LIST)),
-            (0, (verbs.CAN, NP_LIST, verbs.BE_PUT)),
-            (0, (verbs.THERE_BE, NP_LIST)),
-            (0, (verbs.ENSURE, verbs.THERE_IS, NP_LIST)),
-            (0, (sequence(verbs.THERE_NOT_BE, noun_phrase, build=_there_is_none),)),
-        )
-    ),
-)
