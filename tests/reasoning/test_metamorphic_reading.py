@@ -283,7 +283,7 @@ DETERMINED, HEADS, DESCRIBED, MOVED = (
 )
 
 
-KNOWN_WORDS = sorted(known.ALL_WORDS)
+KNOWN_WORDS = sorted(known.all_words())
 
 
 def described(pick: random.Random, labels: list[str], depth: int = 2) -> str:

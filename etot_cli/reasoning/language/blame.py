@@ -152,8 +152,8 @@ def _unmended(unread: Input, words: tuple[str, ...], before: str) -> UnreadableE
     stop = unread.reached
     for index, word in enumerate(words):
         why = _cause(unread, words, index)
-        odd = not index and word not in known.OPENING_WORDS
-        odd |= word not in known.ALL_WORDS and (known.is_adverb(word) or word in known.REASONS)
+        odd = not index and word not in known.opening_words()
+        odd |= word not in known.all_words() and (known.is_adverb(word) or word in known.REASONS)
         if why and (index >= stop - 1 or odd or word in known.BLAMED):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))
@@ -185,7 +185,7 @@ def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
     if word in known.OTHER_VERBS and begins:
         return known.NO_SKILL
     if known.is_adverb(word):
-        return "" if word in known.ALL_WORDS else "how something is done cannot be asked for"
+        return "" if word in known.all_words() else "how something is done cannot be asked for"
     if word in ("i", "we", "you", "they") and {*before} & {*unread.nouns, "that", "which", "one"}:
         return "what somebody has, does or needs is not known; name the thing"
     if word in known.OTHER_VERBS:
@@ -193,7 +193,7 @@ def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
     if not index:
         if word == "which":
             return known.REASONS["what"]
-        return "" if word in known.OPENING_WORDS else f"{word!r} is no verb that is known"
+        return "" if word in known.opening_words() else f"{word!r} is no verb that is known"
     listed = is_known(word, unread.nouns) or is_category(word) or is_in_lexicon(word)
     if not word.isalpha() or listed:
         return ""

@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.rewording import Refused, rewordings
 from etot_cli.reasoning.language.viewpoint import without_viewpoint
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.categories import is_category
-from etot_cli.reasoning.language.words.known import OPENING_WORDS, OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, opening_words
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, NUMBERS, singular, word_set
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -129,7 +129,7 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         raise UnreadableError(instruction, "")
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(_is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
-    heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in OPENING_WORDS
+    heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()
     below = {*words_in(_OF_ITS_OWN.sub("", normalized(said[2])))}
     if any(_is_name(word, vocabulary) for word in {*words} & {*below, *map(_several, below)}):
         below -= {"one"}  # "bring the mugs together: put the blue mug next to the red one"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
-from etot_cli.reasoning.language.words.known import ALL_WORDS
+from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.world.state import SceneState
 
 _SMALL_WORDS = {
@@ -44,7 +44,7 @@ def other_language(instruction: str, scene: SceneState) -> str | None:
     for name, first, last in _SCRIPTS:
         if sum(first <= letter <= last for letter in letters) * 2 > len(letters) > 0:
             return name
-    known = ALL_WORDS | Vocabulary(scene).words()
+    known = all_words() | Vocabulary(scene).words()
     words = re.findall(r"[^\W\d_]+(?:'[^\W\d_]+)?", instruction.casefold())
     if not words:
         return None

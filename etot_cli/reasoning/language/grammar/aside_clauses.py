@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 from etot_cli.reasoning.language.grammar.left_open import is_left_open, leaves_choice
 from etot_cli.reasoning.language.grammar.remarks import PEOPLE
 from etot_cli.reasoning.language.grammar.text import COMMA
 from etot_cli.reasoning.language.grammar.where_needed import done_where_needed
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.small_words import (
@@ -19,7 +20,7 @@ from etot_cli.reasoning.language.words.small_words import (
     WITHOUT_MEANING,
 )
 
-_WITHIN = re.compile(
+_WITHIN = Expression(
     r"(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
     r"|(?P<reason>because|since|now that|although|even though|even if|in case"
     rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
@@ -36,18 +37,24 @@ _WITHIN = re.compile(
     rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA})))\b"
 )
 """Words that a clause begins with wherever they stand."""
-_AHEAD = re.compile(
+_AHEAD = Expression(
     r"(?P<reason>as(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
     r"|though)\b"
     r"|(?P<comment>which)\b|(?P<purpose>otherwise)\b"
     r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b"
 )
 """Words that one begins with behind a comma, or as the first of a sentence."""
-SAYS_NOTHING = frozenset(
-    said.removeprefix(f"{COMMA} ").replace(f" {COMMA}", ",")
-    for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}")
-)
-"""Sentences and clauses that ask for nothing."""
+
+
+@cache
+def says_nothing() -> frozenset[str]:
+    """Sentences and clauses that ask for nothing; there are hundreds."""
+    return frozenset(
+        said.removeprefix(f"{COMMA} ").replace(f" {COMMA}", ",")
+        for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}")
+    )
+
+
 _BEFORE = {
     "so": word_set("is are was were am not feel feels look looks get gets got"),
     "where": word_set("is care mind matter difference important goes go which"),
@@ -55,11 +62,11 @@ _BEFORE = {
 """Words behind which others begin no clause ("my hands are so dry", "that is where I like it")."""
 GRANTED = ("make sure that", "but not")
 """In place of "as long as", where that asks for something."""
-_OF_ANY = re.compile(r"\b(?:any|either|whichever|one of|an?) (?:\w+ ){0,3}\w+$")
-_OTHER_THAN = re.compile(r"it is not (?P<one>(?:the|my|our) (?:\w+ ){0,3}\w+)$")
+_OF_ANY = Expression(r"\b(?:any|either|whichever|one of|an?) (?:\w+ ){0,3}\w+$")
+_OTHER_THAN = Expression(r"it is not (?P<one>(?:the|my|our) (?:\w+ ){0,3}\w+)$")
 
 
-_IN_THE_END = re.compile(
+_IN_THE_END = Expression(
     r"\bends? up\b|^(?:neither|none|nothing|no \w+) [^~]*\b(?:stays?|remains?|is left)\b"
 )
 """Of what is to be so when all is done, and was not before."""
@@ -92,7 +99,7 @@ class Clause:
     @property
     def is_polite(self) -> bool:
         """Whether there is nothing to be told in it."""
-        return self.kind == "polite" or f"{self.joint} {self.said}".strip() in SAYS_NOTHING
+        return self.kind == "polite" or f"{self.joint} {self.said}".strip() in says_nothing()
 
 
 def clauses_of(sentence: str) -> list[Clause]:

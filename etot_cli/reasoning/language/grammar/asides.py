@@ -37,7 +37,7 @@ from etot_cli.reasoning.language.grammar.text import (
     spaced,
     words_in,
 )
-from etot_cli.reasoning.language.words.known import ALL_WORDS
+from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, is_descriptive, word_set
 
 ASIDE = "~aside"
@@ -149,9 +149,11 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     "seed box leaks".
     """
     words = () if not told_of_thing(aside.said, is_name) else aside.said.split()
-    strange = any(word not in ALL_WORDS and not is_name(word) for word in words)
+    strange = any(word not in all_words() and not is_name(word) for word in words)
     first, verb = (*aside.said.split(), "", "")[:2]
-    outside = first not in ALL_WORDS and not is_name(first) and verb in ("is", "are", "has", "have")
+    outside = (
+        first not in all_words() and not is_name(first) and verb in ("is", "are", "has", "have")
+    )
     told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
     told = told or is_not_to_stay(aside.said)
     told = told or (aside.kind == "purpose" and is_made_possible(aside.said))
@@ -247,7 +249,7 @@ def _names_stranger(said: str, is_name: IsName) -> bool:
     words = said.split()
     return any(
         word in BEFORE_NAMES
-        and words[at + 1] not in ALL_WORDS
+        and words[at + 1] not in all_words()
         and not any(map(is_name, words[at + 1 : at + 4]))
         and not re.match(rf"{PEOPLE}\b", " ".join(words[at:]))
         for at, word in enumerate(words[:-1])

@@ -13,19 +13,14 @@ from dataclasses import dataclass
 from etot_cli.reasoning.language.words import places, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, word_set
-from etot_cli.reasoning.language.words.patterns import spellings, words_of
+from etot_cli.reasoning.language.words.patterns import openings_of, words_of
 
 _BEFORE_THINGS = word_set(
     "the a an my your its their our this that these those both all every each another"
 ).union(NUMBERS)
-_BEFORE_PLACES = {
-    said.split()[0]
-    for said in spellings(
-        ", ".join(
-            (places.INTO, places.ONTO, places.TO, places.SOURCE, "between", *places.NEARBY.values())
-        )
-    )
-} - {"left", "right"}
+_BEFORE_PLACES = openings_of(
+    (places.INTO, places.ONTO, places.TO, places.SOURCE, "between", *places.NEARBY.values())
+) - {"left", "right"}
 _SETTING = words_of((verbs.SET_DOWN,))
 _VERBS = VERB_WORDS | {"open", "shut", "empty"}
 _SEQUEL = word_set("first before then after afterwards last finally also too as")

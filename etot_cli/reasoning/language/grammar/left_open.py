@@ -4,8 +4,6 @@ himself: none of them asks for anything.
 
 from __future__ import annotations
 
-import re
-
 from etot_cli.reasoning.language.grammar.remarks import (
     ASKING,
     PLACED,
@@ -13,6 +11,7 @@ from etot_cli.reasoning.language.grammar.remarks import (
     IsName,
     asks_besides,
 )
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS
 
 _I = r"(?:i|we)"
@@ -48,7 +47,7 @@ _WHAT = (
 )
 _ON_DESK = rf"(?: on the (?:{'|'.join(DESK_NOUNS)}))?"
 _MANNER = r"(?:(?:grasp|grip|approach) (?:direction|pose)|grasp|grip|pose|orientation|order|way)"
-_LEFT_OPEN = re.compile(
+_LEFT_OPEN = Expression(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
     rf"|{_WHAT} {_NO_MATTER}|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
     rf"|the (?:exact )?{_MANNER} {_NO_MATTER}"
@@ -59,19 +58,19 @@ _LEFT_OPEN = re.compile(
     rf"(?:(?:anywhere|wherever)(?: you (?:like|want)| else{_ON_DESK})?|elsewhere{_ON_DESK})"
     r"|do (?:what|as|it how|it however|whatever) you (?:like|want|please)"
 )
-_WHICH_PLACE = re.compile(
+_WHICH_PLACE = Expression(
     rf"(?:{_NOT_CARING} )?(?:what|which) \w+(?: one)?{_WORDS}+(?: {_NO_MATTER})?"
 )
 """Where something goes, where what is asked for says so."""
-_ANY_WILL_DO = re.compile(
+_ANY_WILL_DO = Expression(
     r"(?:any|either) (?:\w+ ){1,4}?(?:will do|would do|is (?:fine|ok|okay)|works)(?: for me)?"
 )
-_PLANNED = re.compile(
+_PLANNED = Expression(
     r"(?:i|we) (?:(?:just|also|still|soon) )?(?:(?:have|need|want|would like|plan|hope) to"
     r"|(?:am|are) (?:going|about) to|will(?: have to| need to)?) (?P<did>\w+(?: [^~]+)?)$"
 )
 """What somebody is about to do."""
-_WONDERING = re.compile(
+_WONDERING = Expression(
     r"(?:why (?:is|are|was|were|has|have|did)|how come|who (?:left|put|opened|closed|moved|took"
     r"|forgot|has left|has put|has moved|has opened|has closed))\b(?!.*\b(?:not|you)\b)"
 )

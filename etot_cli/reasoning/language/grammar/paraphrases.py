@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
 from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.words.categories import CATEGORIES
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import LIDS, NUMBERS, SIZES
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
@@ -372,8 +373,13 @@ _PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]],
 )
 
 
+_EXPRESSIONS = tuple(
+    (Expression(said) if isinstance(said, str) else said, plain) for said, plain in _PARAPHRASES
+)
+
+
 def in_plain_words(text: str) -> str:
     """Text in lower case with what may be said in several ways said in one."""
-    for said, plain in _PARAPHRASES:
-        text = re.sub(said, plain, text)
+    for said, plain in _EXPRESSIONS:
+        text = said.sub(plain, text)
     return text

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.accounting import unaccounted
-from etot_cli.reasoning.language.grammar.aside_clauses import SAYS_NOTHING
+from etot_cli.reasoning.language.grammar.aside_clauses import says_nothing
 from etot_cli.reasoning.language.grammar.input import Input, TooManyReadings
 from etot_cli.reasoning.language.grammar.normalizing import normalized
 from etot_cli.reasoning.language.grammar.sentences import readings
@@ -118,7 +118,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
     sentences: list[Sentence] = []
     corrections: dict[Correction, None] = {}
     for part in parts:
-        if part in SAYS_NOTHING and len(parts) > 1:
+        if len(parts) > 1 and part in says_nothing():
             continue
         before = ". ".join(parts[: len(sentences)])
         words: list[str] = []
@@ -129,7 +129,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
             known_one = verb or is_known(word, vocabulary)
             meant = None if known_one else pet_form(word, spelled) or corrected(word, spelled)
             if common and meant is None and not known_one:
-                meant = exchanged(word, known.ALL_WORDS) or corrected(word, known.ALL_WORDS)
+                meant = exchanged(word, known.all_words()) or corrected(word, known.all_words())
             if meant is not None:
                 corrections[Correction(word, meant)] = None
             words.append(meant or word)
@@ -154,7 +154,9 @@ def _asked(words: tuple[str, ...], vocabulary: frozenset[str]) -> tuple[str, ...
 def is_known(word: str, vocabulary: Iterable[str]) -> bool:
     """Whether a word is one of the scene's or of the grammar's."""
     single = singular(word)
-    return word in known.ALL_WORDS or any(single == singular(item) for item in vocabulary)
+    if word in known.GRAMMAR_WORDS or any(single == singular(item) for item in vocabulary):
+        return True
+    return word in known.all_words()
 
 
 def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -> Sentence:

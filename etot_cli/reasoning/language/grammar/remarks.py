@@ -10,7 +10,8 @@ import re
 from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.language.words import verbs
-from etot_cli.reasoning.language.words.known import ALL_WORDS, OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -38,12 +39,12 @@ PEOPLE = (
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the) )(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
 )
-_PERSON = re.compile(
+_PERSON = Expression(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
     r"never |hardly |rarely )*(?P<did>.+)$"
 )
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
-_HAPPENED = re.compile(
+_HAPPENED = Expression(
     r"^forgot to (?:put|take|tidy|pack|clear) (?:\w+ )?away$"
     r"|^likes? (?:it|them|(?:my|our|his|her|the) \w+) "
     r"(?:cold|cool|warm|hot|chilled|fresh|clean|neat|better|best)(?= anyway|$)"
@@ -63,15 +64,15 @@ _HAPPENED = re.compile(
     r"(?!(?:want|lik|wish|ask|hop|expect|prefer)\w*ed\b|need)\w+ed|forget|lose|spill)\b"
 )
 """What somebody did, is or is about to do."""
-_HABIT = re.compile(
+_HABIT = Expression(
     r"^(?:take|have|drink|eat|like|love|prefer)s? (?:my|our|his|her|their) (?P<what>\w+) "
 )
 """What somebody has as he likes it, which is no thing of the scene ("I take my tea with lemon")."""
-_UNUSED = re.compile(
+_UNUSED = Expression(
     r"^(?:nobody|no one) (?:is going to |will |would |ever |really )*"
     r"(?:use|need|drink|eat|read|wear)s? "
 )
-_DOES = re.compile(
+_DOES = Expression(
     r"^(?:(?:will|might|may|could|can|would|does not|do not|did not|"
     r"will not|can not|keeps?) )?(?P<verb>\w+)"
 )
@@ -107,12 +108,12 @@ _DOING = {
 """What the robot could be asked to do."""
 _WORK = _DOING - {"clean", "tidy"}
 """Those that say nothing else of a thing."""
-_ASKED = re.compile(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(_DOING))})\b")
-_OUTSIDE = re.compile(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
-_TOO = re.compile(
+_ASKED = Expression(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(_DOING))})\b")
+_OUTSIDE = Expression(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
+_TOO = Expression(
     r"^(?:it|they|that|(?:the|my|your|our) [^~]+) (?:is|are|looks?|gets?) (?:far |much )?too \w+"
 )
-_IN_GENERAL = re.compile(
+_IN_GENERAL = Expression(
     r"^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
     r"|^it (?:is|gets|looks|feels) (?:so |very |too |"
     r"really |quite )?\w+ (?:in here|outside|out there)$"
@@ -124,25 +125,25 @@ _IN_GENERAL = re.compile(
     r"|^it is \w+time for (?:the|my|our) \w+(?: \w+)?$"
     r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b"
 )
-_YONDER = re.compile(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
+_YONDER = Expression(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
 REFERRING = word_set(
     "it they them this that these those one ones two three other others another rest everything "
     "anything all both each every any same here there first last which whichever whatever whoever"
 )
 """They may speak of what was asked for ("one of them is enough")."""
 BEFORE_NAMES = word_set("the a an my your our his her their this that these those both all")
-_PREDICATE = re.compile(
+_PREDICATE = Expression(
     r"(?:(?:is|are|was|were|has|have|had)(?: not| been| got)?|(?:does|do|did|will|can) not"
     r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|\w+[^s]s|\w+ed)"
     r"(?: (?:still|just|already|always|all|so|very|too|really|a bit|far|badly|quite|less|more))*"
     r"(?= |$)"
 )
-_TOO_SO = re.compile(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
+_TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
 _NOT_STAYING = (
     r"(?:can|must|should|may) not (?:be (?:left|kept)|stay|remain)"
     r"(?: (?:like (?:this|that)|as (?:it is|they are)|that way|so))?"
 )
-_NO_PLACE = re.compile(
+_NO_PLACE = Expression(
     rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
@@ -152,7 +153,7 @@ _NO_PLACE = re.compile(
     r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "
     r"(?:warm|cold|cool|dry|fresh|clean|safe)$"
 )
-_NEEDED = re.compile(r"^needs? (?:a |some )?(?:little |good )?(?P<done>\w+ing)$")
+_NEEDED = Expression(r"^needs? (?:a |some )?(?:little |good )?(?P<done>\w+ing)$")
 _DONE_TO_THINGS = VERB_WORDS | words_of(
     (verbs.COVER, verbs.UNCOVER, verbs.FILL, verbs.LOAD, verbs.THROW_AWAY, verbs.OPEN, verbs.CLOSE)
 )
@@ -163,34 +164,34 @@ _TELLING = (
 )  # fmt: skip
 """They tell one thing from another, or say how one is to be."""
 PLACED = word_set("in on into onto at next beside near off out")
-_GONE_WRONG = re.compile(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
+_GONE_WRONG = Expression(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
 _THING = r"(?:the|my|our) (?:\w+ )?\w+"
-_SO_OF_ITSELF = re.compile(
+_SO_OF_ITSELF = Expression(
     rf"^{_THING} (?:(?:stays?|keeps?|remains?) (?:warm|cold|cool|dry|fresh|clean|safe)"
     rf"|(?:do|does|will) not (?:get|go|turn) (?:{TURNED}))$"
 )
-_SO_IT_CAN = re.compile(
+_SO_IT_CAN = Expression(
     rf"^(?:it|they|{_THING}) (?:(?:can|could|will|may|might) (?:then )?"
     r"(?:be (?:closed|shut|opened)|close|shut|open|fit)|closes|shuts|fits)(?: again| properly)?$"
 )
-_TURNING = re.compile(
+_TURNING = Expression(
     rf" (?:(?:is|are) (?:getting|going|turning)|(?:has|have) gone) (?:{TURNED})$"
     r"|(?:must|should|(?:needs?|has|have) to) "
     r"(?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
 )
 """Of whatever it is said, it asks for nothing."""
-_SO_PEOPLE = re.compile(rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has)\b")
-_SO_NOTHING = re.compile(
+_SO_PEOPLE = Expression(rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has)\b")
+_SO_NOTHING = Expression(
     r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
     r"|nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
     r"|(?:nobody|no one) [^~]+"
     r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"
     r"|cool|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
 )
-_OR_WILL = re.compile(
+_OR_WILL = Expression(
     rf"^(?:{PEOPLE}|it|they) \w+|^{_THING} (?:will |might |may )?(?:get|go|turn)s? (?:{TURNED})$"
 )
-_COMMENT = re.compile(r"^(?:is|are|was|were|has|have) ")
+_COMMENT = Expression(r"^(?:is|are|was|were|has|have) ")
 
 
 def is_not_to_stay(said: str) -> bool:
@@ -277,7 +278,7 @@ def is_remark(said: str, is_name: IsName) -> bool:
             return not any(map(is_name, named)) and _does_nothing(person["did"])
         did = person["did"].removeprefix(happened[0]).split()
         if happened[0].endswith(" to "):
-            return did[0] in OTHER_VERBS or did[0] not in ALL_WORDS
+            return did[0] in OTHER_VERBS or did[0] not in all_words()
         if happened[0].startswith(("would hate", "do not want")):
             return not any(map(is_name, words))
         placed = PLACED & {*did} and any(map(is_name, did))
@@ -295,7 +296,7 @@ def is_remark(said: str, is_name: IsName) -> bool:
 
 def _is_of_no_thing(habit: re.Match[str], words: Sequence[str], is_name: IsName) -> bool:
     """Whether what somebody has as he likes it is no thing of the scene, nor is to be at one."""
-    strange = not is_name(habit["what"]) and habit["what"] not in ALL_WORDS
+    strange = not is_name(habit["what"]) and habit["what"] not in all_words()
     return strange and not (PLACED & {*words} and any(map(is_name, words)))
 
 
@@ -306,7 +307,7 @@ def _does_nothing(did: str) -> bool:
     if verb is None or (_WORK - OTHER_VERBS | asking) & more:
         return False
     stems = {verb["verb"], verb["verb"].removesuffix("s"), verb["verb"].removesuffix("es")}
-    known = any(stem in ALL_WORDS and stem not in OTHER_VERBS for stem in stems)
+    known = any(stem in all_words() and stem not in OTHER_VERBS for stem in stems)
     doing = any(word in VERB_WORDS and word.endswith("ing") for word in more)
     return not (known or doing or _PROPOSING & stems)
 
@@ -351,4 +352,4 @@ def _is_idle(predicate: str, is_name: IsName) -> bool:
         return False
     if any(is_name(word) or is_descriptive(word) for word in more):
         return False
-    return bool(more) or verb not in ALL_WORDS
+    return bool(more) or verb not in all_words()

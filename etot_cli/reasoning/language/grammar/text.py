@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import cache
 
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
@@ -43,7 +44,12 @@ _OF_A_CHOICE = re.compile(
     r"(?:and |but )?it (?:must|should|has to|needs to)(?: not)? be (?:an?|the) [\w ]+ one"
 )
 """What is said of one of several things that was left to choose; no state ends in "one"."""
-_AHEAD = frozenset({*spellings(small_words.FRAMES), "please", "now", "first", "then"})
+
+
+@cache
+def _ahead() -> frozenset[str]:
+    """What may stand before a request; there are thousands."""
+    return frozenset({*spellings(small_words.FRAMES), "please", "now", "first", "then"})
 
 
 def _is_looked_for(part: str) -> bool:
@@ -57,7 +63,7 @@ def _are_frames(text: str) -> bool:
     ends = {0}
     for at in range(len(words)):
         if at in ends:
-            ends |= {n for n in range(at + 1, len(words) + 1) if " ".join(words[at:n]) in _AHEAD}
+            ends |= {n for n in range(at + 1, len(words) + 1) if " ".join(words[at:n]) in _ahead()}
     return len(words) in ends
 
 

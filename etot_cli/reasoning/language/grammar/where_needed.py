@@ -6,8 +6,9 @@ that, calls for it in that case or forbids it in any other asks for nothing by i
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
+
+from etot_cli.reasoning.language.words.expressions import Expression
 
 _IT = r"(?:it|them|that)"
 _THING = rf"(?:(?:just )?(?:(?:the|my|our) (?:\w+ ){{0,3}}?\w+|{_IT}|anything|something))"
@@ -56,9 +57,9 @@ _ALLOWED = (
     rf"(?:you may|(?:you are |feel )?(?:free|allowed|permitted|welcome) to"
     rf"|(?:it is|it would be) (?:{_FINE} (?:to|if you)|{_FINE} for you to))"
 )
-_IF_IN_THE_WAY = re.compile(rf"if {_SO}")
-_TAKE_IT_AWAY = re.compile(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|{_TOUCH} {_IT}){_FIRST}")
-_WHERE_NEEDED = re.compile(
+_IF_IN_THE_WAY = Expression(rf"if {_SO}")
+_TAKE_IT_AWAY = Expression(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|{_TOUCH} {_IT}){_FIRST}")
+_WHERE_NEEDED = Expression(
     rf"{_YOU}(?:{_TAKE_IT}|{_TAKING_IT}){_FIRST} {_NEEDED}"
     rf"|you (?:can|could) {_TAKE} {_THING} {_ELSEWHERE}{_FIRST}"
     rf"|{_ALLOWED} {_TAKE_IT}{_FIRST}(?: {_NEEDED})?"

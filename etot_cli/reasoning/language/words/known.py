@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cache
 from types import ModuleType
 
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
-from etot_cli.reasoning.language.words.patterns import Begun, words_of
+from etot_cli.reasoning.language.words.patterns import openings_of, words_of
 
 _FUNCTION = """
     the a an any some another these those this that my your its their our his her it them they
@@ -150,11 +151,14 @@ def _patterns(module: ModuleType) -> list[str]:
     return [text for text in texts if isinstance(text, str)]
 
 
-ALL_WORDS = GRAMMAR_WORDS.union(
-    *(words_of(_patterns(module)) for module in (manner, nouns, places, small_words, verbs))
-)
-"""Every word that the grammar knows."""
-OPENING_WORDS = GRAMMAR_WORDS.union(
-    *(Begun.of({None: ", ".join(_patterns(module))}).following for module in (small_words, verbs))
-)
-"""Words that a sentence may begin with that is not about a thing of the scene."""
+@cache
+def all_words() -> frozenset[str]:
+    """Every word that the grammar knows, worked out where something is not understood."""
+    modules = (manner, nouns, places, small_words, verbs)
+    return GRAMMAR_WORDS.union(*(words_of(_patterns(module)) for module in modules))
+
+
+@cache
+def opening_words() -> frozenset[str]:
+    """Words that a sentence may begin with that is not about a thing of the scene."""
+    return GRAMMAR_WORDS.union(*(openings_of(_patterns(item)) for item in (small_words, verbs)))

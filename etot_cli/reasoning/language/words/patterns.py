@@ -67,6 +67,23 @@ def _begun(row: Row) -> Iterator[tuple[str, Row]]:
             yield from _begun((*choice, *row[1:]))
 
 
+def _openings(phrases: Phrases) -> Iterator[str]:
+    """The words that phrases may begin with; "" where one may be left out."""
+    for row in phrases:
+        for part in row:
+            found = {part} if isinstance(part, str) else {*_openings(part)}
+            yield from found - {""}
+            if "" not in found:
+                break
+        else:
+            yield ""
+
+
+def openings_of(patterns: Iterable[str]) -> frozenset[str]:
+    """Every single word that patterns may begin with."""
+    return frozenset(word for each in patterns for word in _openings(phrases_of(each))) - {""}
+
+
 class Begun:
     """Phrases that begin alike; how they go on is worked out once a sentence gets there.
 

@@ -1,0 +1,33 @@
+"""Expressions that are compiled late say what ``re`` says."""
+
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from etot_cli.reasoning.language.words.expressions import Expression
+
+PIECES = (
+    "ab", "cd ", r"\b", "(ab|cd)", "(?:cd)?", "ab?", "c*", "d+", "[abc]", "[^a]d", r"(?=cd)", "^", "$",
+    ".", "b{2}", "(?<!a)", r"\w+", "ab|cd",
+)  # fmt: skip
+
+
+@given(st.lists(st.sampled_from(PIECES), min_size=1, max_size=4), st.text("abcd ", max_size=12))
+def test_nothing_is_passed_over_that_would_fit(pieces: list[str], text: str) -> None:
+    pattern = "".join(pieces)
+    try:
+        expected = re.sub(pattern, "x", text)
+    except re.error:
+        return  # such as "ab?" before "b{2}"
+    assert Expression(pattern).sub("x", text) == expected
+
+
+@pytest.mark.parametrize(
+    ("pattern", "text"),
+    [("gimme", "gimme that"), ("can't? wait", "can' wait"), (r"i\.e\.", "i.e."), ("[|]ab", "|ab")],
+)
+def test_what_stands_in_a_pattern_is_found(pattern: str, text: str) -> None:
+    assert Expression(pattern).sub("", text) != text
+    assert Expression(pattern).sub("", "zz") == "zz"
