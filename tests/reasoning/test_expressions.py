@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from etot_cli.reasoning.language.words.expressions import Expression
 
 PIECES = (
-    "ab", "cd ", r"\b", "(ab|cd)", "(?:cd)?", "ab?", "c*", "d+", "[abc]", "[^a]d", r"(?=cd)", "^", "$",
-    ".", "b{2}", "(?<!a)", r"\w+", "ab|cd",
+    "ab", "cd ", r"\b", "(ab|cd)", "(?:cd)?", "ab?", "c*", "d+", "[abc]", "[^a]d", r"(?=cd)",
+    "^", "$", ".", "b{2}", "(?<!a)", r"\w+", "ab|cd",
 )  # fmt: skip
 
 
