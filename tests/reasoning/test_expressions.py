@@ -10,18 +10,22 @@ from etot_cli.reasoning.language.words.expressions import Expression
 
 PIECES = (
     "ab", "cd ", r"\b", "(ab|cd)", "(?:cd)?", "ab?", "c*", "d+", "[abc]", "[^a]d", r"(?=cd)",
-    "^", "$", ".", "b{2}", "(?<!a)", r"\w+", "ab|cd",
+    "^", "$", ".", "b{2}", "(?<!a)", r"\w+", "ab|cd", "(?:ab|(?:cd)?)", "(?P<it>cd|b)", "(?<=ab)",
+    "(?!cd|ab)", "(?:a|bc d)?", "(ab|)", r"\n", "(?:ab(?: c)?|cd)",
 )  # fmt: skip
 
 
-@given(st.lists(st.sampled_from(PIECES), min_size=1, max_size=4), st.text("abcd ", max_size=12))
-def test_nothing_is_passed_over_that_would_fit(pieces: list[str], text: str) -> None:
+@given(st.lists(st.sampled_from(PIECES), min_size=1, max_size=4), st.text("abcd \nB", max_size=12))
+@pytest.mark.parametrize("flags", [re.NOFLAG, re.IGNORECASE])
+def test_nothing_is_passed_over_that_would_fit(
+    flags: re.RegexFlag, pieces: list[str], text: str
+) -> None:
     pattern = "".join(pieces)
     try:
-        expected = re.sub(pattern, "x", text)
+        expected = re.sub(pattern, "x", text, flags=flags)
     except re.error:
         return  # such as "ab?" before "b{2}"
-    assert Expression(pattern).sub("x", text) == expected
+    assert Expression(pattern, flags).sub("x", text) == expected
 
 
 @pytest.mark.parametrize(

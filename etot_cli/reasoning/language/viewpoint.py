@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.world.state import SceneState
 
 _VIEW = r"(?:point of view|viewpoint|perspective|vantage point|view|angle|standpoint|position)"
@@ -22,7 +23,7 @@ _OTHERS = (
     rf"|(?:{_SEEN} )?from where (?:i|we|he|she|they) (?:am|are|is|stand|look|sit)s?"
     r"|(?:the way|as) (?:i|we|he|she|they) (?:sees?|looks? at) (?:it|them|things)"
 )
-_TOLD = re.compile(rf",? ?\b(?P<said>(?P<yours>{_YOURS})|{_OTHERS})\b", re.IGNORECASE)
+_TOLD = Expression(rf",? ?\b(?P<said>(?P<yours>{_YOURS})|{_OTHERS})\b", re.IGNORECASE)
 
 
 def without_viewpoint(instruction: str, scene: SceneState) -> str:

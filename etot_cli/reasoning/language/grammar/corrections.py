@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, word_set
 from etot_cli.reasoning.language.words.patterns import openings_of, words_of
@@ -31,7 +32,7 @@ _PLACES = "|".join(sorted(_BEFORE_PLACES))
 _AGAIN = f"i mean|i meant|scratch that|make (?:that|it)(?= (?:{_NEXT}|{_PLACES}) )"
 _ALONE = "no|wait|oops|correction|my mistake|(?:never mind|forget)(?: that| it)?"
 _OH = "(?:oh|ah|actually|well|hm+),? "
-_MARK = re.compile(
+_MARK = Expression(
     r"[\s,.!?;]{0,4}(?:"
     rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
     r"|\b(?:i mean|i meant|or (?:rather|better|no)|scratch that|on second thoughts?)\b"

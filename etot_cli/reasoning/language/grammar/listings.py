@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
@@ -12,7 +13,7 @@ _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
 _NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
 ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
 """Before what somebody is asked for."""
-_ALL_NAMED = re.compile(
+_ALL_NAMED = Expression(
     r"(^|[.;\n]\s*)([^:.;\n]+): "
     r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
     r" (?=(?:in|on|into|onto|to)\b)"
@@ -28,7 +29,7 @@ def _one_by_one(said: re.Match[str]) -> str:
     return f"{asked} these{where}: {', then '.join(parts)}"
 
 
-LISTINGS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (
         r"\b(put|place|set|stack) (?:these|them|the following|these things|the following things)"
         r"( (?:on|in|into|onto) [^:.;]*?),? in (?:this|the following) order: ([^.;]*)",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from etot_cli.reasoning.language.grammar.paraphrases import in_plain_words
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
@@ -15,7 +16,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     word_set,
 )
 
-_NEW_LINE = re.compile(
+_NEW_LINE = Expression(
     rf"(?<![,\n])(?<!\band)(?<!\bthen)(?<!\bto)\s*\n\s*(?=[A-Z]|(?:{'|'.join(VERB_WORDS)})\b)"
 )
 """Where a new line is a new sentence; elsewhere it is but wrapped."""
@@ -28,17 +29,21 @@ _UH = re.compile(
     re.IGNORECASE,
 )
 _GOES_ON = word_set("in on into onto to and from inside next then")
+_RIGHT = Expression(
+    r"(^|[.!?;\n]\s*)right(?: then| so)?,\s*"
+    rf"(?=(?:{'|'.join(VERB_WORDS)}|please|can|could|would|will|let|now|i|you|we)\b)"
+)
 _WELL = re.compile(
     r"(^|[.!?;\n]\s*)(?:"
-    r"right(?: then| so)?,\s*"
-    rf"(?=(?:{'|'.join(VERB_WORDS)}|please|can|could|would|will|let|now|i|you|we)\b)"
-    r"|(?:yes|yeah|er|erm|uh|ah|hm+|anyway|next up)(?:,\s*| )(?=[a-z])"
+    r"(?:yes|yeah|er|erm|uh|ah|hm+|anyway|next up)(?:,\s*| )(?=[a-z])"
     rf"|step (?:\d{{1,2}}|{'|'.join(NUMBERS)})\s*[:.)]\s*)"
 )
 """What begins a sentence and says nothing, such as the number of a step alone."""
 _BRACKETED = re.compile(r"\b([a-z]{2,}) \(([a-z]+)\)")
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
-_QUOTES = re.compile(r"[\"`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]")
+_QUOTES = re.compile('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')
+_ITEMS = re.compile(r"[.)]\s|\bstep\b")
+"""Without such signs nothing is listed by numbers or letters."""
 _COUNTED_OFF = re.compile(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
 """The number of a step, in words ("One, open the drawer. Two, …")."""
 
@@ -46,7 +51,8 @@ _COUNTED_OFF = re.compile(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
     text = _UH.sub(_without_uh, text)
-    text = _WELL.sub(r"\1", _listed(_NEW_LINE.sub("\n ", text).casefold().strip()))
+    text = _listed(_NEW_LINE.sub("\n ", text).casefold().strip())
+    text = _WELL.sub(r"\1", _RIGHT.sub(r"\1", text))
     text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
     text = in_plain_words(text)
@@ -95,7 +101,7 @@ def _listed(text: str) -> str:
         return re.sub(rf"(^|[\s,;.]){re.escape(bullet[1])}", r"\1\n ", text[bullet.start(1) :])
     numbers = [f"(?:{number}|{name})" for name, number in NUMBERS.items()]
     text = _COUNTED_OFF.sub(lambda said: f"{said[1]}{NUMBERS[said[2]]}. ", text)
-    for labels in (numbers, "abcdefgh"):
+    for labels in (numbers, "abcdefgh") if _ITEMS.search(text) else ():
         items: list[str] = []
         rest = text
         for label in labels:

@@ -19,16 +19,16 @@ from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 from etot_cli.reasoning.language.words.verbs import PAST
 
 HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
-_NOTHING_ELSE = re.compile(
+_NOTHING_ELSE = Expression(
     rf"((?:^|[.;\n])(?:(?!\b{WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({WHERE}[^,.;\n]*)"
 )
 """Behind the things it stands for what is said of them behind their place."""
-_MAY_GO = re.compile(
+_MAY_GO = Expression(
     r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)(?: please)? go\b"
 )
 """A request in the words of a question."""
 _SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
-_ALL_DONE = re.compile(
+_ALL_DONE = Expression(
     r"(?<=\w[.,;!? ])((?: |\b)(?:once|when|after|as soon as)) (?:everything|all)"
     r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
 )
@@ -52,11 +52,11 @@ _STEP = (
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 
-_DID = re.compile(
+_DID = Expression(
     rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
     r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
 )
-_WISHED = re.compile(r"\bwould (?:be|appreciate|like|love|prefer)\b[^.;:!?\n]*? if you [^.;:!?\n]*")
+_WISHED = Expression(r"\bwould (?:be|appreciate|like|love|prefer)\b[^.;:!?\n]*? if you [^.;:!?\n]*")
 
 
 def _as_asked(wish: re.Match[str]) -> str:
@@ -74,7 +74,7 @@ def _in_turn(said: re.Match[str]) -> str:
     return f"{away} {where}{joint} {other} {place}"
 
 
-_PARAPHRASES: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+_PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     *CONTRACTIONS,
     *OBSTACLES,
     *LISTINGS,

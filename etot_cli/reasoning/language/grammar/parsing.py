@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.input import (
     TooManyReadings,
 )
 from etot_cli.reasoning.language.grammar.text import COLON, COMMA, QUESTION
-from etot_cli.reasoning.language.words.patterns import Begun
+from etot_cli.reasoning.language.words.patterns import Begun, openings_of
 
 First = frozenset[str] | None
 """Words that readings may begin with, NO_WORD for those of none; None where a test tells them."""
@@ -114,9 +114,16 @@ def one_of(table: Mapping[Any, str]) -> Parser:
     def root() -> Begun:
         return Begun.of(table)
 
+    @cache
+    def first() -> frozenset[str]:
+        words = openings_of(table.values())
+        return words | {COLON} if COMMA in words else words
+
     def parse(given: Input, at: int) -> list[Result]:
-        words, node = given.words, root()
-        found: list[Result] = []
+        words, found = given.words, list[Result]()
+        if given.ahead[at] not in first():
+            return found
+        node = root()
         while at < len(words):
             further = node.following.get(words[at])
             if further is None and words[at] == COLON:
@@ -130,10 +137,6 @@ def one_of(table: Mapping[Any, str]) -> Parser:
         if node is not root() and node.following:
             given.reach(at)  # the sentence ends inside a phrase ("in front" without "of")
         return found
-
-    def first() -> First:
-        words = frozenset(root().following)
-        return words | {COLON} if COMMA in words else words
 
     return Parser(parse, first)
 
@@ -197,15 +200,18 @@ def either(*parts: Part) -> Parser:
         return None if None in words else frozenset().union(*filter(None, words))
 
     @cache
-    def asked() -> tuple[dict[str, list[Find]], list[Find]]:
-        """Who may begin with each word that some begin with, and who with any other."""
-        words = {word for parser in parsers for word in parser.first or ()}
-        table = {word: [p.find for p in parsers if p.may_begin(word)] for word in words}
-        return table, [p.find for p in parsers if p.may_begin(NO_WORD)]
+    def known() -> frozenset[str]:
+        """Words that some begin with, not all that anybody says: these are remembered."""
+        return frozenset(word for parser in parsers for word in parser.first or ())
+
+    @cache
+    def asked(word: str) -> list[Find]:
+        """Who may begin with a word."""
+        return [parser.find for parser in parsers if parser.may_begin(word)]
 
     def parse(given: Input, at: int) -> list[Result]:
-        table, others = asked()
-        finds = table.get(given.ahead[at], others)
+        word = given.ahead[at]
+        finds = asked(word if word in known() else NO_WORD)
         return [item for find in finds for item in find(given, at)]
 
     return Parser(_remembered(parse) if len(parts) > 2 else parse, first)  # two are asked as soon

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.listings import ASKED
 from etot_cli.reasoning.language.words.categories import CATEGORIES
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 from etot_cli.reasoning.language.words.small_words import NAMED
 from etot_cli.reasoning.language.words.verbs import PAST
@@ -18,7 +19,7 @@ _OF_TWO = r"one of (?:the two|them|these|those)"
 _NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
 _LIE = r"(?:(?:be (?:put |placed |moved )?|stay|remain|go|end up|stand|lie) ?)"
 _THERE = r"(?:in it|inside|there|(?:in|on|inside) (?:the|my) [^.,;:]*?)"
-_ONCE_DONE = re.compile(
+_ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
 )
 """All that is told of what was done, as under a picture."""
@@ -34,7 +35,7 @@ def _to_do(told: re.Match[str]) -> str:
     return f"{PAST[told[1]]} {done}"
 
 
-PLACEMENTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (_ONCE_DONE, _to_do),
     (
         rf"(^|[.;:,] |\b(?:and|but) )((?:the|my) (?:\w+ ){{0,2}}?\w+|it|\w+) "

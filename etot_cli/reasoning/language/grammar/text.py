@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 
@@ -39,7 +40,7 @@ def _paired(parts: list[str]) -> list[str]:
     return [part.replace(",", ":") if pairs[1:] and part in pairs else part for part in parts]
 
 
-_LOOK_FOR = re.compile(rf"\b(?:{'|'.join(spellings(small_words.LOOK_FOR))}) [^,]*$")
+_LOOK_FOR = Expression(rf"\b(?:{'|'.join(spellings(small_words.LOOK_FOR))}) [^,]*$")
 _OF_A_CHOICE = re.compile(
     r"(?:and |but )?it (?:must|should|has to|needs to)(?: not)? be (?:an?|the) [\w ]+ one"
 )

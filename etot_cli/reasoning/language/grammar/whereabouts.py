@@ -9,7 +9,7 @@ from etot_cli.reasoning.language.words.small_words import NAMED
 
 _TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
 
-WHEREABOUTS: tuple[tuple[str | re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
+WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         r"\byou (?:will|can|should) find (it|(?:the|my) \w+(?: \w+)?) "
         r"(?=(?:in|on|inside|next|beside|behind|near|at)\b)",

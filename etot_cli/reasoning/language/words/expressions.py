@@ -3,32 +3,59 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cached_property
 
 _PIECES = re.compile(
-    r"(?P<escape>\\.)|(?P<set>\[\^?\]?(?:\\.|[^\]\\])*\])|(?P<open>\()|(?P<close>\))"
-    r"|(?P<other>\|)|(?P<less>[?*]|\{[^}]*\})|(?P<end>[+.^$])|(?P<plain>.)",
+    r"(?P<plain>[^\\[\]()|?*+{}.^$]+)|\((?:\?:|\?<?=)?(?P<choice>[^\\[\]()?*+{}.^$]+)\)"
+    r"|(?P<open>\((?:\?(?:P<\w+>|:|=|<=))?)(?P<never>\?<?!)?|(?P<close>\))|(?P<other>\|)"
+    r"|(?P<less>[?*]|\{[^}]*\})|\\.|\[\^?\]?(?:\\.|[^\]\\])*\]|.",
     re.DOTALL,
 )
 """What a pattern consists of, so far as it tells plain text from the rest."""
+_Demand = tuple[str, ...]
+"""Texts of which one has to stand in whatever a pattern fits; none where nothing is known."""
 
 
-def _literals(pattern: str) -> tuple[str, ...]:
-    """Texts that stand in whatever a pattern fits, two letters and more."""
-    found, run, depth = list[str](), "", 0
+def _known(demands: list[_Demand]) -> list[_Demand]:
+    """The demands that not every text meets."""
+    return [d for d in demands if d and all(len(t.strip()) > 1 or t == "\n" for t in d)]
+
+
+def _either(ways: list[list[_Demand]]) -> _Demand:
+    """What holds whichever way is taken: of each way the demand with the fewest texts."""
+    if len(ways) == 1 and len(ways[0]) == 1:
+        return ways[0][0]
+    demands = [min(_known(way), key=len, default=()) for way in ways]
+    return tuple(text for each in demands for text in each) if all(demands) else ()
+
+
+def _demanded(pattern: str) -> list[_Demand]:
+    """Of each of these texts one stands in whatever a pattern fits."""
+    outer: list[tuple[bool, list[list[_Demand]]]] = []
+    ways: list[list[_Demand]] = [[]]
     for piece in _PIECES.finditer(pattern):
         kind = piece.lastgroup
-        depth += (kind == "open") - (kind == "close")
-        if kind == "other" and not depth:
-            return ()
-        if kind == "plain" and not depth:
-            run += piece[0]
-            continue
-        if run:
-            found.append(run[:-1] if kind == "less" else run)
-        run = ""
-    return tuple(text for text in (*found, run) if len(text.strip()) > 1)
+        if kind == "choice":
+            ways[-1].append(tuple(piece["choice"].split("|")))
+        elif kind in ("open", "never"):
+            outer.append((kind == "never", ways))
+            ways = [[]]
+        elif kind == "close":
+            inner = _either(ways)
+            never, ways = outer.pop()
+            ways[-1].append(() if never else inner)
+        elif kind == "other":
+            ways.append([])
+        elif kind == "less" and ways[-1]:
+            left_out = ways[-1].pop()
+            # Of a run of text a quantifier is about the last letter.
+            plain = len(left_out) == 1 and pattern[piece.start() - 1] != ")"
+            ways[-1].append((left_out[0][:-1],) if plain else ())
+        else:
+            plain_text = "\n" if piece[0] == r"\n" else piece[0] if kind == "plain" else ""
+            ways[-1].append((plain_text,) if plain_text else ())
+    return _known(ways[0] if len(ways) == 1 else [_either(ways)])
 
 
 class Expression:
@@ -39,10 +66,10 @@ class Expression:
 
     Args:
         pattern: as for ``re.compile``.
-        flags: likewise.
+        flags: likewise, none but ``re.IGNORECASE``.
     """
 
-    def __init__(self, pattern: str, flags: int = 0) -> None:
+    def __init__(self, pattern: str, flags: re.RegexFlag = re.NOFLAG) -> None:
         self._pattern, self._flags = pattern, flags
 
     @cached_property
@@ -50,23 +77,36 @@ class Expression:
         return re.compile(self._pattern, self._flags)
 
     @cached_property
-    def _needed(self) -> tuple[str, ...]:
-        return () if self._flags else _literals(self._pattern)
+    def _demands(self) -> list[_Demand]:
+        return _demanded(self._pattern.casefold() if self._flags else self._pattern)
+
+    def _may_fit(self, text: str) -> bool:
+        """Whether what the expression cannot do without stands in a text."""
+        text = text.casefold() if self._flags else text
+        for demand in self._demands:
+            for literal in demand:
+                if literal in text:
+                    break
+            else:
+                return False
+        return True
 
     def match(self, text: str) -> re.Match[str] | None:
         """As ``re.match``."""
-        return self._compiled.match(text)
+        return self._compiled.match(text) if self._may_fit(text) else None
 
     def fullmatch(self, text: str) -> re.Match[str] | None:
         """As ``re.fullmatch``."""
-        return self._compiled.fullmatch(text)
+        return self._compiled.fullmatch(text) if self._may_fit(text) else None
 
-    def search(self, text: str) -> re.Match[str] | None:
-        """As ``re.search``."""
-        return self._compiled.search(text)
+    def search(self, text: str, start: int = 0) -> re.Match[str] | None:
+        """As ``re.search``, from a position on."""
+        return self._compiled.search(text, start) if self._may_fit(text) else None
+
+    def finditer(self, text: str) -> Iterator[re.Match[str]]:
+        """As ``re.finditer``."""
+        return self._compiled.finditer(text) if self._may_fit(text) else iter(())
 
     def sub(self, new: str | Callable[[re.Match[str]], str], text: str) -> str:
         """As ``re.sub``."""
-        if any(literal not in text for literal in self._needed):
-            return text
-        return self._compiled.sub(new, text)
+        return self._compiled.sub(new, text) if self._may_fit(text) else text
