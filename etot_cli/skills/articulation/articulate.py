@@ -66,15 +66,17 @@ def articulation_motions(
     if (opening and fraction >= ALREADY_OPEN) or (not opening and fraction <= ALREADY_CLOSED):
         yield Motion(str(action), ())
         return
-    if opening and Balance(belief, part).stays_open_from is None:
+    balance = Balance(belief, part) if opening else None
+    if balance is not None and balance.stays_open_from is None:
         text = f"{part.info.address} does not stay open"
         text += f": let go of at {1.0 - OPEN_SPARE:.0%} of its travel, it falls shut"
         yield failed(CauseKind.NO_EFFECT, [part.info.owner], text)
         return
     tool_at = None if rehearsed is None else rehearsed.tool_at
     hinged = part.info.joint_type == "hinge"
-    target = closable_stop(belief, part) if opening and hinged else None
-    search = PartSearch(belief, part, opening, None if tool_at is None else tool_at.pose, target)
+    target = closable_stop(belief, part, balance) if balance is not None and hinged else None
+    hold = None if tool_at is None else tool_at.pose
+    search = PartSearch(belief, part, opening, hold, target, balance)
     found = False
     barred: list[tuple[Belief, PreparedMove]] = []
     for move in search.moves():

@@ -85,7 +85,7 @@ class PartSearch:
         rehearsed: tool pose at an earlier first contact, in the part's frame; the hold like it
             comes first.
         target: joint value to bring it to; None for its end [m or rad].
-        falling: whether it falls shut where its weight makes it; else it stays anywhere.
+        balance: where it falls shut while it is opened; None where it stays anywhere.
     """
 
     def __init__(
@@ -95,8 +95,7 @@ class PartSearch:
         opening: bool,
         rehearsed: Pose | None = None,
         target: float | None = None,
-        *,
-        falling: bool = True,
+        balance: Balance | None = None,
     ) -> None:
         self.part, self.opening, self._rehearsed = part, opening, rehearsed
         self.hindrances = Hindrances(belief.world)
@@ -107,7 +106,7 @@ class PartSearch:
         end = part.upper if opening else part.lower
         self._travel = PartTravel(belief, part, end if target is None else target)
         goal = fraction_open(part, self._travel.target)
-        self._balance = Balance(belief, part) if opening and falling else None
+        self._balance = balance
         # What falls shut has to be brought beyond where it does.
         stays_from = (self._balance and self._balance.stays_open_from) or 0.0
         self._enough = max(OPEN_AT, stays_from) + OPEN_SPARE
@@ -134,9 +133,7 @@ class PartSearch:
         stays_from = self._balance and self._balance.stays_open_from
         if not stays_from:
             return None
-        lighter = PartSearch(
-            self._belief, self.part, True, target=self._travel.target, falling=False
-        )
+        lighter = PartSearch(self._belief, self.part, True, target=self._travel.target)
         return stays_from if next(lighter.moves(explain=False), None) is not None else None
 
     def moves(self, *, in_two: bool = True, explain: bool = True) -> Iterator[PreparedMove]:
@@ -214,7 +211,13 @@ class PartSearch:
 
     def _works_without(self, names: Iterable[str]) -> bool:
         with self._belief.checker.without(names):
-            search = PartSearch(self._belief, self.part, self.opening, target=self._travel.target)
+            search = PartSearch(
+                self._belief,
+                self.part,
+                self.opening,
+                target=self._travel.target,
+                balance=self._balance,
+            )
             return next(search.moves(explain=False), None) is not None
 
     def _suffices(self, value: float) -> bool:
@@ -347,7 +350,7 @@ class PartSearch:
                 self.part,
                 self.opening,
                 target=self._travel.target,
-                falling=self._balance is not None,
+                balance=self._balance,
             )
             second = next(after.moves(in_two=False, explain=False), None)
             self._seen.update(after._seen)

@@ -22,14 +22,15 @@ of 90 cabinets the 12 whose doors could not be closed came within 0.20, and all 
 face the base stayed 0.27 away."""
 
 
-def closable_stop(belief: Belief, part: Part) -> float:
+def closable_stop(belief: Belief, part: Part, balance: Balance) -> float:
     """Joint value to open a door to [rad]: its end, or less where it can be closed again from there
-    alone. Wide open, some doors stand before the robot's base or out of its reach.
+    alone and does not fall shut. Wide open, some doors stand before the robot's base or out of its
+    reach.
     """
     span = part.upper - part.lower
     less = part.lower + (LESS_OPEN - COASTING) * span
     wide = float(belief.data.joint(part.joint).qpos[0]) >= less
-    stays_from = Balance(belief, part).stays_open_from or 0.0
+    stays_from = balance.stays_open_from or 0.0
     wide = wide or stays_from + OPEN_SPARE > LESS_OPEN - COASTING  # it would fall shut from there
     if wide or not _is_doubtful(belief, part) or _closes(belief, part, part.upper):
         return part.upper
