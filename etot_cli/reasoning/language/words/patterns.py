@@ -18,26 +18,22 @@ Row = tuple[Union[str, "Phrases"], ...]
 Phrases = tuple[Row, ...]
 """What may be said, one for the other."""
 
-_TOKENS = re.compile(r"[()\[\]|,]|[^\s()\[\]|,]+")
+_TOKENS = re.compile(r"\w+[(\[][\w|]+[)\]]|[()\[\]|,]|[^\s()\[\]|,]+")
+"""Words, with their endings where they have some, and signs."""
 _SIGNS = frozenset("()[]|,")
-_ENDINGS = re.compile(r"(\w+)([(\[])([\w|]+)[)\]]")
 
 
-def _tokens(patterns: str) -> list[str]:
-    """Words and signs, with endings written out as alternatives."""
-
-    def forms(found: re.Match[str]) -> str:
-        stem, bracket, endings = found.groups()
-        all_of_them = [*endings.split("|"), *([""] if bracket == "[" else [])]
-        return f"({'|'.join(stem + ending for ending in all_of_them)})"
-
-    return _TOKENS.findall(_ENDINGS.sub(forms, patterns))
+def _forms(word: str) -> list[str]:
+    """A word with each of the endings that are written behind it."""
+    stem, bracket, endings = word[:-1].replace("(", "[").partition("[")
+    forms = [stem + ending for ending in endings.split("|")] if bracket else [word]
+    return [*forms, stem] if word[-1] == "]" else forms
 
 
 @cache
 def phrases_of(patterns: str) -> Phrases:
     """What patterns say, a choice of rows."""
-    return _choice(iter(_tokens(patterns)))
+    return _choice(iter(_TOKENS.findall(patterns)))
 
 
 def _choice(tokens: Iterator[str]) -> Phrases:
@@ -51,6 +47,8 @@ def _choice(tokens: Iterator[str]) -> Phrases:
         elif token in "([":
             inner = _choice(tokens)
             rows[-1].append((*inner, ()) if token == "[" else inner)
+        elif token[-1] in ")]":
+            rows[-1].append(tuple((form,) for form in _forms(token)))
         else:
             rows[-1].append(token)
     return tuple(map(tuple, rows))
@@ -139,4 +137,5 @@ def spellings(patterns: str) -> list[str]:
 
 def words_of(patterns: Iterable[str]) -> frozenset[str]:
     """Every single word that occurs in patterns."""
-    return frozenset(token for each in patterns for token in _tokens(each)) - _SIGNS
+    tokens = {token for each in patterns for token in _TOKENS.findall(each)} - _SIGNS
+    return frozenset(form for token in tokens for form in _forms(token))
