@@ -26,6 +26,7 @@ from etot_cli.control import physics_world
 from etot_cli.planning.result import SearchObserver
 from etot_cli.planning.tree import PlanNode, PlanTree
 from etot_cli.reasoning.protocol import Branch
+from tests.measure.bench_reading import reading
 from tests.measure.bench_scenes import crowd_file, hopeless_files
 from tests.measure.expectations import TASKS
 from tests.measure.markdown import replace_section, table
@@ -334,6 +335,7 @@ def main() -> int:
         ("Many objects", lambda: crowds(options.runs)),
         ("Failing actions", lambda: failing(tasks, options.runs)),
         ("Whole processes", lambda: processes(tasks)),
+        ("Reading instructions", lambda: reading(options.runs)),
     )
     for title, measure in sections:
         if options.only.lower() not in title.lower():
