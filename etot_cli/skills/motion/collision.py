@@ -248,7 +248,7 @@ class CollisionChecker(FrozenScene):
             if len(self._known_of_hands) >= MAX_KNOWN:
                 self._known_of_hands.clear()
             found = self._known_of_hands[key] = self._hand_hits(tool, clearance)
-        return self._not_ignored(found[part])
+        return self._not_ignored(found.get(part, ()))
 
     def part_hits(self, joint: str) -> list[str]:
         """Objects that a door or drawer overlaps where it stands in the frozen scene, the furniture
@@ -284,17 +284,18 @@ class CollisionChecker(FrozenScene):
         data.xipos[bodies], data.geom_xpos[geoms] = points[:count], points[count:]
         data.ximat[bodies], data.geom_xmat[geoms] = turns[:count], turns[count:]
         mujoco.mj_collision(model, data)
-        found: dict[HandPart, dict[str, None]] = {part: {} for part in HandPart}
-        if data.ncon:
-            contacts = data.contact
-            pairs = contacts.geom[contacts.dist < clearance]
-            owners = self._owner[pairs]
-            for (one, two), (first, second) in zip(pairs.tolist(), owners.tolist(), strict=True):
-                if (first == -2) == (second == -2) or min(first, second) < -2:
-                    continue
-                own, other = (one, two) if first == -2 else (two, one)
-                for part in self._parts[own]:
-                    found[part][self.world.geom_address[other]] = None
+        if not data.ncon:
+            return {}
+        found: dict[HandPart, dict[str, None]] = {}
+        contacts = data.contact
+        pairs = contacts.geom[contacts.dist < clearance]
+        owners = self._owner[pairs]
+        for (one, two), (first, second) in zip(pairs.tolist(), owners.tolist(), strict=True):
+            if (first == -2) == (second == -2) or min(first, second) < -2:
+                continue
+            own, other = (one, two) if first == -2 else (two, one)
+            for part in self._parts[own]:
+                found.setdefault(part, {})[self.world.geom_address[other]] = None
         return {part: list(addresses) for part, addresses in found.items()}
 
     def _parts_of(self, geom: int) -> tuple[HandPart, ...]:
