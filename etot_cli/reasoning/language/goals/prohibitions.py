@@ -133,8 +133,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     if clause.avoid in _LEAVING:
         context.discourse.left_alone |= {*indices}
         out = [thing for i in indices for thing in context.discourse.left_out.get(i, ())]
-        if len(out) == 1:  # "all as it is except for the cup; that goes on the tray"
-            context.discourse.alone(out[0], Role.THEME)
+        for thing in out:  # "all as it is except for the cup; that goes on the tray"
+            context.discourse.alone(thing, Role.THEME)
     # A drawer moves by being opened or closed, not with its chest.
     joints = sum(JOINT_NOUNS.values(), ())
     drawers = all(np.words and matches_any(np.head, joints) for np in clause.things.phrases)
