@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from operator import add
 
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.common import (
@@ -28,6 +29,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     remembered,
     sequence,
     some,
+    valued,
 )
 from etot_cli.reasoning.language.grammar.passives import (
     ALSO_DONE,
@@ -89,6 +91,14 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
+def then_done(clause: Reading) -> Reading:
+    """A reading that is to be done after what was said before."""
+    first = clause[0]
+    if first.order is Order.SAID:
+        first = replace(first, order=Order.THEN)
+    return (first, *clause[1:])
+
+
 _SO = sequence(
     # "…, which should be closed afterwards": what was named last
     "which [then] (should|must|has to|needs to|is to) [then] be [left|kept]",
@@ -115,6 +125,14 @@ JOINED = either(
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     joint("after", OPTIONAL_COMMA, EARLIER),
+    joint(
+        # "… and once they are out, close it"
+        "then",
+        OPTIONAL_COMMA,
+        "and",
+        OPTIONAL_COMMA,
+        sequence(EARLIER, OPTIONAL_COMMA, valued(LED_CLAUSE, then_done), build=add),
+    ),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     joint("emptied", LIST, PLACED),
@@ -187,14 +205,6 @@ JOINED = either(
         plain(sequence(optional("back"), DESTINATIONS, build=_onward)),
     ),
 )
-
-
-def then_done(clause: Reading) -> Reading:
-    """A reading that is to be done after what was said before."""
-    first = clause[0]
-    if first.order is Order.SAID:
-        first = replace(first, order=Order.THEN)
-    return (first, *clause[1:])
 
 
 _LATER = frozenset({"then", "counted", "passive, then"})

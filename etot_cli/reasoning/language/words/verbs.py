@@ -276,8 +276,13 @@ CHANGE_PLACES = """
     (places|place|positions|position|spots),
     [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]
 """
-DO_NOT = """
-    do not, don t, never, you must not, you may not, you should not, must not, avoid,
+THE_ROBOT = """
+    [the|your|a|my] (robot [arm|hand|gripper]|robotic arm), (the|your) (arm|gripper|manipulator)
+"""
+"""Who is to do it, or what with."""
+DO_NOT = f"""
+    (do not|don t|never) [(let|have|make) ({THE_ROBOT})], must not, avoid,
+    (you|{THE_ROBOT}) (must|may|should) not, ({THE_ROBOT}) is not to,
     [you had] better not, but do not, and do not, [but|and] (make|be) sure not to,
     [but|and] be careful not to, [but|and] take care not to
 """
