@@ -140,6 +140,7 @@ MODAL = f"""
     move[s] [up|down|over|back]
 """
 THERE_BE = f"there ({_MUST}) be"
+THERE_BE_ONLY = f"there ({_MUST}) only be, there (is|are) only to be"
 THERE_IS = "there is, there are"
 THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
 OF_SEVERAL = frozenset({"go", "belong", "live", "are", "have", "need", "want"})
