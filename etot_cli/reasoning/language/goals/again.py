@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
+    AvoidClause,
     EnsureClause,
     PutClause,
     TowerClause,
@@ -26,6 +27,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.grammar.trees import nodes
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.lexicon import same_noun
 
 
@@ -47,6 +49,9 @@ def again(context: Context, clause: AgainClause) -> None:
         raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
     step = before[-1]
     last = context.last
+    if isinstance(last, AvoidClause):
+        ways = ("what is left alone", "what something is done with")
+        raise AmbiguousReference(text, ways, "it may be one more of")
     if isinstance(last, PutClause | EnsureClause) and any(
         isinstance(item, NounPhrase) and is_matching(item) for item in nodes(last)
     ):

@@ -222,6 +222,14 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
     return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
 
 
+def _also_left(before: Clause, clause: Reading) -> Reading:
+    """In "the cup stays where it is, the pen too" the pen does, whatever was asked for before."""
+    too = clause[0].clause
+    if not (isinstance(before, AvoidClause) and isinstance(too, AgainClause) and too.things):
+        return clause
+    return (replace(clause[0], clause=replace(before, things=too.things)), *clause[1:])
+
+
 def _is_told_of(before: Clause, joint: str, after: Clause) -> bool:
     """Whether a clause says of a stack, which one before it takes apart or turns over, what its own
     rules have to understand.
@@ -253,6 +261,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             return None  # "keep it open while you …"; else the hand would do two things
         if _is_told_of(done[-1].clause, said, clause[0].clause):
             return None
+        if said not in _LATER and len(done) == 1:
+            clause = _also_left(before, clause)
         if said == "mere and":
             further = clause[0].clause
             if isinstance(further, EnsureClause) and further.far_fetched == OF_SEVERAL:
