@@ -120,6 +120,9 @@ OF_SEVERAL = 2
 
 _THERE = (Destination(Toward.HERE, word=AS_SAID),)
 
+_ARE_STILL = sequence(
+    NP_LIST, silent(optional("[to be] [left|kept]")), OPEN_OR_CLOSED, build=not_left
+)
 
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
@@ -165,6 +168,13 @@ ENSURE = either(
         build=_may_be,
     ),
     sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
+    sequence(
+        # "I do not need the microwave open anymore"
+        either(
+            sequence("(i|we) do not need", _ARE_STILL, small_words.ANY_MORE),
+            sequence("(i|we) no longer (need|want)", _ARE_STILL),
+        ),
+    ),
     sequence(
         "(i|we) do not want",
         sequence(noun_phrase, build=there_is_none),
