@@ -14,13 +14,20 @@ from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
+    AvoidClause,
     EnsureClause,
     PutClause,
     TowerClause,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.grammar.trees import nodes
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.lexicon import same_noun
 
 
@@ -42,6 +49,9 @@ def again(context: Context, clause: AgainClause) -> None:
         raise ReferenceProblem(text, "nothing was asked for before that it could share", 2)
     step = before[-1]
     last = context.last
+    if isinstance(last, AvoidClause):
+        ways = ("what is left alone", "what something is done with")
+        raise AmbiguousReference(text, ways, "it may be one more of")
     if isinstance(last, PutClause | EnsureClause) and any(
         isinstance(item, NounPhrase) and is_matching(item) for item in nodes(last)
     ):
@@ -55,6 +65,7 @@ def again(context: Context, clause: AgainClause) -> None:
             raise ReferenceProblem(text, "say again what is to be done", 2)
         themes = context.phrases.things(clause.things, Role.THEME)
         there = certain(context, step.what)
+        _check_another(context, clause.things, themes)
         # "All toys into the box, the bear too": it is one of them.
         themes = [i for i in themes if not {*context.discourse.things(i)} <= there]
         if set(themes) & {index for place in step.places for index in place.referents()}:
@@ -72,6 +83,17 @@ def again(context: Context, clause: AgainClause) -> None:
         if isinstance(step, Pick) and index == step.what:
             raise ReferenceProblem(text, "say again what is to be done with it", 2)
         context.steps.append(replace(step, what=index))
+
+
+def _check_another(context: Context, things: Things, themes: Sequence[int]) -> None:
+    """Whether "the white one, too" is another thing than those that were put somewhere.
+
+    Raises:
+        ReferenceProblem: it has a place already.
+    """
+    for phrase, theme in zip(things.phrases, themes, strict=False):
+        if phrase.is_elliptic and theme in context.discourse.put:
+            raise ReferenceProblem(phrase.text, "it has been put somewhere; say what is meant", 3)
 
 
 def _onward(context: Context, clause: AgainClause, before: Sequence[Step]) -> None:

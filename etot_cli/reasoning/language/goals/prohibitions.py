@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from operator import attrgetter
 
 from etot_cli.reasoning.builtin.goal import (
     Close,
@@ -42,6 +43,7 @@ _KEEPS = {
 }
 
 
+_ADDRESS = attrgetter("address")
 _LEAVING = (Avoid.TOUCH, Avoid.MOVE, Avoid.HIT)
 _THE_REST = (("the rest",), ("all the rest",), ("the others",))
 
@@ -133,8 +135,10 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     if clause.avoid in _LEAVING:
         context.discourse.left_alone |= {*indices}
         out = [thing for i in indices for thing in context.discourse.left_out.get(i, ())]
-        if len(out) == 1:  # "all as it is except for the cup; that goes on the tray"
-            context.discourse.alone(out[0], Role.THEME)
+        for thing in sorted(
+            out, key=_ADDRESS
+        ):  # "all as it is except for the cup; that goes on the tray"
+            context.discourse.alone(thing, Role.THEME)
     # A drawer moves by being opened or closed, not with its chest.
     joints = sum(JOINT_NOUNS.values(), ())
     drawers = all(np.words and matches_any(np.head, joints) for np in clause.things.phrases)

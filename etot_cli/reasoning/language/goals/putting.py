@@ -60,7 +60,7 @@ from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is,
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.ruled_out import not_beside, rule_out
 from etot_cli.reasoning.language.goals.sharing import check_stance, is_left, rest_there, shared
-from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along, so_by_then
+from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -222,9 +222,8 @@ def ensure(context: Context, state: State) -> None:
         for phrase in state.subjects:
             if phrase.determiner in ("a", "an"):
                 phrase = replace(phrase, determiner="one")  # of the drawers, not the whole chest
-            known = [*context.discourse.mentions]
             for index in context.phrases.refer(phrase, Role.PART):
-                if state.allowed and not so_by_then(context, index, state.word, known):
+                if state.allowed:
                     context.discourse.notes.append(f"{phrase.text!r} may be {state.word}, or not")
                     continue
                 if state.denied:

@@ -69,7 +69,12 @@ def remove(context: Context, clause: RemoveClause) -> None:
     try:
         themes = context.phrases.things(things, Role.THEME, around)
     except NothingThere:
+        _speak_of_emptied(context, clause)
         return  # "put the pen in the cup to free the tray"
+    if clause.by_then and is_emptying(clause):
+        _check_emptied(context, clause, themes)
+        _speak_of_emptied(context, clause)
+        return
     if clause.by_then and _is_out_already(context, themes):
         return
     if is_off_desk(context, things):
@@ -87,6 +92,27 @@ def remove(context: Context, clause: RemoveClause) -> None:
     for place in discourse.last_places:
         context.mention_part(place)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+
+
+def _check_emptied(context: Context, clause: RemoveClause, themes: Sequence[int]) -> None:
+    """Whether what is to be empty by then has been emptied ("take all out; once it is empty, …").
+
+    Raises:
+        ReferenceProblem: something is left in it, of which nobody knows who takes it out.
+    """
+    discourse = context.discourse
+    left = {*discourse.things(*themes)} - {*discourse.things(*discourse.put)}
+    if left:
+        names = ", ".join(sorted(thing.name for thing in left))
+        text = clause.things.phrases[0].text
+        raise ReferenceProblem(text, f"say first where {names} goes", 3)
+
+
+def _speak_of_emptied(context: Context, clause: RemoveClause) -> None:
+    """After "once the cup is empty" "it" is the cup, not where what was in it has gone."""
+    for np in (np for said in clause.things.phrases for m in said.modifiers for np in m.phrases):
+        if clause.by_then and not np.pronoun:
+            context.discourse.is_about(context.phrases.refer(np, Role.ANY))
 
 
 def _is_out_already(context: Context, themes: Sequence[int]) -> bool:

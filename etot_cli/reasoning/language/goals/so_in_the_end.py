@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Put, Relation
@@ -23,10 +22,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.reference.antecedents import Mention
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import touches
-from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import STATES
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -115,20 +112,6 @@ def _upon_closed(
         for item in where
     ]
     return tuple(found), shut
-
-
-def so_by_then(context: Context, index: int, word: str, before: Sequence[Mention]) -> bool:
-    """Whether a part may be open or closed by then: it is now, or something was done with it."""
-    things = context.discourse.things(index)
-    done_with = context.discourse.things(
-        *(m.referent for m in before if m.role is not Role.SURFACE)
-    )
-    spoken = any(
-        one.name == other.name and (one.part == other.part or not (one.part and other.part))
-        for one in things
-        for other in done_with
-    )
-    return spoken or all(state_holds(word, thing, context.scene) for thing in things)
 
 
 def rest_all_along(context: Context, rests: Things, first: int) -> None:

@@ -102,7 +102,9 @@ _FIXED = """
     (when|once|after|by the time) all is, a little open,
     before (you touch|touching|you do anything|doing anything) [to|with],
     (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on),
-    all [that] (i|we) [really|just] (need|want|would like),
+    all [that] (i|we) [really|just] (need|want|would like), all that (should|must) be,
+    (thing|things|one|ones|object|objects|item|items) (left|remaining),
+    all [that] (i|we) (need|want) (left|remaining),
     (is|are) only [slightly|partly|partially|half|halfway|a (bit|little)]
 """
 """Phrases in which such words say something else, or nothing of their own."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from operator import add
 
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.common import (
@@ -28,6 +29,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     remembered,
     sequence,
     some,
+    valued,
 )
 from etot_cli.reasoning.language.grammar.passives import (
     ALSO_DONE,
@@ -89,6 +91,14 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
+def then_done(clause: Reading) -> Reading:
+    """A reading that is to be done after what was said before."""
+    first = clause[0]
+    if first.order is Order.SAID:
+        first = replace(first, order=Order.THEN)
+    return (first, *clause[1:])
+
+
 _SO = sequence(
     # "…, which should be closed afterwards": what was named last
     "which [then] (should|must|has to|needs to|is to) [then] be [left|kept]",
@@ -115,6 +125,14 @@ JOINED = either(
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
     joint("after", OPTIONAL_COMMA, EARLIER),
+    joint(
+        # "… and once they are out, close it"
+        "then",
+        OPTIONAL_COMMA,
+        "and",
+        OPTIONAL_COMMA,
+        sequence(EARLIER, OPTIONAL_COMMA, valued(LED_CLAUSE, then_done), build=add),
+    ),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     joint("emptied", LIST, PLACED),
@@ -189,14 +207,6 @@ JOINED = either(
 )
 
 
-def then_done(clause: Reading) -> Reading:
-    """A reading that is to be done after what was said before."""
-    first = clause[0]
-    if first.order is Order.SAID:
-        first = replace(first, order=Order.THEN)
-    return (first, *clause[1:])
-
-
 _LATER = frozenset({"then", "counted", "passive, then"})
 
 
@@ -210,6 +220,14 @@ def _maybe_denied(done: Reading, clause: Reading) -> Reading:
     ):
         return done
     return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
+
+
+def _also_left(before: Clause, clause: Reading) -> Reading:
+    """In "the cup stays where it is, the pen too" the pen does, whatever was asked for before."""
+    too = clause[0].clause
+    if not (isinstance(before, AvoidClause) and isinstance(too, AgainClause) and too.things):
+        return clause
+    return (replace(clause[0], clause=replace(before, things=too.things)), *clause[1:])
 
 
 def _is_told_of(before: Clause, joint: str, after: Clause) -> bool:
@@ -243,6 +261,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             return None  # "keep it open while you …"; else the hand would do two things
         if _is_told_of(done[-1].clause, said, clause[0].clause):
             return None
+        if said not in _LATER and len(done) == 1:
+            clause = _also_left(before, clause)
         if said == "mere and":
             further = clause[0].clause
             if isinstance(further, EnsureClause) and further.far_fetched == OF_SEVERAL:

@@ -53,6 +53,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.nouns import is_only
 
 
 def _held(np: NounPhrase, held: NounPhrase) -> State:
@@ -105,12 +106,23 @@ _TOGETHER = either(
 )
 
 
+def _may_be(nps: tuple[NounPhrase, ...], may: str, state: str) -> EnsureClause | None:
+    """What can be closed by then is to be closed; "may be closed" asks for it or not, who knows."""
+    alone = any(is_only(np.determiner) for np in nps)
+    if alone or (may == "may be" and state != "open"):
+        return None
+    return EnsureClause((State(nps, word=state, allowed=may == "may be"),))
+
+
 OF_SEVERAL = 2
 """How far-fetched it is that one thing is meant where several are spoken of."""
 
 
 _THERE = (Destination(Toward.HERE, word=AS_SAID),)
 
+_ARE_STILL = sequence(
+    NP_LIST, silent(optional("[to be] [left|kept]")), OPEN_OR_CLOSED, build=not_left
+)
 
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
@@ -151,11 +163,18 @@ ENSURE = either(
     sequence(
         # "… and then that drawer can be closed"
         NP_LIST,
-        "(can|may|could) be",
+        phrase("(can|may|could) be"),
         OPEN_OR_CLOSED,
-        build=lambda nps, state: EnsureClause((State(nps, word=state),)),
+        build=_may_be,
     ),
     sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
+    sequence(
+        # "I do not need the microwave open anymore"
+        either(
+            sequence("(i|we) do not need", _ARE_STILL, small_words.ANY_MORE),
+            sequence("(i|we) no longer (need|want)", _ARE_STILL),
+        ),
+    ),
     sequence(
         "(i|we) do not want",
         sequence(noun_phrase, build=there_is_none),

@@ -131,7 +131,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\bneither ((?:of the )?\w+) (?:should|must|may|is to) be (moved|touched)\b",
         lambda said: f"do not {said[2][:-1] if said[2] == 'moved' else 'touch'} either {said[1]}",
     ),
-    (r"\band, (?:once|when|after) (?:that|this) is done, ", "and then "),
     (
         r"\b((?:get|take|fetch|move) [^.;]*? (?:from|out of|off) [^.;]*?and (?:please )?"
         r"(?:put|place) (?:it|them) (?:in|on|into|onto) [^.,;]*?) instead(?=[.;!?]|$)",

@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import State
-from etot_cli.reasoning.language.grammar.taking import SOURCE
+from etot_cli.reasoning.language.grammar.taking import SOURCE, emptied
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 
 SO = sequence(
@@ -75,6 +75,7 @@ _SO_BY_THEN = either(
     ),
     STANDS_UP,
     SO,
+    sequence(ALL_THINGS, verbs.BE, manner.EMPTIED, build=emptied),
 )
 """What has been done or is so by then ("once the pear has been put into the bowl")."""
 _HAVING_DONE = either(

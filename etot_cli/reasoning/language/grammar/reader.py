@@ -33,7 +33,7 @@ from etot_cli.reasoning.language.words.patterns import spellings, words_of
 from etot_cli.reasoning.language.words.small_words import LOOK_FOR
 
 _TOLD = sorted(
-    (tuple(said.split()) for said in spellings("[the|a|your] robot [arm|hand|gripper]")),
+    (tuple(said.split()) for said in spellings(verbs.THE_ROBOT)),
     key=len,
     reverse=True,
 )
@@ -147,8 +147,8 @@ def _asked(words: tuple[str, ...], vocabulary: frozenset[str]) -> tuple[str, ...
         singular(word) if before in _JOINTS and singular(word) in _DOING else word
         for word, before in zip(ahead, (COMMA, *ahead), strict=False)
     ]
-    narrated = told and "robot" not in vocabulary and [*ahead] != said
-    return tuple(said) if narrated and ahead[0] not in _DOING else words
+    narrated = told and not {*told} & vocabulary and [*ahead] != said
+    return tuple(said) if narrated and ahead[0] not in {*_DOING, "needs"} else words
 
 
 def is_known(word: str, vocabulary: Iterable[str]) -> bool:

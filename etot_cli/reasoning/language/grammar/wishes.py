@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     quiet,
     sequence,
+    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.passives import PASSIVE
@@ -40,7 +41,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.grammar.taking import SOURCE
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import nouns, small_words, verbs
 
 
 def _wanted_in_hand(things: Things) -> PickClause | None:
@@ -123,16 +124,20 @@ WISHED = sequence(
 )
 """How it would be nice for things to be."""
 _THING = "(thing|things|one|ones|object|objects|item|items)"
+_LEFT = silent(optional("[to be] (left|remaining)"))
 _WHAT_GOES = either(
     sequence(
         phrase(f"the only {_THING}", True),
         optional(f"[that|which] ({verbs.MODAL}|i want|we want|i need), that, which"),
+        _LEFT,
     ),
+    sequence(phrase("all", True), f"that ({verbs.MODAL}), [that] (i|we) (want|need)", _LEFT),
     sequence(
         phrase(f"what, the {_THING} (that|which)", False), f"{verbs.MODAL}, (i|we) (want|need)"
     ),
 )
 """What is there, or (True) alone is there."""
+_NO_MORE = "and nothing else, but nothing else"
 _IS = f"{verbs.BE}, should be, must be, has to be, needs to be, shall be"
 
 
@@ -143,6 +148,12 @@ def _there(things: Things, only: bool, where: tuple[Destination, ...]) -> Clause
     (first, *more) = things.phrases
     alone = (replace(first, determiner="only the"), *more)
     return None if things.either else EnsureClause((State(alone, where),))
+
+
+def _nothing_but(where: tuple[Destination, ...], things: Things) -> Clause | None:
+    """What alone is to be there, be it there by now or not."""
+    clause = _there(things, True, where)
+    return replace(clause, far_fetched=1) if isinstance(clause, EnsureClause) else None
 
 
 def _at(place: NounPhrase) -> tuple[Destination, ...]:
@@ -168,6 +179,25 @@ TOLD_APART = either(
         _IS,
         ALL_THINGS,
         build=lambda only, where, things: _there(things, only, where),
+    ),
+    sequence(
+        # "The cup and nothing else should be on the tray", "there should only be the cup"
+        either(
+            sequence(ALL_THINGS, OPTIONAL_COMMA, _NO_MORE, OPTIONAL_COMMA, verbs.MODAL),
+            sequence(verbs.THERE_BE_ONLY, ALL_THINGS),
+            sequence("mak(e|ing)", ALL_THINGS, f"the only {_THING}", _LEFT),
+        ),
+        DESTINATIONS,
+        build=lambda things, where: _there(things, True, where),
+    ),
+    sequence(
+        # "I want nothing on the tray but the cup"
+        "(i|we) want nothing, nothing (should|must) be [left]",
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        nouns.EXCEPT,
+        ALL_THINGS,
+        build=_nothing_but,
     ),
     sequence("it is, it 's", ALL_THINGS, "that, which", verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(

@@ -71,6 +71,8 @@ class LentNouns(ABC):
         elliptic = phrase.is_elliptic
         if elliptic and phrase.text in phrase.words:
             self._check_color_alone(phrase, role, noun)
+        if elliptic and noun is not None:
+            self._check_contrast(phrase, role, noun)
         resolved: Resolved | None = None
         problem: ReferenceProblem | None = None
         try:
@@ -162,7 +164,26 @@ class LentNouns(ABC):
         told = any(word in table for word in words[:-1] for table in (SIZES, SIDES))
         by_more = bool(phrase.modifiers) or any(map(is_descriptive, words[:-1]))
         told = told or (by_more and self.discourse.is_landmark(noun or ""))
-        if phrase.head != "one" or not told or noun is None:
+        return told and noun is not None and self._is_sole(phrase, role, noun)
+
+    def _check_contrast(self, phrase: NounPhrase, role: Role, noun: str) -> None:
+        """After "put the badge in the box" "the white one" is another thing than the only badge.
+
+        Raises:
+            ReferenceProblem: nothing was acted on but the only thing called so.
+        """
+        colored = any(is_descriptive(w) and w not in {*SIZES, *SIDES} for w in phrase.words[:-1])
+        if phrase.modifiers or not colored or not self._is_sole(phrase, role, noun):
+            return
+        mentions = self.discourse.mentions
+        themes = (m.referent for m in mentions if m.role in (Role.THEME, Role.PART))
+        acted = {*self.discourse.things(*themes)}
+        if len(acted) < 2:
+            raise ReferenceProblem(phrase.text, f"there is but one {noun!r}; say what it is", 3)
+
+    def _is_sole(self, phrase: NounPhrase, role: Role, noun: str) -> bool:
+        """Whether there is one thing of the noun that "one" leaves out."""
+        if phrase.head != "one":
             return False
         every = replace(phrase, determiner="all", words=("ones",), modifiers=())
         with suppress(ReferenceProblem):

@@ -177,8 +177,9 @@ class Places:
             self._check_carried(phrase, index, themes)
             drawer = phrase.head == "drawer" and phrase.determiner in THE_WORDS
             if drawer and role is Role.CONTAINER and not self.discourse.is_spoken(index):
-                for so in (partial(self._holds, themes), is_open)[not stays :]:
-                    self.discourse.as_it_stands(index, so)
+                if stays:
+                    self.discourse.as_it_stands(index, partial(self._holds, themes))
+                self.discourse.as_it_stands(index, is_open, called=phrase.text)
             ways = in_or_on(self.discourse, toward, index, themes)
             if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
                 ways = in_or_on(self.discourse, Toward.ON, index, themes)

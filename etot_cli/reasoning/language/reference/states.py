@@ -11,20 +11,43 @@ from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.words.lexicon import STATES
 from etot_cli.world.state import CLOSED_AT, DESK, OPEN_AT, SceneState
 
+_ROUND = ("sphere", "cylinder", "cup", "bowl")
+"""Kinds of objects that are so from above."""
+_DARK = ("black", "brown")
+_BRIGHT = frozenset({"white", "yellow", "pink", "orange"})
+"""Of other colours who knows whether they are dark."""
+
 
 def in_state(
     word: str, things: Sequence[Thing], scene: SceneState, *, every: bool = False
 ) -> list[Thing]:
     """The things that an adjective of state is true of; one that is "open" is rather one that is
-    fully so.
+    fully so, and one that is "round" rather a ball.
+
+    Raises:
+        ReferenceProblem: of several things, or colours, it is open which are "dark", or "round".
     """
+    if STATES[word] == "dark":
+        _check_dark(word, things, scene, every=every)
     found = [thing for thing in things if state_holds(word, thing, scene)]
+    if STATES[word] == "round":
+        balls = [thing for thing in found if scene.infos[thing.name].kind == "sphere"]
+        if every and balls and balls != found:
+            raise ReferenceProblem(word, "say what they are", 3, word=word)
+        return balls or found
     wide = [
         thing
         for thing in found
         if any(scene.openness(part) >= OPEN_AT for part in parts_of(scene, thing))
     ]
     return wide if wide and STATES[word] == "open" and not every else found
+
+
+def _check_dark(word: str, things: Sequence[Thing], scene: SceneState, *, every: bool) -> None:
+    """Whether what is dark is clear: something black, or something brown among bright things."""
+    colors = {scene.infos[thing.name].color for thing in things if thing.name != DESK}
+    if every or not (_DARK[0] in colors or colors <= {*_DARK, *_BRIGHT}):
+        raise ReferenceProblem(word, "say the colour", 3, word=word)
 
 
 def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
@@ -69,5 +92,9 @@ def state_holds(word: str, thing: Thing, scene: SceneState) -> bool:
                 is_on(scene, name, thing.name) for name in scene.states
             )  # what holds other things is put away itself
             return state.inside is None and DESK in state.on and not bears
+        case "round":
+            return info.kind in _ROUND
+        case "dark":
+            return info.color in _DARK
         case _:
             return state.toppled

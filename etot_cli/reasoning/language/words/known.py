@@ -37,7 +37,8 @@ VERB_WORDS = words_of(
         verbs.TIDY, verbs.CLEAR, verbs.DO_NOT, verbs.NEED_NOT,
     )
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
-    "back", "free", "places", "positions", "position", "us", "him", "her", "them"}  # fmt: skip
+    "back", "free", "places", "positions", "position", "us", "him", "her", "them",
+    *words_of((verbs.THE_ROBOT,))}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(
     """

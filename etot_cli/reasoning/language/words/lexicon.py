@@ -236,9 +236,9 @@ STATES = {
     "open": "open", "opened": "open", "ajar": "ajar", "closed": "closed", "shut": "closed",
     **dict.fromkeys(("empty", "free", "vacant", "unoccupied", "unused"), "empty"),
     "full": "full", "filled": "full", "toppled": "toppled", "fallen": "toppled",
-    "stacked": "stacked", "loose": "loose", "outside": "loose",
+    "stacked": "stacked", "loose": "loose", "outside": "loose", "round": "round", "dark": "dark",
 }  # fmt: skip
-"""Adjectives for what the scene's state says about an object."""
+"""Adjectives for what the scene's state says about an object, or its shape and shade."""
 
 _COLOR_SYNONYMS = {
     "violet": "purple", "magenta": "pink", "gold": "yellow", "golden": "yellow", "tan": "brown",

@@ -22,7 +22,7 @@ UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 EMPTIED = "empty, emptied [out], cleared [out], clear, free [again]"
 STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
-    loose, outside, unused
+    loose, outside, unused, round, dark
 """
 UPRIGHT = "upright, up, on end, vertical, vertically"
 UPON_EACH_OTHER = """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.words.verbs import RELATIONS
+from etot_cli.reasoning.language.words.verbs import RELATIONS, THE_ROBOT
 
 NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 """What a named thing begins with, as a regular expression."""
@@ -89,7 +89,8 @@ GOAL_IS = """
 """
 """Before what is to be so in the end."""
 GREETINGS = f"""
-    [hey|hello|hi|dear|yo] robot, hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
+    [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
+    hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
     great, um, [my] dear ~comma, now then, come on,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
@@ -124,7 +125,10 @@ FRAMES = f"""
     [that] (i|we) (want|need|would like) you to do|[[that] there is] to do) is [to],
     i [only] (want|need|would like|d like) you to,
     i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
-    [the] robot (should|must|has to|needs to), make sure to,
+    ({THE_ROBOT}) (should|must|will|shall|has to|needs to|is to), make sure to,
+    (have|make|let) ({THE_ROBOT}), (can|could|would|will) ({THE_ROBOT}),
+    (get|use|ask|tell|instruct|(i|we) (want|need|would like|d like)) ({THE_ROBOT}) to,
+    [it is] ({THE_ROBOT}) 's (task|goal|job) [is] to, the (task|goal|job) of ({THE_ROBOT}) is to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind [to], mind,
     (how|what) about [[if] you], why do not you,
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
@@ -224,14 +228,17 @@ LEADING_LAST = f"""
     [as a|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
     (finish|end) [up|off] by
 """
+_THAT_DONE = """
+    (once|when|after|as soon as) (that|it|this) is [all] done, [with] (that|this) done,
+    having done (that|this|so), (once|when) you (are|have) done [with] (that|this)
+"""
 LEADING_THEN = f"""
     then, next, after [all [of]] (that|this), afterwards, afterward, after which,
     second, secondly, third, thirdly,
     after doing so,
     [the|as a] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
     the (next|second|third|fourth) is to,
-    (once|when) (that is|it is|this is) done, {_WHEN_DONE},
-    and then, subsequently, later
+    {_THAT_DONE}, {_WHEN_DONE}, and then, subsequently, later
 """
 TRAILING_FIRST = """
     first, before, beforehand, before that, before (anything|everything) else,
@@ -253,8 +260,8 @@ OR = "or [else]"
 EITHER = "either, one of, any of"
 JOINTS = "but, ~comma and, ~comma but, by, ~comma so"
 PURPOSE = "to, in order to, so as to"
-THEN_JOINTS = """
-    [and] when (that is|you have) done [that], [and] once that is done,
+THEN_JOINTS = f"""
+    [and] when you have done, [and] [~comma] ({_THAT_DONE}),
     [and] [~comma] (once|when|after) (it is|they are) (in|on) (it|them|there) [~comma] [you can],
     [and|but] [only] then, [and] after [all [of]] (that|this),
     [and] afterwards, [and] next, [and] (finally|lastly),

@@ -140,6 +140,7 @@ MODAL = f"""
     move[s] [up|down|over|back]
 """
 THERE_BE = f"there ({_MUST}) be"
+THERE_BE_ONLY = f"there ({_MUST}) only be, there (is|are) only to be"
 THERE_IS = "there is, there are"
 THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
 OF_SEVERAL = frozenset({"go", "belong", "live", "are", "have", "need", "want"})
@@ -276,8 +277,13 @@ CHANGE_PLACES = """
     (places|place|positions|position|spots),
     [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]
 """
-DO_NOT = """
-    do not, don t, never, you must not, you may not, you should not, must not, avoid,
+THE_ROBOT = """
+    [the|your|a|my] (robot [arm|hand|gripper]|robotic arm), (the|your) (arm|gripper|manipulator)
+"""
+"""Who is to do it, or what with."""
+DO_NOT = f"""
+    (do not|don t|never) [(let|have|make) ({THE_ROBOT})], must not, avoid,
+    (you|{THE_ROBOT}) (must|may|should) not, ({THE_ROBOT}) is not to,
     [you had] better not, but do not, and do not, [but|and] (make|be) sure not to,
     [but|and] be careful not to, [but|and] take care not to
 """
