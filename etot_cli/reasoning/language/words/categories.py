@@ -148,7 +148,7 @@ SORTS: dict[str, frozenset[str]] = {
     ROUND: word_set("ball sphere"),
     "fruit": _FRUIT,
     "citrus": word_set("orange lemon lime grapefruit mandarin tangerine clementine satsuma"),
-    "vegetable veggie": _VEGETABLES,
+    "vegetable veggie veg": _VEGETABLES,
     "dairy": _DAIRY,
     "produce": _FRUIT | _VEGETABLES,
     "pastry dessert": _PASTRIES,
@@ -218,7 +218,7 @@ NO_PARTS = (OF_A_SORT | _BASES) - _FASTENERS
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
-    stationery citrus dairy kitchenware money cash clothes clothing laundry footwear electronics
+    veg stationery citrus dairy kitchenware money cash clothes clothing laundry footwear electronics
     jewelry jewellery literature
     """
 )
