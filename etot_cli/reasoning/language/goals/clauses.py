@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.goals.putting import ensure, put
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.so_in_the_end import (
     closed_with,
+    filled_first,
     put_on_closed,
     told_by_contents,
 )
@@ -103,6 +104,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             grasp(context, clause)
         case PutClause():
             moved = {*context.discourse.put}
+            clause, first = filled_first(context, clause)
+            for filling in first:
+                put(context, filling)
             clause, so = put_on_closed(context, clause)
             put(context, clause)
             for state in so:

@@ -205,8 +205,8 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             continue
         if lying:
             _check_lying(context, index)
-        elif index in context.discourse.put:
-            context.steps.append(_standing_there(context, index))
+        if index in context.discourse.put:
+            context.steps.append(_being_there(context, index, clause.stance))
             continue
         near, state = Near(clause.stance), "lies" if lying else "stands upright"
         for thing in context.only(index, "say which one"):
@@ -220,18 +220,19 @@ def reorient(context: Context, clause: ReorientClause) -> None:
                 context.steps.append(Put((context.single(thing, thing.name),), (place,)))
 
 
-def _standing_there(context: Context, index: int) -> Put:
-    """What was put somewhere, standing there ("put it on the tray; it should be upright").
+def _being_there(context: Context, index: int, stance: Nearby) -> Put:
+    """What was put somewhere, standing or lying there ("put it on the tray; it should be upright").
 
     Raises:
         ReferenceProblem: something else was asked for since.
     """
     for step in context.done:
         if isinstance(step, Put) and step.what == (index,):
-            there = with_stance(context, (index,), step.places, Nearby.UPRIGHT)
-            return replace(step, places=there)
+            return replace(step, places=with_stance(context, (index,), step.places, stance))
     text = context.discourse.referents[index].text
-    raise ReferenceProblem(text, "say that it is to stand where it is put", 2, word="upright")
+    how = "lie" if stance is Nearby.LYING else "stand"
+    word = "upright" if stance is Nearby.UPRIGHT else ""
+    raise ReferenceProblem(text, f"say that it is to {how} where it is put", 2, word=word)
 
 
 def with_stance(

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     MoveClause,
     PutClause,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -55,6 +56,23 @@ def told_by_contents(context: Context, state: State) -> tuple[State, list[State]
         subjects.append(plain)
     where, shut = _upon_closed(context, state.destinations)
     return replace(state, subjects=tuple(subjects), destinations=where), [*inside, *shut]
+
+
+def filled_first(context: Context, clause: PutClause) -> tuple[PutClause, list[PutClause]]:
+    """What goes somewhere "with the apple in it", which is not in there by now, and what puts it
+    there first.
+    """
+    groups, first = [], list[PutClause]()
+    for group in clause.groups:
+        phrases = []
+        for np in group.things.phrases:
+            plain, held = _and_contents(context, np, Role.THEME)
+            if held is not None and plain != np:
+                context.discourse.notes.append(f"{np.text!r}: that is done first")
+                first.append(put_to(Things(held.subjects), held.destinations))
+            phrases.append(plain)
+        groups.append(replace(group, things=replace(group.things, phrases=tuple(phrases))))
+    return replace(clause, groups=tuple(groups)) if first else clause, first
 
 
 def put_on_closed(context: Context, clause: PutClause) -> tuple[PutClause, list[State]]:

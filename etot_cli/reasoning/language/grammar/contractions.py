@@ -5,7 +5,7 @@ from __future__ import annotations
 _STATES = (
     r"(?:going|on|in|inside|over|too|not|now|still|already|less|more|so|much)\b"
     r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
-    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine|dead)"
+    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine|dead|done|over)"
     r"(?: (?:and|so|but|where)\b| -|[,.;:!]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""

@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     quiet,
     separated,
     sequence,
+    silent,
     some,
     spanned,
     valued,
@@ -42,12 +43,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
     ORDINALS,
     SIDES,
+    THING_NOUNS,
     is_descriptive,
+    matches_any,
     singular,
 )
 from etot_cli.reasoning.language.words.places import Prep
@@ -221,7 +225,25 @@ NOT_BUT = quiet(
     )
 )
 """What is meant behind what is not ("neither the cup nor the can but the jar")."""
+
+
+def _said_again(the: str, np: NounPhrase) -> Modifier | None:
+    """What a thing is, said behind it by a noun for much else ("the ball, the only pink thing")."""
+    general = matches_any(np.head, THING_NOUNS) or is_category(np.head)
+    single = singular(np.head) == np.head and not (np.determiner or np.is_elliptic)
+    said = replace(np, determiner=the, text=f"{the} {np.text}")
+    return Modifier(Prep.EXCEPT, (said,), denied=True) if general and single else None
+
+
 APPOSED = either(
+    sequence(
+        COMMA,
+        phrase("the, the only"),
+        noun_phrase,
+        silent(optional("here")),
+        either(COMMA, at_end),
+        build=_said_again,
+    ),
     sequence(
         # "The lamp, the one on the left, …"
         "~comma the (one|ones)",

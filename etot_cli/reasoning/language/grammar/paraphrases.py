@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.asked_otherwise import ASKED_OTHERWISE
 from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
@@ -76,6 +77,7 @@ def _in_turn(said: re.Match[str]) -> str:
 
 _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     *CONTRACTIONS,
+    *ASKED_OTHERWISE,
     *OBSTACLES,
     *LISTINGS,
     *WHEREABOUTS,

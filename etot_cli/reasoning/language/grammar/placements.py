@@ -18,7 +18,7 @@ _FINE = r"(?:is|would be|will be) (?:fine|ok|okay|good|all right|alright)"
 _OF_TWO = r"one of (?:the two|them|these|those)"
 _NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
 _LIE = r"(?:(?:be (?:put |placed |moved )?|stay|remain|go|end up|stand|lie) ?)"
-_THERE = r"(?:in it|inside|there|(?:in|on|inside) (?:the|my) [^.,;:]*?)"
+_THERE = r"(?:(?:in|on|inside) it|inside|there|(?:in|on|inside) (?:the|my) [^.,;:]*?)"
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
 )

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.spelling import (
     corrected,
     exchanged,
     pet_form,
+    shortened,
 )
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.text import (
@@ -128,6 +129,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
             verb = not words and plain[1:2] in known.BEFORE_NOUNS
             known_one = verb or is_known(word, vocabulary)
             meant = None if known_one else pet_form(word, spelled) or corrected(word, spelled)
+            meant = meant if meant or known_one else shortened(word, spelled)
             if common and meant is None and not known_one:
                 meant = exchanged(word, known.all_words()) or corrected(word, known.all_words())
             if meant is not None:

@@ -23,6 +23,10 @@ class Correction:
         return f'"{self.written}" as "{self.read}"'
 
 
+SHORTENED_TO = 4
+"""Letters that are left of a word at least."""
+
+
 def is_english(word: str) -> bool:
     """Whether a word is spelt as it should be, whatever it is about."""
     return word.isascii() and bool(_dictionary().spell(word))
@@ -74,6 +78,22 @@ def pet_form(word: str, known: Iterable[str]) -> str | None:
         return None
     stem = next((stem for stem in (said[1], said[1][:-1]) if stem in animals), None)
     return f"{stem}s" if stem and word.endswith("s") else stem
+
+
+def shortened(word: str, known: Iterable[str]) -> str | None:
+    """The one known word that a word is the beginning of ("dino", "choc"); None when there is none.
+
+    It has at least four letters, leaves out two or more, and is no word of English itself.
+    """
+    stem = word.removesuffix("s")
+    if len(stem) < SHORTENED_TO or not word.isalpha() or is_english(stem) or is_english(word):
+        return None
+    several = word != stem
+    found = {
+        name for name in known if name.isalpha() and len(name) > len(stem) + 1 + several
+        if name.startswith(stem) and (singular(name) != name) == several
+    }  # fmt: skip
+    return found.pop() if len(found) == 1 else None
 
 
 def exchanged(word: str, known: Iterable[str]) -> str | None:

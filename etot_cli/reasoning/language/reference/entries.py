@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.reference.labels import (
 )
 from etot_cli.reasoning.language.words.categories import (
     CATEGORIES,
+    GROUND,
     OF_A_SORT,
     PACKED,
     PACKS,
@@ -196,8 +197,15 @@ class Entry:
         """Whether it is called by one of some nouns, or is a pack of what is."""
         solid = self.info is not None and not self.info.container
         packs = (words for words in self.called if solid and singular(words[-1]) in PACKS)
-        inner = {singular(words[-2]) for words in packs if len(words) > 1}
+        spiced = CATEGORIES["spice"] <= members
+        inner = {
+            singular(words[-2])
+            for words in packs
+            if len(words) > 1 and (spiced or words[-1] not in GROUND)
+        }
         heads = {*map(singular, (*self.heads, *self.content))}
+        heads = {head for head in heads if not self.is_compound(head)}
+        heads -= {"glass"} if self.heads[:1] == ("glasses",) else set()
         heads |= {"_".join(words[-2:]) for words in self.called if len(words) > 1}
         boxed = self.info is not None and self.info.kind == "box"
         for words in self.called[:1] if boxed else ():

@@ -14,7 +14,8 @@ _FRUIT = word_set(
     apple orange banana lemon lime peach pear plum cherry grape berry strawberry blueberry
     raspberry blackberry cranberry melon watermelon cantaloupe mango papaya pineapple kiwi apricot
     nectarine grapefruit mandarin tangerine clementine satsuma pomegranate fig date coconut
-    persimmon lychee guava quince currant avocado passionfruit
+    persimmon lychee guava quince currant avocado passionfruit pomelo plantain dragonfruit mulberry
+    gooseberry
     """
 )
 _VEGETABLES = word_set(
@@ -22,24 +23,40 @@ _VEGETABLES = word_set(
     potato onion carrot cucumber eggplant aubergine corn garlic mushroom cabbage lettuce broccoli
     cauliflower spinach zucchini courgette pumpkin squash radish turnip beet beetroot celery leek
     asparagus artichoke pea bean tomato pepper chili kale parsnip ginger shallot scallion yam
-    avocado okra fennel
+    avocado okra fennel sprout rutabaga arugula chard edamame jalapeno capsicum maize swede endive
+    chive
     """
 )
 _PASTRIES = word_set(
     "bun cake cookie biscuit donut doughnut muffin cupcake croissant pie pastry brownie scone tart "
-    "bagel roll pretzel baguette danish waffle cracker"
+    "bagel roll pretzel baguette danish waffle cracker strudel cheesecake eclair macaron churro"
 )
-_SWEETS = word_set("candy chocolate lollipop gum caramel toffee truffle marshmallow fudge")
-_SNACKS = word_set("chip crisp nut peanut almond popcorn granola raisin cracker pringle dorito")
+_SWEETS = word_set(
+    "candy chocolate lollipop gum caramel toffee truffle marshmallow fudge lolly licorice "
+    "liquorice "
+    "jellybean jelly_bean gummy gummy_bear nougat"
+)
+_SNACKS = word_set(
+    "chip crisp nut peanut almond popcorn granola raisin cracker pringle dorito cashew pistachio "
+    "walnut hazelnut pecan jerky trail_mix"
+)
 _DRINKS = word_set(
     "milk juice water coffee tea cola coke soda beer wine lemonade smoothie cocoa cider sprite "
     "pepsi fanta kombucha redbull gatorade gin vodka rum whisky whiskey tequila 7up drpepper "
-    "espresso latte cappuccino ale lager champagne prosecco liqueur seltzer milkshake"
+    "espresso latte cappuccino ale lager champagne prosecco liqueur seltzer milkshake mocha matcha "
+    "hot_chocolate"
 )
 _SPICES = word_set(
-    "salt pepper cinnamon paprika cumin oregano basil thyme turmeric nutmeg curry saffron"
+    "salt pepper cinnamon paprika cumin oregano basil thyme turmeric nutmeg curry saffron rosemary "
+    "sage coriander cardamom clove cayenne"
 )
-_SAUCES = word_set("ketchup mustard mayonnaise mayo relish salsa vinegar dressing sauce syrup")
+_SAUCES = word_set(
+    "ketchup catsup mustard mayonnaise mayo relish salsa vinegar dressing sauce syrup gravy pesto "
+    "chutney sriracha tabasco tahini guacamole aioli wasabi"
+)
+_DAIRY = word_set(
+    "milk cheese butter cream yogurt yoghurt mozzarella milkshake ice_cream margarine"
+)
 _OTHER_FOOD = word_set(
     """
     bread toast bagel loaf pizza egg cheese butter meat steak ham bacon sausage fish salmon tuna
@@ -48,25 +65,40 @@ _OTHER_FOOD = word_set(
     peanut almond tofu spam pudding patty nigiri maki kebab omelette lasagna
     dumpling falafel popcorn sugar flour jello jelly muesli ravioli lentil quinoa hummus tortilla
     marmalade nutella pickle olive margarine cream oil porridge yoghurt salami mozzarella broth
+    hot_dog ice_cream peanut_butter
+    nut_butter almond_butter cashew_butter coconut_milk stew shrimp prawn crab lobster sardine
+    pretzel crouton quesadilla gnocchi macaroni seaweed cheddar feta
     """
 )
+_FOOD = frozenset().union(
+    *(_FRUIT, _VEGETABLES, _PASTRIES, _SWEETS, _SNACKS, _DAIRY, _SPICES, _SAUCES, _OTHER_FOOD)
+)
+"""With what is eaten with it; drinks are none, but for milk."""
 _TOOLS = word_set(
     """
     hammer mallet wrench spanner screwdriver drill saw hacksaw plier chisel file rasp clamp vise
     level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel shears
-    secateurs rake shovel spade hoe pruner hand_fork
+    secateurs rake shovel spade hoe pruner hand_fork handsaw pincer mattock pickaxe
+    tape_measure measuring_tape box_cutter wire_cutter bolt_cutter wire_stripper utility_knife
+    putty_knife stanley_knife craft_knife allen_key hex_key allen_wrench nut_driver heat_gun
+    glue_gun
+    nail_gun caulking_gun
     """
 )
-_FASTENERS = word_set("screw nail bolt nut washer rivet staple")
-_CUTLERY = word_set("fork knife spoon teaspoon tablespoon chopstick")
+_FASTENERS = word_set("screw nail bolt nut washer rivet staple wing_nut hex_nut lug_nut lock_nut")
+_CUTLERY = word_set("fork knife spoon teaspoon tablespoon chopstick spork")
 _COOKING = word_set(
-    "spatula ladle whisk tongs peeler grater masher colander strainer turner rolling_pin corkscrew"
+    "spatula ladle whisk tongs peeler grater masher colander strainer turner rolling_pin corkscrew "
+    "can_opener bottle_opener sieve zester skewer slicer pizza_cutter measuring_cup"
 )
-_DISHES = word_set("plate bowl saucer cup mug glass platter dish")
-_WRITING = word_set("pen pencil marker crayon highlighter chalk sharpie biro")
+_DISHES = word_set(
+    "plate bowl saucer cup mug glass platter dish teacup ramekin tumbler goblet wineglass"
+)
+_WRITING = word_set("pen pencil marker crayon highlighter chalk sharpie biro ballpoint fineliner")
 _STATIONERY = word_set(
     "stapler ruler eraser notebook notepad envelope folder binder scissors sharpener "
-    "glue glue_stick paperclip paper_clip tape sticky_notes"
+    "glue glue_stick paperclip paper_clip tape sticky_notes clipboard paper pushpin push_pin "
+    "thumbtack hole_punch binder_clip rubber_band protractor"
 )
 _VEHICLES = word_set(
     "car truck train bus van taxi ambulance tractor bicycle bike motorcycle scooter plane airplane "
@@ -76,29 +108,38 @@ _ANIMALS = word_set(
     """
     bear duck dog cat horse cow pig sheep lamb goat lion tiger elephant giraffe zebra monkey rabbit
     bunny dinosaur penguin frog turtle fox wolf panda owl bird chick hen rooster fish shark
-    whale dolphin unicorn dragon octopus camel deer hippo rhino kangaroo koala crocodile
+    whale dolphin unicorn dragon octopus camel deer hippo rhino kangaroo koala crocodile alligator
+    squirrel hedgehog snake lizard pony donkey goose swan parrot eagle butterfly ladybug hamster
+    puppy kitten raccoon otter gorilla leopard cheetah llama ostrich flamingo t_rex trex
     """
 )
 _PLAYTHINGS = word_set(
     "ball doll teddy puppet yoyo kite puzzle figurine block robot lego rattle drum jigsaw marble "
-    "xylophone frisbee tambourine"
+    "xylophone frisbee tambourine yo_yo plushie slinky spinning_top lego_brick toy_brick jump_rope "
+    "action_figure rubiks_cube"
 )
 _LIKE_PEOPLE = _ANIMALS | word_set("doll teddy puppet figurine robot")
 _CLOTHES = word_set(
     "shirt tshirt sweater pullover hoodie coat jacket sock hat cap beanie scarf glove mitten pants "
-    "trouser jean short skirt dress blouse belt tie pajama pyjama"
+    "trouser jean short skirt dress blouse belt tie pajama pyjama sweatshirt jumper cardigan vest "
+    "legging raincoat swimsuit bathrobe"
 )
-_SHOES = word_set("shoe boot sneaker trainer sandal slipper heel loafer")
+_SHOES = word_set("shoe boot sneaker trainer sandal slipper heel loafer flip_flop clog")
 _TOILETRIES = word_set(
     "toothbrush toothpaste soap shampoo conditioner deodorant razor comb hairbrush lotion floss "
-    "mouthwash perfume sunscreen"
+    "mouthwash perfume sunscreen shower_gel body_wash moisturizer hand_cream shaving_cream "
+    "sun_cream "
+    "face_cream nail_file"
 )
 _ELECTRONICS = word_set(
     "phone telephone cellphone smartphone laptop computer tablet keyboard monitor camera headphone "
-    "earphone earbud charger calculator remote controller console radio speaker"
+    "earphone earbud charger calculator remote controller console radio speaker headset webcam "
+    "television tv router printer smartwatch power_bank"
 )
-_JEWELRY = word_set("ring necklace bracelet earring brooch pendant")
-_FLOWERS = word_set("rose tulip daisy lily sunflower daffodil orchid carnation")
+_JEWELRY = word_set("ring necklace bracelet earring brooch pendant bangle anklet locket")
+_FLOWERS = word_set(
+    "rose tulip daisy lily sunflower daffodil orchid carnation peony poppy hyacinth"
+)
 _READING = word_set("book magazine newspaper comic novel dictionary atlas textbook")
 
 ROUND = "round_thing"
@@ -107,8 +148,8 @@ SORTS: dict[str, frozenset[str]] = {
     ROUND: word_set("ball sphere"),
     "fruit": _FRUIT,
     "citrus": word_set("orange lemon lime grapefruit mandarin tangerine clementine satsuma"),
-    "vegetable veggie": _VEGETABLES,
-    "dairy": word_set("milk cheese butter cream yogurt yoghurt mozzarella milkshake"),
+    "vegetable veggie veg": _VEGETABLES,
+    "dairy": _DAIRY,
     "produce": _FRUIT | _VEGETABLES,
     "pastry dessert": _PASTRIES,
     "sweet": _SWEETS,
@@ -117,14 +158,17 @@ SORTS: dict[str, frozenset[str]] = {
     "soda soft_drink": word_set("soda cola coke pepsi sprite fanta lemonade 7up drpepper"),
     "spice seasoning": _SPICES,
     "condiment": _SPICES | _SAUCES,
-    "food": _FRUIT | _VEGETABLES | _PASTRIES | _SWEETS | _OTHER_FOOD,
-    "grocery": _FRUIT | _VEGETABLES | _PASTRIES | _SWEETS | _OTHER_FOOD | _DRINKS | _SAUCES,
+    "food": _FOOD,
+    "grocery": _FOOD | _DRINKS,
     "tool": _TOOLS,
     "fastener": _FASTENERS,
     "cutlery silverware flatware": _CUTLERY,
     "utensil": _CUTLERY | _COOKING,
     "dish tableware crockery dishware dinnerware": _DISHES,
-    "kitchenware": _CUTLERY | _COOKING | _DISHES | word_set("pot pan"),
+    "kitchenware": _CUTLERY
+    | _COOKING
+    | _DISHES
+    | word_set("pot pan skillet wok saucepan kettle teapot jug pitcher"),
     "writing_utensil": _WRITING,
     "stationery": _WRITING | _STATIONERY,
     "vehicle": _VEHICLES,
@@ -157,6 +201,8 @@ PACKS = _OF_A_PIECE | word_set(
     "can tin carton bottle jar packet pack bag box tube pouch shaker mill grinder stick"
 )
 """Nouns for what food and drink come in, or come off in."""
+GROUND = word_set("shaker mill grinder")
+"""Packs of seasoning: a pepper mill is no vegetable."""
 SERVING = word_set("glass mug cup bowl teacup tumbler goblet jug pitcher carafe")
 SERVED = _DRINKS | word_set("water soup stew porridge cereal oatmeal broth cocoa chili")
 """What a vessel may be called by that it is served in ("my soup")."""
@@ -172,7 +218,7 @@ NO_PARTS = (OF_A_SORT | _BASES) - _FASTENERS
 MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
-    stationery citrus dairy kitchenware money cash clothes clothing laundry footwear electronics
+    veg stationery citrus dairy kitchenware money cash clothes clothing laundry footwear electronics
     jewelry jewellery literature
     """
 )

@@ -85,8 +85,20 @@ RUBBISH = word_set("trash rubbish garbage waste litter recycling")
 REFUSE = ("trash", "garbage")
 """Names of a bin and of what goes there."""
 COMPOUNDS: dict[str, frozenset[str]] = {
-    "can": RUBBISH | {"watering"}, "butter": word_set("peanut almond cashew cocoa"),
-    "cream": word_set("ice shaving hand"), "dog": word_set("hot"),
+    "can": RUBBISH | {"watering"}, "butter": word_set("peanut almond cashew cocoa shea body nut"),
+    "cream": word_set("ice shaving hand sun face body foot skin"), "dog": word_set("hot"),
+    "oil": word_set("motor engine machine lamp hair massage brake"),
+    "roll": word_set("toilet paper tape towel kitchen film foil wire cable yarn"),
+    "chip": word_set("poker casino computer memory wood"), "tape": word_set("measuring"),
+    "glass": word_set("magnifying"), "dish": word_set("petri soap"), "file": word_set("nail"),
+    "knife": word_set("utility craft stanley palette putty pocket hobby"),
+    "ring": word_set("key napkin"), "nut": word_set("wing hex lug lock"),
+    "cup": word_set("suction measuring"), "paper": word_set("toilet wrapping baking sand"),
+    "bear": word_set("gummy"), "bean": word_set("jelly coffee"), "block": word_set("knife"),
+    "plate": word_set("license number"), "nail": word_set("finger"), "egg": word_set("easter"),
+    "belt": word_set("conveyor tool"), "tie": word_set("cable zip twist"),
+    "boat": word_set("gravy"), "cap": word_set("bottle lens pen"),
+    "milk": word_set("coconut almond oat soy"),
 }  # fmt: skip
 """Nouns that with some word before them mean no such thing: a trash can is none of the cans."""
 PURPOSES = word_set(

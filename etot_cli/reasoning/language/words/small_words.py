@@ -13,8 +13,10 @@ _EASIER = """
     (easier|easiest|best|better|possible|simpler|simplest|[more|most] convenient)
     [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)]
 """
-_WILL_DO = "(is|are|would be) (fine|ok|okay|good)|will do|would do|works|work"
-ANY_WILL_DO = f"({_WILL_DO}) [(for|with|by) (me|us)]"
+_WILL_DO = "(is|are|would be) (fine|ok|okay|good|all right|alright)|will do|would do|works|work"
+ANY_WILL_DO = f"""
+    ({_WILL_DO}) [(for|with|by) (me|us|this|now|(the|this) (demo|test|task|experiment|trial|run))]
+"""
 """Behind any of several things, before what is to be done with one of them."""
 WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
@@ -95,7 +97,8 @@ GREETINGS = f"""
     great, um, [my] dear ~comma, now then, come on,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP},
-    (for|in) (this|the (first|next)) (trial|task|test|run|experiment|episode) [~comma]
+    (for|in) (this|the (first|next)) (trial|task|test|run|experiment|episode) [~comma],
+    [just] as a [first|quick|simple|little|short] (warm up|test|exercise|try) [~comma]
 """
 WOULD_BE_NICE = """
     (i|we) would (be|feel) [very|really|so]
@@ -216,7 +219,7 @@ SAME_AGAIN = """
 ALSO = "[~comma] (too|as well|also), likewise"
 LEADING_FIRST = """
     first, [but] before (anything|everything) else, [but] before all [of] (that|this),
-    firstly, first of all, to begin with, to start with,
+    firstly, first of all, to (begin|start) [off] with, for (a start|starters),
     (start|begin) [off] by,
     [as a|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """

@@ -82,7 +82,10 @@ CLEAR = """
     clear[ing] [off], free[ing] [up], tidy[ing] [up], clean[ing] (off|up), clear[ing] out,
     empty[ing] out
 """
-MAKE_ROOM = "mak(e|ing) [some|more|enough|a little] (room|space) (in|on|for)"
+MAKE_ROOM = """
+    (mak(e|ing)|free[ing] up|clear[ing]) [some|more|enough|a (little|bit of)] (room|space)
+    (in|on|for)
+"""
 """It is made by what else is asked for."""
 OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
 CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
@@ -244,7 +247,9 @@ LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
 """Between them is what is to go somewhere."""
 JOIN = "joins, [can|may|should|must|is to|are to|has to|needs to|will] join"
 SHARE = "[can|may|should|must|is to|are to|has to|have to|will] share[s]"
-COME_AWAY = "[should|must|shall|has to|have to|needs to|need to|ought to|is to|are to] come[s]"
+COME_AWAY = """
+    [should|must|shall|can|may|could|has to|have to|needs to|need to|ought to|is to|are to] come[s]
+"""
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
 """

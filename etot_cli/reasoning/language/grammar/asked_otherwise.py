@@ -1,0 +1,134 @@
+"""What is wanted, permitted or proposed in words of everyday speech, put into plain ones."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.grammar.listings import ASKED
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.small_words import NAMED
+
+_THERE = r"(?:in|on|inside|into|onto|next to|beside|behind|between|under)\b"
+_ONE = r"(?:the|my|our) (?:(?!and\b|or\b|in\b|on\b|to\b)\w+ ){0,3}?\w+"
+_FINE = (
+    r"(?:(?:is|would be|will be|should be) (?:fine|ok|okay|good|all right|alright|best|perfect)"
+    r"|(?:will|would|should) do|works)(?: (?:for|with|by) (?:me|us|now))?"
+)
+_GO_AWAY = (
+    rf"(?:out of (?:the|my|our) way|aside|away(?: from {_ONE})?|(?:off|out of|from) (?:{_ONE}|it))"
+)
+_WISH = Expression(
+    r"(?:(?<=^)|(?<=[.;!?,:] )|(?<=\b(?:and|but) ))(?:i|we) (?P<no>do not |would not )?"
+    r"(?:would )?(?:really |just )?(?:want|need|like|prefer)\b[^.;!?]* left (?:in|on|inside)\b"
+    r"[^.;!?]*"
+)
+_LEFT_THERE = re.compile(
+    r"(?P<with>\bwith (?=(?:the|my|our|both|all)\b))?(?P<what>(?:(?!\bwith\b)[^,;])*?"
+    r"(?<!\bbe)(?<!\bis)(?<!\bare)(?<!\bthe)(?<!\bthat)(?<!\bhave)) left "
+    r"(?=(?:in|on|inside) (?:the|my|our|it|them)\b)"
+)
+_ONLY_WISH = r"(?:want|need|would like|care to have|wish)"
+_MOVED = r"(?:moved|put|placed|taken|brought|set|returned|transferred|dropped|to (?:go|be|end up))"
+_FROM = Expression(
+    rf"^({ASKED})(?:(?:starting|counting|going|beginning) )?from (?:the |your )?(left|right)"
+    r"(?: to (?:the )?(?:left|right))?,? ((?:[^.;]*?\b)?the (?:first|second|third|last) [^.;]*)"
+)
+_NTH = re.compile(
+    r"\bthe (first|second|third|fourth|last)(?: (?!in\b|on\b|to\b|into\b|onto\b|one\b|goes\b|go\b)"
+    r"((?:\w+ )?\w+?))??(?: one)?(?= (?:in|on|into|onto|to|inside|goes|should|belongs|next)\b)"
+)
+
+
+def _stays(wish: re.Match[str]) -> str:
+    """What is wanted "left" somewhere: there still, or there no longer where it is not wanted."""
+    if wish["no"]:
+        return _LEFT_THERE.sub(lambda said: f"{said['with'] or ''}{said['what']} ", wish[0])
+    return _LEFT_THERE.sub(
+        lambda said: f"{'and ' if said['with'] else ''}{said['what']} to stay ", wish[0]
+    )
+
+
+def _counted_from(said: re.Match[str]) -> str:
+    """What is counted from a side that is said ahead of it."""
+    asked, side, rest = said.groups()
+    noun = ""
+
+    def told(item: re.Match[str]) -> str:
+        nonlocal noun
+        noun = item[2] or noun
+        return f"the {item[1]} {noun} from the {side}" if noun else item[0]
+
+    return f"{asked}{_NTH.sub(told, rest)}"
+
+
+ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    (_WISH, _stays),
+    (_FROM, _counted_from),
+    # A place proposed for what is to go somewhere else
+    (
+        rf"\b((?:get|take|move|clear|bring|put|shift) (?:(?:{_ONE}|it|them|both|all|these|those)"
+        rf"[^.,;]*?) {_GO_AWAY})(?:[.;!,]+| -)(?: (?:i think|maybe|perhaps|for example))? "
+        rf"(?:(?:in|into|on|onto|to) )?({_ONE}(?: or (?:(?:in|on|to) )?{_ONE})?) {_FINE}"
+        r"(?: for (?:it|them|that))?(?=[.;!]|$)",
+        r"\1 to \2",
+    ),
+    # What is the only thing wanted is wanted; what else is there is not spoken of.
+    (
+        rf"\b(i|we) (?:only|just) ({_ONLY_WISH}) (?={NAMED}[^.,;]*? {_MOVED}\b)",
+        r"\1 \2 ",
+    ),
+    (
+        rf"\b(i|we) (?:will|(?:am|are) going to)(?: be)? (?:need|want|require)(?:ing)? "
+        rf"(?={NAMED}[^.,;]* {_THERE} {NAMED}(?: (?!later\b|tomorrow\b|tonight\b|soon\b|for\b)"
+        r"\w+){1,4}(?:[.!;]|, (?:please|and)\b| and\b|$))",
+        r"\1 need ",
+    ),
+    (
+        rf"^({ASKED})(?:one|either) ((?:\w+ )?\w+) (into|onto|to) ({_ONE}) (?:is|would be|will be) "
+        r"(?:enough|plenty|sufficient)(?=[.,;!]|$)",
+        r"\1put 1 \2 \3 \4",
+    ),
+    (
+        rf"^({ASKED})(?:change|rearrange|arrange|set up|modify|alter) (?:the )?"
+        r"(?:scene|setup|set up|layout|arrangement|objects|items|stuff|workspace) "
+        r"(?:around |up )?(?=(?:so that|such that|in such a way that|so)\b)",
+        r"\1arrange things ",
+    ),
+    (
+        rf"^({ASKED})set (?:it|things|everything|this) up (?=(?:so that|such that|so)\b)",
+        r"\1arrange things ",
+    ),
+    # Putting down what is held
+    (
+        rf"\b(?:release|let go of) (it|them|{_ONE}) (?={_THERE}|(?:at|over|above) )",
+        r"put \1 ",
+    ),
+    (rf"\blet (it|them|{_ONE}) go (?={_THERE})", r"put \1 "),
+    (
+        rf"^({ASKED})make (?:some |more |a little |a bit of )?(?:room|space) (?:on|at|in) "
+        r"the (?:left|right|front|back)(?: side| half| part)?(?: of (?:the|my) \w+)? "
+        r"by (?=\w+ing\b)",
+        r"\1make room on the desk by ",
+    ),
+    # "Store each pen separately: one in the mug, one in the basket"
+    (
+        rf"^({ASKED})(?:put|store|place|keep|stow) each (?:of the )?((?:\w+ )?\w+?)s? "
+        r"(?:away )?(?:separately|in (?:a different|its own|another) (?:place|spot)): (?=one\b)",
+        r"\1put the \2s separately: ",
+    ),
+    (
+        rf"^({ASKED})(?:distribute|spread|divide|split(?: up)?) ({NAMED} [^.,;:]*?)"
+        r"(?: out| up)?: (?=one\b)",
+        r"\1put \2 separately: ",
+    ),
+    # What stays in or comes out asks for nothing.
+    (
+        rf"\b({_ONE}|it|they) (can|may|could|might) (?:either )?(?:stay|remain|be|stay put)"
+        rf"(?: (?:in there|inside|there|in it|inside it|where it is|{_THERE} {_ONE}))? "
+        r"or (?:(?:can |may )?(?:come|go|be|be taken|be put) (?:back )?(?:out|outside|elsewhere))"
+        r"(?=[.,;!]|$)",
+        r"\1 \2 go anywhere",
+    ),
+)
+"""In order."""
