@@ -128,7 +128,7 @@ SIDED = [
     and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
     and not re.search(
         r"(?i)right (next|away|behind|then|above|below)|^right,|"
-        r"(is|be|been|were|someone|i|anything|nothing) left\b"
+        r"(is|be|been|were|someone|i|thing) left\b"
         r"|left (open|closed|shut|untouched|alone|where)",
         text,
     )
