@@ -479,6 +479,25 @@ def test_what_may_be_anywhere_on_the_desk_stays_at_its_safe_place(
     )
 
 
+def test_what_comes_back_into_a_drawer_does_so_before_that_is_closed() -> None:
+    """It stood in there and kept it from closing. It was closed, opened again and closed."""
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, -0.2), {"only": 1.0}),
+        scenes.item("bottle", "bottle", at=(0.4, -0.2), on="chest", inside="chest"),
+    )
+    reasoner = BuiltinReasoner()
+    text = "Close the chest. The bottle must be in the chest."
+    (branch,) = reasoner.propose(Assignment(text), start)
+    assert format_plan(branch.actions) == "[CLOSE, chest]"
+    rollout = record(start, effect=False, cause=cause(CauseKind.BLOCKED, "bottle", "chest"))
+    verdict = reasoner.judge(branch.actions[0], rollout)
+    revised = first_revision(reasoner, FailedStep(branch, 0, rollout, verdict, start))
+    assert revised is not None
+    assert format_plan(revised.actions) == (
+        "[PICK UP, bottle] [PUT ON, desk] [PICK UP, bottle] [PUT INTO, chest] [CLOSE, chest]"
+    )
+
+
 @pytest.mark.parametrize("openness", [0.0, 0.4])
 def test_what_was_opened_for_use_that_comes_earlier_now_is_not_opened_at_the_end(
     openness: float,

@@ -103,9 +103,21 @@ def test_what_was_laid_on_the_desk_is_taken_as_it_lies(diameter: float, seed: in
     assert laid(run, "[PUT ON, rack.bottom]", LEVEL).startswith("rack")
 
 
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("diameter", "height"), [(0.05, 0.225), (0.063, 0.226)])
+def test_what_is_nearly_as_long_as_a_board_is_deep_lies_on_it(
+    diameter: float, height: float, seed: int
+) -> None:
+    """Nothing is left of the distance from the front that shorter things keep. What is round bears
+    on a line, over an edge as in the middle.
+    """
+    run = episode(seed, **board_and_bottle(diameter, height, 0.55, 0.14))
+    assert laid(run, "[PUT ON, rack.bottom]", " (vertical)").startswith("rack")
+
+
 def test_what_fits_without_the_hand_is_not_too_large() -> None:
     """It lies along the board only, and the hand that holds it so cannot."""
-    run = episode(**board_and_bottle(0.063, 0.225, 0.55, 0.14))
+    run = episode(**board_and_bottle(0.063, 0.245, 0.55, 0.14))
     run.must("[PICK UP, thing] (vertical)")
     cause = run.do("[PUT ON, rack.bottom] (lying)").record.cause
     assert cause is not None and cause.kind is CauseKind.UNREACHABLE

@@ -44,7 +44,11 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
     for name, put in away.items():
         kept = _as_wanted(kept, put, wanted[name])
     revised = replace(revised, actions=kept)
-    sketch = Sketch(start, kept)
+    last = kept[-1]
+    shut_too_early = last.verb is Verb.CLOSE and any(
+        (Relation.INSIDE, last.target) == home[:2] for name in away for home in wanted[name]
+    )
+    sketch = Sketch(start, kept[:-1] if shut_too_early else kept)
     for name in away:
         for relation, target, where in wanted[name] or _filled_elsewhere(name, kept, start):
             if not sketch.holds(name, relation, target, where):
@@ -54,6 +58,8 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
     if held is not None:
         sketch.pick_up(held)  # it was put down for what had to go back
     actions = tuple(sketch.actions)
+    if shut_too_early and actions[-1] != last:
+        actions = (*actions, last)
     opened = left_open(failed.branch.actions, start)
     if actions == revised.actions or check_plan(actions, start, opened):
         return revised

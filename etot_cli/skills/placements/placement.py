@@ -46,8 +46,15 @@ hand may clear the floor [m]."""
 SLANTING, STRAIGHT = 0.7, 0.9998
 """Cosines of ways out to straight ahead and to each other: a hand points in by no more than 40° to
 either side; on the way through a shelf 1° makes a few millimetres, as much as a finger opens."""
-MAX_TRIES, TRIES_AGAIN = 40, 8
-"""Places of one action that are looked at exactly, and when somebody is thought away."""
+MAX_TRIES, TRIES_AGAIN = 60, 8
+"""Places of one action that are looked at exactly, and when somebody is thought away. Of 30 floors
+with a free place that was not among the best 40, one had it beyond these 60; most are all looked at
+with 20 to 40."""
+BEST_TRIES, SPREAD = 20, 0.06
+"""After so many of the best places the others are spread over the floor, this far apart with the
+same turn [m]: what goes wrong at twenty of them does beside them too."""
+ALL_TRIES = 200
+"""Places that are looked at before an object is blamed, close to each other: half a second."""
 SAME_PLACE = 0.012
 """Where something is in the way, it is so for the same turn this far around [m]."""
 APART = 0.02
@@ -71,6 +78,8 @@ class Placement:
     """How far the fingers open to let go [m]."""
     drop: float
     """How far above its wanted height the object is let go [m]."""
+    place: Place
+    """Where the object comes to rest."""
     back_length: float = RETREAT
     """Length of the way back [m]."""
 
@@ -95,7 +104,12 @@ class Tally:
 
 
 def placements(
-    belief: Belief, request: Request, tally: Tally, stamps: Stamps | None = None
+    belief: Belief,
+    request: Request,
+    tally: Tally,
+    stamps: Stamps | None = None,
+    *,
+    thoroughly: bool = False,
 ) -> Iterator[Placement]:
     """Prepared placements, the best first; worked out as they are asked for.
 
@@ -105,29 +119,33 @@ def placements(
         tally: takes note of what becomes of the places.
         stamps: undersides known from looking at the same floor before. Whoever has them looks
             again, and more briefly.
+        thoroughly: look at many more places, none left out between others.
     """
     finder = PlaceFinder(belief, request, stamps)
     tries = MAX_TRIES if stamps is None else TRIES_AGAIN
+    if thoroughly:
+        tries = ALL_TRIES
     done: list[_Mark] = []
-    found, far = 0, np.inf
+    found, upright, far = 0, 0, np.inf
     for place in finder.places(as_held=stamps is not None):
         position, rotation = place.pose.position, place.pose.rotation
         if tally.looked_at >= tries:
             return
+        if place.laid and upright >= BEST_TRIES:
+            continue  # there is room but for the hand, which may hold it otherwise
         radius = float(np.hypot(*position[:2]))
-        if radius > far or any(mark.covers(position, rotation) for mark in done):
+        apart = SPREAD if tally.looked_at >= BEST_TRIES and not thoroughly else 0.0
+        if radius > far or any(mark.covers(position, rotation, apart) for mark in done):
             continue
-        belief.checker.freeze(belief.data)
-        with belief.checker.without(request.absent):
-            way = _Way(belief, request, place, tally)
-            placement = way.through_front() if request.support.from_front else way.from_above()
+        placement, reached = _placement(belief, request, place, tally)
+        upright += not place.laid
         if placement is not None:
             yield placement
             found += 1
             if found == MAX_FOUND:
                 return
             done.append(_Mark(position, None, APART))
-        elif way.reached:
+        elif reached:
             tally.obstructed += 1
             done.append(_Mark(position, rotation, SAME_PLACE))
         else:
@@ -135,6 +153,24 @@ def placements(
             done.append(_Mark(position, rotation, UNREACHED_AROUND))
             if radius > belief.arm.comfortable_radius(request.support.center[2]):
                 far = min(far, radius + UNREACHED_STEP)
+
+
+def placement_at(belief: Belief, request: Request, place: Place) -> Placement | None:
+    """The placement at one place; None where something is in the way there, or the arm does not
+    reach it.
+    """
+    return _placement(belief, request, place, Tally(belief.world))[0]
+
+
+def _placement(
+    belief: Belief, request: Request, place: Place, tally: Tally
+) -> tuple[Placement | None, bool]:
+    """The placement at one place, and whether the arm gets there at all."""
+    belief.checker.freeze(belief.data)
+    with belief.checker.without(request.absent):
+        way = _Way(belief, request, place, tally)
+        placement = way.through_front() if request.support.from_front else way.from_above()
+    return placement, way.reached
 
 
 @dataclass(frozen=True)
@@ -145,10 +181,11 @@ class _Mark:
     rotation: Vector | None
     radius: float
 
-    def covers(self, position: Vector, rotation: Vector) -> bool:
-        """Whether another place is much the same."""
+    def covers(self, position: Vector, rotation: Vector, apart: float) -> bool:
+        """Whether another place is much the same, or with one turn nearer than ``apart`` [m]."""
         offset = position - self.position
-        near = bool(np.hypot(offset[0], offset[1]) < self.radius)
+        radius = self.radius if self.rotation is None else max(self.radius, apart)
+        near = bool(np.hypot(offset[0], offset[1]) < radius)
         return near and (self.rotation is None or np.array_equal(rotation, self.rotation))
 
 
@@ -218,7 +255,7 @@ class _Way:
         if any(self._is_hit(row, self._bearers) for row in rows):
             return None
         down = np.vstack([up[-2::-1], at_place.joints])
-        return Placement(up[-1], down, *release, drop=self._place.drop + raised)
+        return Placement(up[-1], down, *release, self._place.drop + raised, self._place)
 
     def through_front(self) -> Placement | None:
         """Level in through the front, and back out the same way; let go a little higher up where
@@ -259,7 +296,7 @@ class _Way:
                 release = self._widest_release([inside, *path], CLEARANCE)
                 if release is not None:
                     down = np.vstack([path[-2::-1], inside])
-                    return Placement(path[-1], down, path, release, raised, far)
+                    return Placement(path[-1], down, path, release, raised, self._place, far)
         return None
 
     def _bends(self, tool: Pose) -> Iterator[Vector]:

@@ -63,12 +63,14 @@ class Place:
         drop: how far above that the hand must open [m].
         quality: its kind.
         bearers: objects that bear it.
+        laid: it is laid down for want of room.
     """
 
     pose: Pose
     drop: float
     quality: Quality
     bearers: frozenset[str]
+    laid: bool = False
 
 
 class PlaceFinder:
@@ -114,7 +116,8 @@ class PlaceFinder:
                     if group.laid and table[0].turned.height > LOWER * tables[0][0].turned.height:
                         table = []
                     tables.append(table)
-                yield from self._of_quality(tables[index], quality)
+                for place in self._of_quality(tables[index], quality):
+                    yield replace(place, laid=group.laid)
 
     def _again(self, rehearsed: Pose) -> Iterator[Place]:
         """Good places as near to a rehearsed one as they get, the nearest first."""
@@ -152,7 +155,8 @@ class PlaceFinder:
             rest = float(turned.rest[index])
             seen = under(self._relief.heights, -np.inf, turned.object, cell)
             touching = seen >= rest + turned.object.low - TOUCH
-            if is_pile and not self._is_stable(turned, touching):
+            on_floor = self._support.is_even and abs(float(turned.lift[index])) <= FLAT
+            if is_pile and not self._is_stable(turned, touching, on_floor=on_floor):
                 continue
             on_top = self._relief.floor - FLAT
             if not self._support.is_container and float(seen[touching].min()) < on_top:
@@ -168,15 +172,23 @@ class PlaceFinder:
                 frozenset(bearers),
             )
 
-    def _is_stable(self, turned: Turned, touching: NDArray[np.bool_]) -> bool:
-        """Whether the centre of mass is well inside of what bears the object."""
+    def _is_stable(self, turned: Turned, touching: NDArray[np.bool_], *, on_floor: bool) -> bool:
+        """Whether the centre of mass is well inside of what bears the object, or to the sides where
+        it is not the object bears on no less than it would in the middle of the floor, as what is
+        round does.
+        """
         belief, name = self._belief, self._request.attached.name
         pose = belief.object_pose(name)
         mass = belief.data.subtree_com[belief.world.model.body(name).id] - pose.position
         mass = self._support.axes @ (turned.rotation @ pose.rotation.T @ mass)[:2]
         reach = (turned.object.cells[touching] * self._relief.cell @ SIDES).max(axis=0)
         half = float(np.ptp(turned.object.cells, axis=0).min()) * self._relief.cell / 2
-        return bool((reach >= mass @ SIDES + max(STABLE, STABLE_SHARE * half)).all())
+        needed = mass @ SIDES + max(STABLE, STABLE_SHARE * half)
+        if on_floor:
+            low = turned.object.low
+            bearing = turned.object.cells[low <= low.min() + TOUCH]
+            needed = np.minimum(needed, (bearing * self._relief.cell @ SIDES).max(axis=0))
+        return bool((reach >= needed).all())
 
     def _room_left(
         self, table: Sequence[Judged], found: Sequence[tuple[float, int, int]]

@@ -8,7 +8,13 @@ from dataclasses import replace
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Quality, Request
-from etot_cli.skills.placements.placement import Tally, placements
+from etot_cli.skills.placements.placement import (
+    BEST_TRIES,
+    Placement,
+    Tally,
+    placement_at,
+    placements,
+)
 from etot_cli.skills.placements.places import PlaceFinder
 from etot_cli.skills.placements.relief import relief
 from etot_cli.skills.placements.undersides import Stamps
@@ -18,8 +24,9 @@ MAX_SUSPECTS = 5
 """Objects that are taken away one at a time to see whether that helps."""
 
 
-def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome:
-    """The cause of a put that has no place.
+def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome | Placement:
+    """The cause of a put that has no place; a placement where looking for the cause comes upon one
+    that nothing is in the way of: not all places have been looked at.
 
     Args:
         belief: the scene.
@@ -37,20 +44,34 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         )
     suspects, fastened = _suspects(belief, request, tally)
     stamps: Stamps = {}
+    overlooked: list[Placement] = []
 
     def helps(absent: Iterable[str]) -> bool:
-        """Whether there is a place once some objects are taken away."""
+        """Whether there is a place once some objects are taken away, and none there with them."""
         without = replace(request, absent=request.absent.union(absent))
-        return next(placements(belief, without, Tally(belief.world), stamps), None) is not None
+        found = next(placements(belief, without, Tally(belief.world), stamps), None)
+        if found is None:
+            return False
+        as_it_is = placement_at(belief, request, found.place)
+        if as_it_is is not None:
+            overlooked.append(as_it_is)
+        return as_it_is is None
 
     guilty = [one for one in suspects[:MAX_SUSPECTS] if helps([one])]
     if not guilty and len(suspects) > 1 and helps(suspects):
         guilty = _least(suspects, helps)
     guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if helps([one])]
     everybody = [*suspects, *fastened]
+    if overlooked:
+        return overlooked[0]
     if not guilty and fastened and len(everybody) > 1 and helps(everybody):
         guilty = _least(everybody, helps)
     if guilty:
+        if tally.looked_at > BEST_TRIES:  # those after them were spread over the floor
+            whole = Tally(belief.world)
+            missed = next(placements(belief, request, whole, thoroughly=True), None)
+            if missed is not None:
+                return missed
         return failed(
             CauseKind.NO_ROOM,
             [*guilty, name],
