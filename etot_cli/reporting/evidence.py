@@ -46,7 +46,7 @@ class MovedModel(Model):
     """Where it was, in words, e.g. ``on desk``."""
     after: str
     toppled: bool = False
-    """It stood before and lies now."""
+    """It lies now; before it stood, or was in the hand."""
 
 
 class ContactModel(Model):
@@ -115,10 +115,18 @@ def moved_models(record: RolloutRecord, changes: Iterable[str]) -> list[MovedMod
                     largest_m=largest,
                     before=whereabouts(before),
                     after=whereabouts(after),
-                    toppled=after.toppled and not before.toppled,
+                    toppled=_lies_anew(before, after),
                 )
             )
     return sorted(found, key=lambda item: -item.largest_m)
+
+
+def _lies_anew(before: ObjectState, after: ObjectState) -> bool:
+    """Whether something has come to lie. What hangs askew in the hand does not yet, and may stand
+    again once it is put down.
+    """
+    lay = before.toppled and not before.in_hand
+    return after.toppled and not after.in_hand and not lay
 
 
 def moved_text(item: MovedModel) -> str:

@@ -39,7 +39,7 @@ THIRD = 1 / 3
 both ways."""
 EDGE = 0.10
 """Free distance from a surface's border up to which something is at its edge [m]: 5 cm of it are
-kept free for safety wherever things are put down on a desk."""
+kept free for safety wherever things are put down on a desk, but at points."""
 CORNER = 0.15
 """The same, from both borders of a corner [m]."""
 AT = 0.03

@@ -105,6 +105,17 @@ def test_what_the_hand_cannot_take_out_of_furniture_is_grasped_otherwise(opennes
     assert revision(step) == "[PICK UP, can] (horizontal) [PUT ON, desk]"
 
 
+def test_what_is_pressed_out_of_the_fingers_at_a_front_is_grasped_both_ways() -> None:
+    start = scenes.scene(
+        scenes.cabinet("locker", (0.6, 0.2), 1.0), scenes.item("jar", on="locker", z=0.5)
+    )
+    before = held(start, "jar")
+    plan = "[PICK UP, jar] {}[PUT INTO, locker]"
+    step = failed(start, plan.format(""), 1, cause(CauseKind.SLIP, "jar"), before)
+    assert revision(step) == plan.format("(horizontal) ")
+    assert plan.format("(vertical) ") in revisions(step)
+
+
 def test_what_something_fastened_covers_is_grasped_from_the_side() -> None:
     info, state = scenes.item("bridge", at=(0.5, 0.0))
     bridge = (replace(info, movable=False), state)
@@ -579,6 +590,20 @@ def test_a_blocker_in_a_vessel_may_go_with_it() -> None:
     step = failed(start, "[OPEN, cupboard]", 0, cause(CauseKind.BLOCKED, "pea", "cupboard"))
     assert revisions(step) == [
         f"{RELOCATE.format(name)} [OPEN, cupboard]" for name in ("pea", "mug")
+    ]
+
+
+@pytest.mark.parametrize("named", [("egg", "bowl"), ("bowl", "egg")])
+def test_what_lies_in_a_blocker_goes_with_it(named: tuple[str, str]) -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.45, 0.1), {"top": 0.0}),
+        scenes.cup("bowl", (0.3, -0.2)),
+        scenes.ball("egg", (0.3, -0.2), inside="bowl", on="bowl"),
+    )
+    step = failed(start, "[OPEN, chest]", 0, cause(CauseKind.COLLISION, *named))
+    assert revisions(step)[:2] == [
+        "[PICK UP, bowl] [PUT ON, desk] [OPEN, chest]",
+        "[PICK UP, egg] [PUT ON, desk] [OPEN, chest]",
     ]
 
 

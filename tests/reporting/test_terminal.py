@@ -236,6 +236,20 @@ def test_what_was_put_down_lying_is_told() -> None:
         assert judged.told() == [told, "nut"]
 
 
+def test_what_hangs_askew_in_the_hand_is_not_told_to_lie() -> None:
+    start = scenes.scene(scenes.item("case", at=(0.4, 0.1)))
+    askew = changed(start, case={"toppled": True, "tilt_deg": 45.0, "in_hand": True, "on": ()})
+    lying = changed(start, case={"toppled": True, "tilt_deg": 90.0})
+    for before, after, told in (
+        (start, askew, "case"),
+        (askew, start, "case"),
+        (askew, lying, "case (lying)"),
+    ):
+        moved = moved_models(record(before, after), ["case"])
+        judged = JudgedModel.model_construct(changes=["case"], moved=moved)
+        assert judged.told() == [told]
+
+
 def test_every_status_of_a_report_has_a_look() -> None:
     modules = ("plan", "simulate", "execute", "bench", "reconstruct")
     statuses: set[str] = set()

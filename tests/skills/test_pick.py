@@ -314,6 +314,22 @@ def test_what_sticks_out_little_is_held_by_the_fingertips(name: str, seed: int) 
     assert state.on == ("desk",) and not state.toppled
 
 
+@pytest.mark.parametrize("at", [[0.45, -0.25], [0.38, 0.15]])
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("diameter", "mass"), [(0.034, 0.015), (0.046, 0.008)])
+def test_a_light_ball_is_held_as_low_as_the_hand_gets(
+    diameter: float, mass: float, seed: int, at: list[float]
+) -> None:
+    """The hand is on the cup's rim before the pads get to the ball's middle. Much higher up than
+    there the ball creeps out of them on the way.
+    """
+    objects = _in_cup(0.078, 0.06, kind="sphere", diameter=diameter)
+    objects["thing"]["mass"] = mass
+    objects["cup"]["at"] = at
+    run = episode(seed, **objects)
+    assert run.must("[PICK UP, thing]", "[PUT ON, desk]").states["thing"].on == ("desk",)
+
+
 def test_what_hardly_sticks_out_is_obstructed_by_its_neighbours() -> None:
     record = episode(**_row(0.036, 0.007, 0.005)).do("[PICK UP, thing]").record
     assert not record.effect and record.cause is not None

@@ -55,8 +55,12 @@ class Hand:
         turned = self.belief.tool().rotation.T @ np.eye(3)
         self.attached = Attached("thing", Pose(np.zeros(3), turned))
 
-    def support(self, address: str, *, into: bool = False) -> Support:
-        found = (container_support if into else surface_support)(self.belief, address)
+    def support(self, address: str, *, into: bool = False, edge: float = DESK_EDGE) -> Support:
+        found = (
+            container_support(self.belief, address)
+            if into
+            else surface_support(self.belief, address, edge)
+        )
         assert found is not None
         return found
 
@@ -110,6 +114,20 @@ def test_places_are_free_and_on_the_desk(hand: Hand) -> None:
     inside = (np.abs(found[:, 0] - 0.47) < 0.09) & (np.abs(found[:, 1]) < 0.12)
     assert not inside.any(), "not in the furniture"
     assert np.hypot(*found.T).min() > 0.1, "not in the robot's foot"
+
+
+def test_a_place_that_is_asked_for_may_be_near_the_edge() -> None:
+    """Nearer than places of free choice, the thing as large as it may be on the desk."""
+    for half, margin in ((0.015, 0.01), (0.025, 0.02), (0.05, 0.005)):
+        there = (0.30, -0.60 + half + margin)
+        hand = Hand(BLOCK | {"size": [2 * half, 2 * half, 0.04]})
+        finder = PlaceFinder(
+            hand.belief,
+            Request(hand.attached, hand.support("desk", edge=0.0), at=(there,)),
+        )
+        good = [one.pose.position[:2] for one in finder.places(kinds=(Quality.GOOD,))]
+        assert min(np.linalg.norm(good - np.array(there), axis=1)) <= 0.005
+        assert min(point[1] for point in good) >= -0.60 + half - 0.005, "all of it is on the desk"
 
 
 @pytest.mark.slow

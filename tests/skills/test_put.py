@@ -37,6 +37,16 @@ def test_put_on_the_desk(thing: dict[str, object], seed: int) -> None:
     assert not after.in_hand and not after.toppled and not after.lost and after.reachable
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_place_near_the_edge_is_taken_where_it_is_asked_for(seed: int) -> None:
+    """10 mm of the desk remain beside it."""
+    there = np.array([0.30, -0.565])
+    run = episode(seed, thing=BOX | {"size": [0.05, 0.05, 0.05]})
+    after = run.must("[PICK UP, thing]", "[PUT ON, desk] (at 0.300 -0.565)").states["thing"]
+    assert after.on == ("desk",) and not after.lost
+    assert np.linalg.norm(np.array(after.position[:2]) - there) < 0.025
+
+
 @pytest.mark.slow
 def test_what_lies_is_stood_up_where_that_is_asked_for() -> None:
     lying = {"kind": "cylinder", "diameter": 0.05, "height": 0.12, "mass": 0.15}

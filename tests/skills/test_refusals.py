@@ -189,6 +189,21 @@ def test_the_arm_alone_is_to_blame_for_what_is_too_far() -> None:
     assert outcome("[PUT INTO, bowl]", bowl=BOWL) is None
 
 
+@pytest.mark.parametrize(
+    ("at", "kind", "text"),
+    [
+        ((0.79, -0.57), CauseKind.UNREACHABLE, "the arm does not reach desk at 0.790 -0.570"),
+        ((0.3, -0.63), CauseKind.NO_ROOM, "there is no desk at 0.300 -0.630"),
+    ],
+)
+def test_a_place_that_is_asked_for_is_too_far_or_beyond_the_desk(
+    at: tuple[float, float], kind: CauseKind, text: str
+) -> None:
+    cause = refused(f"[PUT ON, desk] (at {at[0]} {at[1]})")
+    assert cause.kind is kind
+    assert cause.text.startswith(text)
+
+
 @pytest.mark.slow
 def test_what_is_too_large_is_to_blame_itself() -> None:
     """No movable object is named where none has a part in it."""

@@ -18,6 +18,7 @@ from etot_cli.reasoning.builtin.relations import (
     carriers,
     contents,
     distance,
+    enclosing,
     has_front,
     is_closed,
     is_inside,
@@ -143,7 +144,8 @@ class _Case:
         """Objects to blame, those that the branch itself has put to use or opened first.
 
         What this branch has changed did not stand in the way at the start. What has been taken out
-        of the way already comes last.
+        of the way already comes last, and what lies in something else that is to blame after that,
+        which takes it along.
         """
         scene = self.scene
         named = dict.fromkeys(owner_of(name) for name in self.cause.objects)
@@ -160,6 +162,7 @@ class _Case:
             key=lambda name: (
                 not (name in opened or placed_by(self.actions, name, self.index) is not None),
                 relocations(self.actions, name) > 0,
+                any(other in map(owner_of, enclosing(scene, name)) for other in others),
             ),
         )
 

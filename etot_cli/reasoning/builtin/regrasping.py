@@ -25,7 +25,7 @@ _STANDS = 0.5
 
 
 def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Correction]:
-    """The branch with the object grasped in another way where it is.
+    """The branch with the object grasped in other ways where it is.
 
     Args:
         failed: the failed step.
@@ -34,9 +34,7 @@ def regrasped(failed: FailedStep, pick: int, cause: CauseKind) -> Iterator[Corre
     """
     actions = failed.branch.actions
     action = actions[pick]
-    other = None if action.pose is not None else _other_pose(failed, cause)
-    if other is not None:
-        pose, how = other
+    for pose, how in _other_poses(failed, action, cause):
         posed = (*actions[:pick], replace(action, pose=pose), *actions[pick + 1 :])
         yield Correction(posed, f"{action.target} is grasped {how}")
 
@@ -63,9 +61,7 @@ def grasped_anew(failed: FailedStep, pick: int | None, cause: CauseKind) -> Iter
         ways.append((None, "anew"))
     if grasp.pose is GraspPose.HORIZONTAL and cause is CauseKind.NO_ROOM:
         ways.append((GraspPose.VERTICAL, "from above"))
-    other = None if grasp.pose is not None else _other_pose(failed, cause)
-    if other is not None:
-        ways.append(other)
+    ways += _other_poses(failed, grasp, cause)
     _, down = set_aside(failed, name)
     for pose, how in ways:
         anew = inserted(actions, taken, (down, replace(grasp, pose=pose)))
@@ -89,22 +85,31 @@ def _may_lie(failed: FailedStep, name: str) -> bool:
     return Nearby.LYING in stances or not info.container
 
 
-def _other_pose(failed: FailedStep, cause: CauseKind) -> tuple[GraspPose, str] | None:
-    """The pose to try where none was asked for, and its name: from above where the object slipped;
-    from the side where the hand has no room above it, does not reach that far or that high from
-    above, or where a rod stands in the hand, which lays it down from there, as it does all that is
-    to lie.
+def _other_poses(
+    failed: FailedStep, grasp: Action, cause: CauseKind
+) -> list[tuple[GraspPose, str]]:
+    """The poses to try where none was asked for, and their names: from above where the object
+    slipped; from the side where the hand has no room above it, does not reach that far or that high
+    from above, or where a rod stands in the hand, which lays it down from there, as it does all
+    that is to lie.
+
+    What is pressed out of the fingers at a front has slipped in a hand that came from above as
+    likely as in a level one, so that both are tried; the level one gets in.
     """
+    if grasp.pose is not None:
+        return []
+    above, level = (GraspPose.VERTICAL, "from above"), (GraspPose.HORIZONTAL, "from the side")
     if cause is CauseKind.SLIP:
-        return GraspPose.VERTICAL, "from above"
+        is_put = failed.branch.actions[failed.index].verb in PUTS
+        return [level, above] if is_put and _is_roofed(failed) else [above]
     if (
         (cause in _NO_ROOM_ABOVE and _is_roofed(failed))
         or _is_out_of_reach(failed, cause)
         or _stands_in_hand(failed)
         or _is_to_lie(failed)
     ):
-        return GraspPose.HORIZONTAL, "from the side"
-    return None
+        return [level]
+    return []
 
 
 def _is_out_of_reach(failed: FailedStep, cause: CauseKind) -> bool:

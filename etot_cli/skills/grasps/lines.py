@@ -24,8 +24,10 @@ hand is wide. The width of a ball changes by less than a millimetre over that.""
 FINGERTIPS = 0.002
 """Least depth that is looked at where deeper ones have no room [m]: 9 mm of the pads hold then.
 With 8 mm, jars, cups and books of up to 0.5 kg are lifted and put down in all varied worlds."""
-SHALLOWER = 0.003
-"""From one of these depths to the next [m]: so much less than there is room for is held at most."""
+SHALLOWER = 0.001
+"""From one of these depths to the next [m]: so much less than there is room for is held at most.
+Light balls held above their middle creep out of the pads, the faster the higher: of 72 of 34 to
+46 mm and 8 to 20 g in cups, 24 were lost with 3 mm, 8 with 1 mm."""
 MAX_PARTS = 32
 """Parts of an object that are looked at one by one where nothing else can be grasped."""
 

@@ -26,7 +26,7 @@ from etot_cli.skills.placements.relief import (
     relief,
     resting_heights,
 )
-from etot_cli.skills.placements.support import Support
+from etot_cli.skills.placements.support import DESK_EDGE, Support
 from etot_cli.skills.placements.undersides import HAND_MARGIN, Stamps, Undersides
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
@@ -275,6 +275,10 @@ class Judge:
             )
             cost += 0.3 * np.linalg.norm(points - near, axis=1)
             cost += NEARLY_SWEPT * np.maximum(self._sweep_error - to_sweep, 0.0)
+            if self._request.at:
+                # Around a place that was asked for the edge counts like what stands beside it.
+                to_edge = least(self._to_edge, 0.0, turned.object, turned.cells)
+                cost -= 4 * np.minimum(to_edge, DESK_EDGE)
         else:
             cost = -4 * np.minimum(turned.gap, COMFORT) + 0.5 * away + 2 * turned.drop
             if support.from_front:
@@ -317,7 +321,7 @@ class Judge:
     @cached_property
     def _to_edge(self) -> Vector:
         """Distance of each cell of the floor from its edge [m]; 0 beyond."""
-        return self._distance(~self.relief.on_floor, FRONT_MARGIN)
+        return self._distance(~self.relief.on_floor, max(FRONT_MARGIN, DESK_EDGE))
 
     @cached_property
     def _to_sweep(self) -> Vector:

@@ -16,6 +16,7 @@ from etot_cli.skills.placements.overhang import from_open_side
 from etot_cli.skills.placements.placement import Placement, Tally, placements
 from etot_cli.skills.placements.refusal import why_no_place
 from etot_cli.skills.placements.support import (
+    DESK_EDGE,
     UPRIGHT,
     Support,
     container_support,
@@ -37,7 +38,11 @@ def put_places(
     """
     target = action.target
     on = action.verb is Verb.PUT_ON
-    support = surface_support(belief, target) if on else container_support(belief, target)
+    at = tuple(
+        where.point for where in action.where if where.point is not None and not where.denied
+    )
+    edge = 0.0 if at else DESK_EDGE  # who asks for a place near the edge means it
+    support = surface_support(belief, target, edge) if on else container_support(belief, target)
     if support is None:
         text = "has no flat top to put something on"
         if not on and target in belief.world.regions:
@@ -53,9 +58,6 @@ def put_places(
     if lying and not can_lie(belief.world.entries[name].info):
         yield failed(CauseKind.PRECONDITION, [name], f"{name} cannot be laid down: {NO_SIDE}")
         return
-    at = tuple(
-        where.point for where in action.where if where.point is not None and not where.denied
-    )
     if on and not support.from_front and not points_down(belief):
         support = _under_overhang(belief, support, at, name) or support
     request = Request(

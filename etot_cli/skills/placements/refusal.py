@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 
+import numpy as np
+
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Quality, Request
@@ -35,12 +37,15 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     """
     name, address = request.attached.name, request.support.address
     owner = [] if request.support.owner is None else [request.support.owner]
+    if request.at and not request.support.inside(request.support.local(np.array(request.at))).any():
+        text = f"there is no {address}{_at(request)}"
+        return failed(CauseKind.NO_ROOM, [name, *owner], text)
     if tally.unreached and not tally.obstructed:
         # No object had a part in that, so none need be taken away to see.
         return failed(
             CauseKind.UNREACHABLE,
             [*owner, name],
-            f"the arm does not reach {address} with {name} held as it is",
+            f"the arm does not reach {address}{_at(request)} with {name} held as it is",
         )
     suspects, fastened = _suspects(belief, request, tally)
     stamps: Stamps = {}
@@ -100,7 +105,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     return failed(
         CauseKind.NO_ROOM,
         [name, *owner],
-        f"{name} does not fit {_preposition(request)} {address}",
+        f"{name} does not fit {_preposition(request)} {address}{_at(request)}",
     )
 
 
@@ -140,6 +145,10 @@ def _least(suspects: list[str], helps: Callable[[Iterable[str]], bool]) -> list[
 
 def _preposition(request: Request) -> str:
     return "in" if request.support.is_container else "on"
+
+
+def _at(request: Request) -> str:
+    return "".join(f" at {x:.3f} {y:.3f}" for x, y in request.at[:1])
 
 
 def _listed(names: list[str]) -> str:

@@ -14,7 +14,8 @@ from etot_cli.world.pose import LEVEL
 from etot_cli.world.state import DESK, owner_of
 
 DESK_EDGE = 0.05
-"""Distance kept from the desk's edges [m]: what is nudged there must not fall."""
+"""Distance kept from the desk's edges [m], where no place is asked for: what is nudged there must
+not fall."""
 EVEN = 0.95
 """A named top counts as a floor while its normal is this close to the vertical (cosine; 18°);
 beyond, whatever side of the object is up serves."""
@@ -63,11 +64,13 @@ class Support:
         return np.asarray(np.hypot(x, y) <= width if self.is_round else (x <= width) & (y <= depth))
 
 
-def surface_support(belief: Belief, address: str) -> Support | None:
-    """The desk, a top or a board; None where there is no such surface."""
+def surface_support(belief: Belief, address: str, edge: float = DESK_EDGE) -> Support | None:
+    """The desk, a top or a board; None where there is no such surface. ``edge``: how far from the
+    desk's edges it ends [m].
+    """
     if address == DESK:
         desk = belief.world.scene.desk
-        half = np.array(desk.size) / 2 - DESK_EDGE
+        half = np.array(desk.size) / 2 - edge
         return Support(DESK, np.array([*desk.center, desk.top]), np.eye(2), half)
     surface = belief.world.surfaces.get(address)
     if surface is None:
