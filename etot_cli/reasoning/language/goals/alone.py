@@ -15,9 +15,13 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
+from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
+
+_COUNTED = frozenset({"exactly", "just", "only"})
+"""Before a number: no more than so many."""
 
 
 def check_alone(
@@ -77,6 +81,30 @@ def check_alone(
                 return
             why = f"say where to put {others} that would be there, too"
             raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+
+
+def check_counted(context: Context, phrases: Sequence[NounPhrase], places: Sequence[Place]) -> None:
+    """Whether "exactly two pens" leaves it open whether what is there already is among them.
+
+    Raises:
+        ReferenceProblem: it does.
+    """
+    where = [place.where for place in places if place.where is not None]
+    for phrase in phrases:
+        first, *more = phrase.determiner.split() or [""]
+        quantity = quantity_of(phrase.determiner)
+        if first not in _COUNTED or not more or quantity.count is None or quantity.definite:
+            continue
+        alike = context.all_called(phrase, Role.THEME)
+        there = [
+            thing.name
+            for thing in alike
+            for at in context.discourse.things(*where)
+            if touches(thing, at, context.scene)
+        ]
+        if there and len(alike) > quantity.count:
+            why = f"{' and '.join(there)} is there already; say which are to be there"
+            raise ReferenceProblem(phrase.text, why, 4, word=first)
 
 
 def _goes(context: Context, name: str) -> bool:

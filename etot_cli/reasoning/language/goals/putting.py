@@ -18,7 +18,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.goals.alone import check_alone
+from etot_cli.reasoning.language.goals.alone import check_alone, check_counted
 from etot_cli.reasoning.language.goals.choosing import (
     check_contrasted,
     check_describes,
@@ -160,6 +160,7 @@ def put(
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
+        check_counted(context, group.things.phrases, places)
         chosen_from = not (clause.stays or wherever)
         # "Put just the apple there" is about what is put, not about what is there.
         only = [np for np in group.things.phrases if np.determiner.split()[:1] != ["just"]]
