@@ -106,8 +106,8 @@ def check_swept(context: Context, clause: PutClause) -> None:
 def check_poured(
     context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
 ) -> None:
-    """Whether "ketchup on the bun" is the bottle: it is where things are but kept, and what is called
-    so itself is on what is neither eaten nor a vessel.
+    """Whether "ketchup on the bun" is the bottle: it is where things are but kept, and what is
+    called so itself is on what is neither eaten nor a vessel.
     """
     infos, discourse = context.scene.infos, context.discourse
     marks = [place.where for place in places if place.where is not None and not place.beside]

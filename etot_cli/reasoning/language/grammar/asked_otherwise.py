@@ -18,7 +18,8 @@ _FINE = (
     r"|(?:will|would|should) do|works)(?: (?:for|with|by) (?:me|us|now))?"
 )
 _GO_AWAY = (
-    rf"(?:out of (?:the|my|our) way|aside|away(?: from {_ONE})?|(?:off|out of|from) (?:{_ONE}|it))"
+    rf"(?:out of (?:the|my|our) way|aside|away(?: from {_ONE})?"
+    rf"|(?:off|out of|from) (?:{_ONE}|it))"
 )
 _WISH = Expression(
     r"(?:(?<=^)|(?<=[.;!?,:] )|(?<=\b(?:and|but) ))(?:i|we) (?P<no>do not |would not )?"
@@ -37,9 +38,10 @@ _FROM = Expression(
     rf"^({ASKED})(?:(?:starting|counting|going|beginning) )?from (?:the |your )?(left|right)"
     r"(?: to (?:the )?(?:left|right))?,? ((?:[^.;]*?\b)?the (?:first|second|third|last) [^.;]*)"
 )
+_NOUN = r"(?!(?:in|on|to|into|onto|one|goes|go|should|belongs)\b)\w+"
 _NTH = re.compile(
-    r"\bthe (first|second|third|fourth|last)(?: (?!in\b|on\b|to\b|into\b|onto\b|one\b|goes\b|go\b)"
-    r"((?:\w+ )?\w+?))??(?: one)?(?= (?:in|on|into|onto|to|inside|goes|should|belongs|next)\b)"
+    rf"\bthe (first|second|third|fourth|last)(?: ({_NOUN}(?: {_NOUN})?))?(?: one)?"
+    r"(?= (?:in|on|into|onto|to|inside|goes|should|belongs|next)\b)"
 )
 
 _INCLUDED = Expression(
@@ -89,8 +91,9 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"[^.,;]*?) {_GO_AWAY})(?:[.;!,]+| -)(?: (?:i think|maybe|perhaps|for example))? "
         rf"(?:(?:in|into|on|onto|to) )?({_ONE}(?: or (?:(?:in|on|to) )?{_ONE})?) {_FINE}"
         r"(?: for (?:it|them|that))?(?=[.;!]|$)",
-        r"\1 to \2",
+        lambda said: f"{re.sub('aside$', 'out of the way', said[1])} to {said[2]}",
     ),
+    (r"\b(i|we) (?:will|(?:am|are) going to) need you to (?=\w)", r"\1 need you to "),
     # What is the only thing wanted is wanted; what else is there is not spoken of.
     (
         rf"\b(i|we) (?:only|just) ({_ONLY_WISH}) (?={NAMED}[^.,;]*? {_MOVED}\b)",
@@ -152,6 +155,12 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"(?: (?:in there|inside|there|in it|inside it|where it is|{_THERE} {_ONE}))? "
         r"or (?:(?:can |may )?(?:come|go|be|be taken|be put) (?:back )?(?:out|outside|elsewhere))"
         r"(?=[.,;!]|$)",
+        r"\1 \2 go anywhere",
+    ),
+    (
+        rf"\b({_ONE}|it|they) (can|may|could|might) (?:be )?(?:come|go|taken|put|moved) "
+        r"(?:back )?(?:out|away|outside|elsewhere)(?: of (?:it|there))? "
+        r"(?:later(?: on)?|tomorrow|tonight|another (?:day|time))(?=[.,;!]|$)",
         r"\1 \2 go anywhere",
     ),
 )
