@@ -85,9 +85,9 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
     framed = (
-        r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body) |(you )?see |time |"
+        r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
     )
-    framed += r"don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
+    framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
     framed += r"(\w+ )?\w+: |right, |\w+, \w+\. )"
     if re.match(framed, text):
         return  # it has a frame of its own
@@ -129,7 +129,7 @@ SIDED = [
     and not re.search(
         r"(?i)right (next|away|behind|then|above|below)|^right,|"
         r"(is|be|been|were|someone|i|thing) left\b"
-        r"|left (open|closed|shut|untouched|alone|where)",
+        r"|left (open|closed|shut|untouched|alone|where)|\bwant .* left (in|on) ",
         text,
     )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)

@@ -19,7 +19,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import State, Things, To
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.usual_form import GENERAL
-from etot_cli.reasoning.language.words.categories import is_keeping, is_poured
+from etot_cli.reasoning.language.words.categories import is_eaten, is_keeping, is_poured
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Whereabouts, holds
@@ -106,7 +106,9 @@ def check_swept(context: Context, clause: PutClause) -> None:
 def check_poured(
     context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
 ) -> None:
-    """Whether "ketchup on the bun" is the bottle: it is where things are but kept."""
+    """Whether "ketchup on the bun" is the bottle: it is where things are but kept, and what is
+    called so itself is on what is neither eaten nor a vessel.
+    """
     infos, discourse = context.scene.infos, context.discourse
     marks = [place.where for place in places if place.where is not None and not place.beside]
     where = {thing.name for thing in discourse.things(*marks)}
@@ -117,6 +119,12 @@ def check_poured(
         noun = " ".join(phrase.words)
         packs = tuple(name for name in names if is_poured(noun, name, infos[name].label))
         if packs and not phrase.determiner and not phrase.modifiers:
+            served = any(
+                infos[name].container or is_eaten(infos[name].label) for name in where - {DESK}
+            )
+            if not served and [infos[name].label.casefold() for name in packs] == [noun]:
+                discourse.notes.append(f"read {noun!r} as all of it, in what it is in")
+                continue
             why = f"say 'the {noun}' where all of it is meant, in what it is in"
             raise ReferenceProblem(phrase.text, why, 4, word=noun, candidates=packs)
 

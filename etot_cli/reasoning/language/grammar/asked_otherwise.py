@@ -6,8 +6,10 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.listings import ASKED
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.reasoning.language.words.lexicon import SIZES, THING_NOUNS, singular
+from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _THERE = r"(?:in|on|inside|into|onto|next to|beside|behind|between|under)\b"
 _ONE = r"(?:the|my|our) (?:(?!and\b|or\b|in\b|on\b|to\b)\w+ ){0,3}?\w+"
@@ -16,7 +18,8 @@ _FINE = (
     r"|(?:will|would|should) do|works)(?: (?:for|with|by) (?:me|us|now))?"
 )
 _GO_AWAY = (
-    rf"(?:out of (?:the|my|our) way|aside|away(?: from {_ONE})?|(?:off|out of|from) (?:{_ONE}|it))"
+    rf"(?:out of (?:the|my|our) way|aside|away(?: from {_ONE})?"
+    rf"|(?:off|out of|from) (?:{_ONE}|it))"
 )
 _WISH = Expression(
     r"(?:(?<=^)|(?<=[.;!?,:] )|(?<=\b(?:and|but) ))(?:i|we) (?P<no>do not |would not )?"
@@ -28,15 +31,23 @@ _LEFT_THERE = re.compile(
     r"(?<!\bbe)(?<!\bis)(?<!\bare)(?<!\bthe)(?<!\bthat)(?<!\bhave)) left "
     r"(?=(?:in|on|inside) (?:the|my|our|it|them)\b)"
 )
+_MOST = "|".join(word for word in SIZES if word.endswith("est"))
 _ONLY_WISH = r"(?:want|need|would like|care to have|wish)"
 _MOVED = r"(?:moved|put|placed|taken|brought|set|returned|transferred|dropped|to (?:go|be|end up))"
 _FROM = Expression(
     rf"^({ASKED})(?:(?:starting|counting|going|beginning) )?from (?:the |your )?(left|right)"
     r"(?: to (?:the )?(?:left|right))?,? ((?:[^.;]*?\b)?the (?:first|second|third|last) [^.;]*)"
 )
+_NOUN = r"(?!(?:in|on|to|into|onto|one|goes|go|should|belongs)\b)\w+"
 _NTH = re.compile(
-    r"\bthe (first|second|third|fourth|last)(?: (?!in\b|on\b|to\b|into\b|onto\b|one\b|goes\b|go\b)"
-    r"((?:\w+ )?\w+?))??(?: one)?(?= (?:in|on|into|onto|to|inside|goes|should|belongs|next)\b)"
+    rf"\bthe (first|second|third|fourth|last)(?: ({_NOUN}(?: {_NOUN})?))?(?: one)?"
+    r"(?= (?:in|on|into|onto|to|inside|goes|should|belongs|next)\b)"
+)
+
+_INCLUDED = Expression(
+    rf"^({ASKED}(?:put|place|move|get|take|bring|set) (?:the|my) ((?:\w+ ){{0,2}}?\w+)"
+    rf"(?= (?:and|{WHERE})[^,;:]*)[^.;:]*?), (?:the |my )?"
+    r"((?!and\b|the\b)\w+(?: \w+)?) (?:included|and all)(?=[.;!?]|$)"
 )
 
 
@@ -62,6 +73,15 @@ def _counted_from(said: re.Match[str]) -> str:
     return f"{asked}{_NTH.sub(told, rest)}"
 
 
+def _goes_along(said: re.Match[str]) -> str:
+    """What stands on a thing that goes somewhere "included": it stays there."""
+    asked, thing, rider = said.groups()
+    noun = thing.rpartition(" ")[2]
+    if singular(noun) != noun or is_category(noun) or noun in THING_NOUNS:
+        return said[0]
+    return f"{asked} and keep the {rider} that is on the {thing} on the {thing}"
+
+
 ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (_WISH, _stays),
     (_FROM, _counted_from),
@@ -71,8 +91,9 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"[^.,;]*?) {_GO_AWAY})(?:[.;!,]+| -)(?: (?:i think|maybe|perhaps|for example))? "
         rf"(?:(?:in|into|on|onto|to) )?({_ONE}(?: or (?:(?:in|on|to) )?{_ONE})?) {_FINE}"
         r"(?: for (?:it|them|that))?(?=[.;!]|$)",
-        r"\1 to \2",
+        lambda said: f"{re.sub('aside$', 'out of the way', said[1])} to {said[2]}",
     ),
+    (r"\b(i|we) (?:will|(?:am|are) going to) need you to (?=\w)", r"\1 need you to "),
     # What is the only thing wanted is wanted; what else is there is not spoken of.
     (
         rf"\b(i|we) (?:only|just) ({_ONLY_WISH}) (?={NAMED}[^.,;]*? {_MOVED}\b)",
@@ -99,6 +120,11 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"^({ASKED})set (?:it|things|everything|this) up (?=(?:so that|such that|so)\b)",
         r"\1arrange things ",
     ),
+    (
+        rf"\b((?:that|which) is|whichever (?:\w+ ){{1,2}}?is) the (?=(?:{_MOST})"
+        rf"(?:[.,;!?]|$| and\b| {WHERE}))",
+        r"\1 ",
+    ),
     # Putting down what is held
     (
         rf"\b(?:release|let go of) (it|them|{_ONE}) (?={_THERE}|(?:at|over|above) )",
@@ -122,12 +148,19 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?: out| up)?: (?=one\b)",
         r"\1put \2 separately: ",
     ),
+    (_INCLUDED, _goes_along),
     # What stays in or comes out asks for nothing.
     (
         rf"\b({_ONE}|it|they) (can|may|could|might) (?:either )?(?:stay|remain|be|stay put)"
         rf"(?: (?:in there|inside|there|in it|inside it|where it is|{_THERE} {_ONE}))? "
         r"or (?:(?:can |may )?(?:come|go|be|be taken|be put) (?:back )?(?:out|outside|elsewhere))"
         r"(?=[.,;!]|$)",
+        r"\1 \2 go anywhere",
+    ),
+    (
+        rf"\b({_ONE}|it|they) (can|may|could|might) (?:be )?(?:come|go|taken|put|moved) "
+        r"(?:back )?(?:out|away|outside|elsewhere)(?: of (?:it|there))? "
+        r"(?:later(?: on)?|tomorrow|tonight|another (?:day|time))(?=[.,;!]|$)",
         r"\1 \2 go anywhere",
     ),
 )

@@ -53,7 +53,7 @@ _LEFT_OPEN = Expression(
     rf"|the (?:exact )?{_MANNER} {_NO_MATTER}"
     rf"|(?:any|either) {_MANNER} (?:is fine|is ok|is okay|will do|would do|works)"
     r"(?: (?:for|with|by) me)?"
-    r"|(?:the|my|our) (?:(?!not\b)\w+ ){1,3}(?:can|may|might|could)"
+    r"|(?:(?:the|my|our) (?:(?!not\b)\w+ ){1,3}|(?:it|they) )(?:can|may|might|could)"
     r" (?:go|be|end up|stand|lie|be put) (?:just )?"
     rf"(?:(?:anywhere|wherever)(?: you (?:like|want)| else{_ON_DESK})?|elsewhere{_ON_DESK})"
     r"|do (?:what|as|it how|it however|whatever) you (?:like|want|please)"

@@ -114,6 +114,8 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.graded = [item for item in graded if not is_stacked(item[0])]
     elif is_selecting(word):
         sifted.selectors.append(word)
+    elif word == "round" and (balls := _balls(graded)):
+        sifted.graded = balls
     elif counted := [item for item in graded if item[0].counts_among(members_of(word))]:
         sifted.graded = counted  # "a soda can"
         names = names_of([entry for entry, _ in counted])
@@ -145,6 +147,14 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.dropped.append(word)
     else:
         sifted.unknown.append(word)
+
+
+def _balls(graded: list[tuple[Entry, int]]) -> list[tuple[Entry, int]]:
+    """Entries that are round as balls are; none where others are round in a way as well."""
+    kinds = [item[0].info.kind if item[0].info else "" for item in graded]
+    if {"cylinder", "cup", "bowl"} & {*kinds}:
+        return []
+    return [item for item, kind in zip(graded, kinds, strict=True) if kind == "sphere"]
 
 
 def _of_owner(word: str, graded: list[tuple[Entry, int]]) -> list[tuple[Entry, int]]:

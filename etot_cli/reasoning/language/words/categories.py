@@ -260,6 +260,11 @@ def is_like_people(label: str) -> bool:
     return head_of(label.casefold().replace(" ", "_")) in _LIKE_PEOPLE
 
 
+def is_eaten(label: str) -> bool:
+    """Whether what has a label is food."""
+    return singular(label.casefold().rpartition(" ")[2]) in CATEGORIES["food"]
+
+
 def is_poured(noun: str, name: str, label: str) -> bool:
     """Whether a noun without an article is rather some of what a thing so called holds."""
     head, _, content = label.casefold().partition(" of ")
