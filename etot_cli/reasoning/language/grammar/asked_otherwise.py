@@ -32,6 +32,7 @@ _LEFT_THERE = re.compile(
     r"(?=(?:in|on|inside) (?:the|my|our|it|them)\b)"
 )
 _MOST = "|".join(word for word in SIZES if word.endswith("est"))
+_NONE = re.compile(r"\b(?:nothing|none|no) (?:\w+ ){0,3}?left\b")
 _ONLY_WISH = r"(?:want|need|would like|care to have|wish)"
 _MOVED = r"(?:moved|put|placed|taken|brought|set|returned|transferred|dropped|to (?:go|be|end up))"
 _FROM = Expression(
@@ -53,6 +54,8 @@ _INCLUDED = Expression(
 
 def _stays(wish: re.Match[str]) -> str:
     """What is wanted "left" somewhere: there still, or there no longer where it is not wanted."""
+    if _NONE.search(wish[0]):
+        return wish[0]
     if wish["no"]:
         return _LEFT_THERE.sub(lambda said: f"{said['with'] or ''}{said['what']} ", wish[0])
     return _LEFT_THERE.sub(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     KIND_GROUPS,
     LIDDED,
+    OTHER_SORTS,
     SORTS,
     basic_color,
     is_plural_of,
@@ -130,9 +131,9 @@ class Entry:
         """Whether a word stands in its name before the noun and does not name it."""
         return self.has_word(word) and not matches_any(word, (*self.heads, *self.content))
 
-    def is_compound(self, noun: str) -> bool:
+    def is_compound(self, noun: str, table: Mapping[str, frozenset[str]] = COMPOUNDS) -> bool:
         """Whether it is called by a noun only with the word before it ("trash can")."""
-        before = COMPOUNDS.get(singular(noun), frozenset())
+        before = table.get(singular(noun), frozenset())
         return any(
             w in before and matches_any(noun, (n,)) for c in self.called for w, n in pairwise(c)
         )
@@ -204,7 +205,11 @@ class Entry:
             if len(words) > 1 and (spiced or words[-1] not in GROUND)
         }
         heads = {*map(singular, (*self.heads, *self.content))}
-        heads = {head for head in heads if not self.is_compound(head)}
+        heads = {
+            head
+            for head in heads
+            if not (self.is_compound(head) or self.is_compound(head, OTHER_SORTS))
+        }
         heads -= {"glass"} if self.heads[:1] == ("glasses",) else set()
         heads |= {"_".join(words[-2:]) for words in self.called if len(words) > 1}
         boxed = self.info is not None and self.info.kind == "box"

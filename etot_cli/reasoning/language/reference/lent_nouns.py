@@ -71,12 +71,12 @@ class LentNouns(ABC):
         elliptic = phrase.is_elliptic
         if elliptic and phrase.text in phrase.words:
             self._check_color_alone(phrase, role, noun)
-        if elliptic and noun is not None:
-            self._check_contrast(phrase, role, noun)
         resolved: Resolved | None = None
         problem: ReferenceProblem | None = None
         try:
             resolved = self.resolved_as(phrase, role, noun)
+            if elliptic and noun is not None:
+                self._check_contrast(phrase, role, noun)
             if elliptic and noun is not None and role in TARGETS:
                 self._check_rival(phrase, role, noun, resolved)
             if not self._is_single(phrase, role, noun):

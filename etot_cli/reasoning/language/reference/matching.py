@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     MATERIALS,
     ORDINALS,
+    OTHER_SORTS,
     PACKS,
     PAIRED,
     STATES,
@@ -268,6 +269,11 @@ def _match_in(
         sifted.graded = plain or sifted.graded
     # Where some are called parcels a crate is none, whatever colour is said.
     called_so = [item for item in sifted.graded if item[1] in (EXACT, HEAD)]
+    if not any(word in OTHER_SORTS.get(singular(head), ()) for word in adjectives):
+        # Beside a dinner plate "the plate" is no license plate.
+        called_so = [
+            item for item in called_so if not item[0].is_compound(head, OTHER_SORTS)
+        ] or called_so
     if not any(entry.is_plainly_called(head) for entry, _ in called_so):
         # Beside an exercise book "the book" may be a textbook.
         sorts = [item[0] for item in sifted.graded if item[0].is_sort_named(head)]

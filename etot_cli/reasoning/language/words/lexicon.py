@@ -85,8 +85,12 @@ RUBBISH = word_set("trash rubbish garbage waste litter recycling")
 REFUSE = ("trash", "garbage")
 """Names of a bin and of what goes there."""
 COMPOUNDS: dict[str, frozenset[str]] = {
-    "can": RUBBISH | {"watering"}, "butter": word_set("peanut almond cashew cocoa shea body nut"),
-    "cream": word_set("ice shaving hand sun face body foot skin"), "dog": word_set("hot"),
+    "can": RUBBISH | {"watering"}, "butter": word_set("peanut almond cashew cocoa"),
+    "cream": word_set("ice shaving hand"), "dog": word_set("hot"),
+}  # fmt: skip
+"""Nouns that with some word before them mean no such thing: a trash can is none of the cans."""
+OTHER_SORTS: dict[str, frozenset[str]] = {
+    "butter": word_set("shea body nut"), "cream": word_set("sun face body foot skin"),
     "oil": word_set("motor engine machine lamp hair massage brake"),
     "roll": word_set("toilet paper tape towel kitchen film foil wire cable yarn"),
     "chip": word_set("poker casino computer memory wood"), "tape": word_set("measuring"),
@@ -100,7 +104,9 @@ COMPOUNDS: dict[str, frozenset[str]] = {
     "boat": word_set("gravy"), "cap": word_set("bottle lens pen"),
     "milk": word_set("coconut almond oat soy"),
 }  # fmt: skip
-"""Nouns that with some word before them mean no such thing: a trash can is none of the cans."""
+"""Nouns that with some word before them mean something of another sort, which is called so where
+nothing else is: a petri dish is none of the dishes, and yet "the dish" of a laboratory.
+"""
 PURPOSES = word_set(
     """
     coffee tea water milk beer wine juice soup salad fruit cereal sugar salt pepper flower
