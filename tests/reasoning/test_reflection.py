@@ -593,6 +593,17 @@ def test_a_blocker_in_a_vessel_may_go_with_it() -> None:
     ]
 
 
+def test_what_stands_in_furniture_is_moved_before_that_is_opened_wider() -> None:
+    start = scenes.scene(
+        scenes.cabinet("locker", (0.6, 0.2), 0.8),
+        scenes.item("front", at=(0.55, 0.2), on="locker", inside="locker"),
+        scenes.item("rear", at=(0.65, 0.2), on="locker", inside="locker"),
+    )
+    plan = "[PICK UP, rear] (horizontal) [PUT ON, desk]"
+    step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "front", "locker", "rear"))
+    assert revision(step) == f"[PICK UP, front] [PUT ON, desk] {plan}"
+
+
 @pytest.mark.parametrize("named", [("egg", "bowl"), ("bowl", "egg")])
 def test_what_lies_in_a_blocker_goes_with_it(named: tuple[str, str]) -> None:
     start = scenes.scene(

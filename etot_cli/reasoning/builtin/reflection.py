@@ -144,7 +144,7 @@ class _Case:
         """Objects to blame, those that the branch itself has put to use or opened first.
 
         What this branch has changed did not stand in the way at the start. What has been taken out
-        of the way already comes last, and what lies in something else that is to blame after that,
+        of the way already comes last, and what lies in a vessel that is to blame after that vessel,
         which takes it along.
         """
         scene = self.scene
@@ -157,12 +157,13 @@ class _Case:
         opened = {owner_of(self.actions[i].target) for i in opened_before(self.actions, self.index)}
         if not others and self.cause.kind is CauseKind.NO_ROOM:
             others = self._occupants()
+        vessels = {name for name in others if scene.infos[name].movable}
         return sorted(
             others,
             key=lambda name: (
                 not (name in opened or placed_by(self.actions, name, self.index) is not None),
                 relocations(self.actions, name) > 0,
-                any(other in map(owner_of, enclosing(scene, name)) for other in others),
+                not vessels.isdisjoint(map(owner_of, enclosing(scene, name))),
             ),
         )
 
