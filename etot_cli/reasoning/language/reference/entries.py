@@ -270,7 +270,7 @@ def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
         fitting += [group for group in groups if PACKS & {*group}]
     if not fitting and not own & (COMMON_NOUNS | OF_A_SORT):
         fitting = list(groups[-1:] if kind == "pen" else groups)
-    if kind in own:
+    if kind in own and kind != "pen":  # which is itself a sort of what is so long and thin
         fitting = list(groups)
     return tuple(noun for group in fitting for noun in group)
 

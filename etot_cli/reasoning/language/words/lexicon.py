@@ -25,7 +25,7 @@ KIND_GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
     ),
     "cylinder": (("cylinder",), ("can", "tin"), ("bottle", "flask"), ("jar",)),
     "capsule": (("capsule",),),
-    "pen": (("pen", "pencil", "marker", "crayon"), ("rod", "stick")),
+    "pen": (("pen",), ("pencil",), ("marker",), ("crayon",), ("rod", "stick")),
     "cup": (
         ("cup", "mug", "holder", "beaker", "tumbler", "vessel"), ("glass",), ("pot",), ("vase",),
     ),
