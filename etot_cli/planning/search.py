@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from etot_cli.control.simulated import Simulator
+from etot_cli.errors import UnsatisfiableError
 from etot_cli.planning.acceptance import check_of
 from etot_cli.planning.alternatives import Corrections, best_prefix
 from etot_cli.planning.findings import Findings
@@ -59,7 +60,8 @@ def search(
     """Looks for a plan that works in the simulator from its first action to its last.
 
     Ctrl-C (KeyboardInterrupt) does not escape: it ends the search with status ``interrupted``. Nor
-    does a reasoner that cannot go on: the result says why it stopped.
+    does a reasoner that cannot go on, or that understands what nothing can bring about: the result
+    says why it stopped.
 
     Args:
         assignment: what is asked for.
@@ -135,6 +137,8 @@ class _Search:
             # A reasoner without an answer has given up; any other reason is a limit.
             if stop.reason is not StopReason.NO_ANSWER:
                 self._limit = LimitKind(stop.reason.value)
+        except UnsatisfiableError as error:
+            self._stopped = str(error)
         except OutOfTimeError:
             self._limit = LimitKind.TIME
         finally:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, islice, product
 
-from etot_cli.errors import InstructionError
+from etot_cli.errors import InstructionError, UnsatisfiableError
 from etot_cli.reasoning.builtin.branching import MAX_ALTERNATIVES
 from etot_cli.reasoning.builtin.goal import (
     Close,
@@ -68,18 +68,25 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
 
     Raises:
         InstructionError: a name is unknown, or no skill can make the conditions true.
+        UnsatisfiableError: they contradict each other.
     """
     alternatives = _conjunctions([_alternatives(item, scene, denied=False) for item in conditions])
     goals: list[Goal] = []
     objection: InstructionError | None = None
     for atoms in alternatives:
-        draft = _Draft(scene)
+        draft = _Draft(
+            scene,
+            moved=_brought(atoms, "on", "inside", "in_hand", BESIDE),
+            held=_brought(atoms, "in_hand"),
+        )
         try:
             # What says where on a surface, and how it stands there, comes after what says on which.
             said = _without_implied(atoms, scene)
             for atom in sorted(said, key=lambda item: _LAST.get(item.key, 0)):
                 draft.add(atom)
-            goals.append(settled(Goal(tuple(draft.referents), tuple(draft.steps)), scene))
+            goals.append(_settled(draft))
+        except UnsatisfiableError as error:
+            objection = objection or error
         except ReferenceProblem as error:
             objection = objection or InstructionError(f"goal: {error.phrase}: {error.why}")
     if not goals:
@@ -87,12 +94,17 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
     return tuple(goals)
 
 
+def _brought(atoms: Iterable[_Atom], *keys: str) -> frozenset[str]:
+    """What statements with one of the keys want to be so."""
+    return frozenset(atom.names[0] for atom in atoms if atom.key in keys and not atom.denied)
+
+
 def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
     """Statements without those on where an object is, or is not, that follow from others: what
     stands on a plate in a cupboard is in the cupboard, and not on the desk.
 
     Raises:
-        ReferenceProblem: one object is to be at two places, in two ways, or on or in itself.
+        UnsatisfiableError: one object is to be at two places, in two ways, or on or in itself.
     """
     wanted = [atom for atom in atoms if atom.key in ("on", "inside") and not atom.denied]
     places = {a.names[0]: [b for b in wanted if b.names[0] == a.names[0]] for a in wanted}
@@ -100,13 +112,13 @@ def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
     stances = [atom for atom in atoms if atom.key in _STANCES and not atom.denied]
     for atom in stances:
         if any(a.names == atom.names and a.key != atom.key for a in stances):
-            raise ReferenceProblem(atom.names[0], "it cannot both stand and lie")
+            raise _contradiction(atom.names[0], "it cannot both stand and lie")
         if atom.key == "lying" and _Atom("in_hand", atom.names) in atoms:
-            raise ReferenceProblem(atom.names[0], "what is held does not lie anywhere")
+            raise _contradiction(atom.names[0], "what is held does not lie anywhere")
     for name in places:
         # What bears it now and goes nowhere itself is freed of it before.
         if name in map(owner_of, _around(name, places)):
-            raise ReferenceProblem(name, "it would be on or in itself by way of others")
+            raise _contradiction(name, "it would be on or in itself by way of others")
     for name, own in places.items():
         for atom in dict.fromkeys(own) if len({*own}) > 1 else ():
             others = [a for a in own if a != atom and a not in implied]
@@ -118,7 +130,7 @@ def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
         targets = {atom.names[1] for atom in kept}
         if len(targets) > 1:
             one, other = sorted(targets)[:2]
-            raise ReferenceProblem(name, f"it cannot be both at {one} and at {other}")
+            raise _contradiction(name, f"it cannot be both at {one} and at {other}")
         # In a vessel it is on its floor.
         implied += [a for a in kept if len(kept) > 1 and a.key == "on"]
     # What is put elsewhere, or kept in the hand, is where it must not be no longer.
@@ -126,6 +138,10 @@ def _without_implied(atoms: Sequence[_Atom], scene: SceneState) -> list[_Atom]:
     denied = (a for a in atoms if a.denied and a.key in ("on", "inside") and a.names[0] in away)
     implied += [a for a in denied if a.names[1] not in _ends_up(a.names[0], places, scene)]
     return [atom for atom in atoms if atom not in implied]
+
+
+def _contradiction(name: str, why: str) -> UnsatisfiableError:
+    return UnsatisfiableError(f"goal: {name}: {why}")
 
 
 def _ends_up(name: str, places: Mapping[str, Sequence[_Atom]], scene: SceneState) -> frozenset[str]:
@@ -235,9 +251,17 @@ def _conjunctions(options: Iterable[list[tuple[_Atom, ...]]]) -> list[tuple[_Ato
 
 @dataclass
 class _Draft:
-    """Referents and steps of one alternative."""
+    """Referents and steps of one alternative.
+
+    Args:
+        scene: what it is about.
+        moved: objects that are to be somewhere.
+        held: objects that are to be in the hand.
+    """
 
     scene: SceneState
+    moved: frozenset[str]
+    held: frozenset[str]
     referents: list[Referent] = field(default_factory=list)
     steps: list[Step] = field(default_factory=list)
 
@@ -280,10 +304,17 @@ class _Draft:
         theme = self._refer(name, Role.THEME)
         landmarks = tuple(self._refer(landmark, Role.ANY) for landmark in where.landmarks)
         near = Near(where.relation, landmarks, where.point, where.denied)
-        is_away = where.denied and spatial.holds(where, name, self.scene)
-        if not self._add_to_put(theme, near) and not is_away:
+        if name in self.held and not where.denied:
+            raise _contradiction(name, "what is held stands nowhere")
+        # What is held is beside nothing, what nothing comes near stays as it is.
+        stays_away = where.denied and (
+            name in self.held
+            or (spatial.holds(where, name, self.scene) and self.moved.isdisjoint(where.landmarks))
+        )
+        if not self._add_to_put(theme, near) and not stays_away:
             surface = None if landmarks else self._refer(DESK, Role.SURFACE)
-            self.steps.append(Put((theme,), (Place(Relation.ON, surface, (near,)),)))
+            place = Place(Relation.ON, surface, (near,), if_needed=bool(landmarks))
+            self.steps.append(Put((theme,), (place,)))
 
     def _stance(self, atom: _Atom) -> None:
         """Standing, or lying, where it is put; on the desk where it does not yet and is put nowhere
@@ -310,7 +341,14 @@ class _Draft:
         """Says more of the place where something is put; False where it is put nowhere."""
         for index, step in enumerate(self.steps):
             if isinstance(step, Put) and step.what == (theme,):
-                places = tuple(replace(p, beside=(*p.beside, near)) for p in step.places)
+                places = tuple(
+                    replace(
+                        place,
+                        beside=(*place.beside, near),
+                        if_needed=place.if_needed or bool(near.landmarks),
+                    )
+                    for place in step.places
+                )
                 self.steps[index] = replace(step, places=places)
                 return True
         return False
@@ -366,3 +404,15 @@ class _Draft:
             known = ", ".join((*parts, *info.boards)) or "none"
             raise ReferenceProblem(name, f"{owner} has no such part; it has {known}")
         return Thing(owner, part)
+
+
+def _settled(draft: _Draft) -> Goal:
+    """The goal of a draft.
+
+    Raises:
+        UnsatisfiableError: two objects would have to stay in the hand.
+    """
+    try:
+        return settled(Goal(tuple(draft.referents), tuple(draft.steps)), draft.scene)
+    except ReferenceProblem as error:
+        raise _contradiction(error.phrase, error.why) from error

@@ -38,10 +38,12 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     suspects, fastened = _suspects(belief, request, tally)
     stamps: Stamps = {}
 
+    def possible(other: Request) -> bool:
+        return next(placements(belief, other, Tally(belief.world), stamps), None) is not None
+
     def helps(absent: Iterable[str]) -> bool:
         """Whether there is a place once some objects are taken away."""
-        without = replace(request, absent=request.absent.union(absent))
-        return next(placements(belief, without, Tally(belief.world), stamps), None) is not None
+        return possible(replace(request, absent=request.absent.union(absent)))
 
     guilty = [one for one in suspects[:MAX_SUSPECTS] if helps([one])]
     if not guilty and len(suspects) > 1 and helps(suspects):
@@ -56,6 +58,13 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             [*guilty, name],
             f"there is no room for {name} {_preposition(request)} {address}: "
             f"{_listed(guilty)} in the way",
+        )
+    if request.keepout and possible(replace(request, keepout=())):
+        return failed(
+            CauseKind.NO_ROOM,
+            [name, *owner],
+            f"{name} does not fit {_preposition(request)} {address} beside the room that is kept "
+            "free there",
         )
     cleared = replace(request, absent=request.absent.union(everybody))
     if tally.obstructed or _has_good_place(belief, cleared, stamps):
