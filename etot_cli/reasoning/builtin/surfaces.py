@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 from etot_cli.reasoning.builtin.goal import Relation
@@ -114,21 +115,30 @@ class Surfaces:
         return there + [_Stand(_moved_to(item, place)) for place in self._places(item, at, going)]
 
     def _places(self, item: Placement, at: Mapping[str, _At | None], going: set[str]) -> list[_At]:
-        """What all landmarks are on or in, directly or not, the innermost first.
+        """What the landmarks are on or in, directly or not, the innermost first.
 
         What a landmark is brought to on something that can be carried, a plate or a mat, is mostly
         its own; there the surfaces below come first, and of these the one that has the thing now.
         """
         marks = _landmarks(item)
         chains = [_chain(mark, at) for mark in marks]
-        own = [place for place in chains[0] if owner_of(place[1]) != item.name]
-        common = [place for place in own if all(place in chain for chain in chains)]
-        innermost = chains[0][:1]
-        info = self._scene.infos.get(owner_of(innermost[0][1])) if innermost else None
-        if going.isdisjoint(marks) or info is None or not info.movable:
-            return common
+        places = [
+            place
+            for place in dict.fromkeys(chain.from_iterable(chains))
+            if owner_of(place[1]) != item.name
+        ]
+        # Of several landmarks all that stand on it come before what bears only one.
+        places.sort(key=lambda place: not all(place in one for one in chains))
+        given = {
+            one[0]
+            for mark, one in zip(marks, chains, strict=True)
+            if mark in going and one and self._can_be_carried(owner_of(one[0][1]))
+        }
         home = self._home[item.name]
-        return sorted(common, key=lambda place: (place in innermost, place != home))
+        return sorted(places, key=lambda place: (place in given, bool(given) and place != home))
+
+    def _can_be_carried(self, name: str) -> bool:
+        return name in self._scene.infos and self._scene.infos[name].movable
 
     def _sensible(self, marked: Sequence[tuple[Placement, bool]], stands: Sequence[_Stand]) -> bool:
         """Whether things are left only where that can be right, and moved only where it cannot."""
