@@ -71,7 +71,8 @@ def search(
         without: mechanisms to switch off.
         observer: told of every step.
         check: a plan also has to bring about what is asked for, as far as that can be read without
-            the reasoner; for reasoners that may propose what was not asked for.
+            the reasoner; for reasoners that may propose what was not asked for. A formal goal is
+            always checked.
         foresee: where jobs would be idle, the reasoner is asked how it would correct failures whose
             turn has not come; for reasoners that cost nothing and answer the same twice. Changes
             nothing but the time.
@@ -120,7 +121,8 @@ class _Search:
         self._branches: list[Branch] = []
         self._untried: deque[Corrections] = deque()
         self._reflected: set[tuple[int, tuple[Action, ...]]] = set()
-        self._check = check
+        # What is beside something in the end is only seen then, and physics may undo what was so.
+        self._check = check or assignment.goal is not None
         self._limit: LimitKind | None = None
         self._cut: LimitKind | None = None
         self._stopped = ""

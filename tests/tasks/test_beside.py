@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from etot_cli.commands.execute import ExecuteOptions, run_execute
 from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.planning.result import SearchStatus
 from tests.metamorphic.variants import write
@@ -52,6 +53,21 @@ def test_the_vase_is_moved_where_it_does_not_stand_right(
     assert not report.doubts
     if at == WRONG:
         assert report.plan[-1] == "[PUT ON, desk] (left of thing)"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("at", "count"), [(RIGHT, 2), (WRONG, 4)])
+def test_the_robot_moves_it_where_it_does_not_stand_right(
+    at: list[float], count: int, tmp_path: Path
+) -> None:
+    task = {
+        "name": "beside",
+        "scene": {"objects": {"place": MAT, "thing": WINE, "vase": VASE | {"at": at}}},
+        "goal": [{"on": ["thing", "place"]}, {"left_of": ["vase", "thing"]}],
+    }
+    (trial,) = run_execute(ExecuteOptions(task=write(task, tmp_path))).report.trials
+    assert trial.status == "success"
+    assert len(trial.actions) == count
 
 
 def test_what_contradicts_itself_is_infeasible(tmp_path: Path) -> None:
