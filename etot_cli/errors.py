@@ -3,6 +3,8 @@
     EtotError
     ├── SpecError            a task, scene or robot file is unusable          (exit 2)
     ├── InstructionError     the instruction cannot be read                   (exit 2)
+    │   └── UnsatisfiableError  it is understood, and nothing can bring it about; a search
+    │                           ends with that as its result                  (exit 1)
     ├── PlanSyntaxError      a plan or an action is not written as it must be (exit 2)
     ├── WorldError           the physics world is broken (NaN, compile error) (exit 2)
     └── ServiceError         something outside is not there (OpenGL, a server) (exit 3)
@@ -46,6 +48,12 @@ class SpecError(EtotError):
 
 class InstructionError(EtotError):
     """The instruction (or goal) cannot be understood against the scene."""
+
+
+class UnsatisfiableError(InstructionError):
+    """What is asked for is understood, and contradicts itself or the rules of plans."""
+
+    exit_code = 1
 
 
 class PlanSyntaxError(EtotError):

@@ -142,9 +142,8 @@ def plan_task(
                 limits=options.limits,
                 without=options.without,
                 observer=observer,
-                # A model may propose anything; the built-in reasoner works from the instruction,
-                # but physics may undo what a formal goal says of the end.
-                check=session is not None or task.goal is not None,
+                # A model may propose anything; the built-in reasoner works from the instruction.
+                check=session is not None,
                 foresee=session is None,
             )
         if (options.worlds or task.worlds) > 1 and result.final is not None:

@@ -128,5 +128,12 @@ class Findings:
 
     @property
     def doubts(self) -> dict[tuple[Action, ...], str]:
-        """Plans that worked and are not what was asked for, with why."""
-        return {actions: why for actions, why in self._doubted.items() if why}
+        """Plans that worked and are not what was asked for, with why; those apart with which the
+        best plan begins.
+        """
+        best = () if self.best is None else self.best.actions
+        return {
+            actions: why
+            for actions, why in self._doubted.items()
+            if why and actions != best[: len(actions)]
+        }

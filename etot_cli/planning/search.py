@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from etot_cli.control.simulated import Simulator
+from etot_cli.errors import UnsatisfiableError
 from etot_cli.planning.acceptance import check_of
 from etot_cli.planning.alternatives import Corrections, best_prefix
 from etot_cli.planning.findings import Findings
@@ -59,7 +60,8 @@ def search(
     """Looks for a plan that works in the simulator from its first action to its last.
 
     Ctrl-C (KeyboardInterrupt) does not escape: it ends the search with status ``interrupted``. Nor
-    does a reasoner that cannot go on: the result says why it stopped.
+    does a reasoner that cannot go on, or that understands what nothing can bring about: the result
+    says why it stopped.
 
     Args:
         assignment: what is asked for.
@@ -69,7 +71,8 @@ def search(
         without: mechanisms to switch off.
         observer: told of every step.
         check: a plan also has to bring about what is asked for, as far as that can be read without
-            the reasoner; for reasoners that may propose what was not asked for.
+            the reasoner; for reasoners that may propose what was not asked for. A formal goal is
+            always checked.
         foresee: where jobs would be idle, the reasoner is asked how it would correct failures whose
             turn has not come; for reasoners that cost nothing and answer the same twice. Changes
             nothing but the time.
@@ -118,7 +121,8 @@ class _Search:
         self._branches: list[Branch] = []
         self._untried: deque[Corrections] = deque()
         self._reflected: set[tuple[int, tuple[Action, ...]]] = set()
-        self._check = check
+        # What is beside something in the end is only seen then, and physics may undo what was so.
+        self._check = check or assignment.goal is not None
         self._limit: LimitKind | None = None
         self._cut: LimitKind | None = None
         self._stopped = ""
@@ -135,6 +139,8 @@ class _Search:
             # A reasoner without an answer has given up; any other reason is a limit.
             if stop.reason is not StopReason.NO_ANSWER:
                 self._limit = LimitKind(stop.reason.value)
+        except UnsatisfiableError as error:
+            self._stopped = str(error)
         except OutOfTimeError:
             self._limit = LimitKind.TIME
         finally:

@@ -4,10 +4,12 @@ works, with them it fails.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+from etot_cli.skills.action import Keepout, parse_plan
 from etot_cli.world.state import Cause, CauseKind
 from tests.skills.helpers import BALL, BOX, CUP, OVEN, PEN, UNIT, drawers, episode
 
@@ -202,6 +204,20 @@ def test_a_place_that_is_asked_for_is_too_far_or_beyond_the_desk(
     cause = refused(f"[PUT ON, desk] (at {at[0]} {at[1]})")
     assert cause.kind is kind
     assert cause.text.startswith(text)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("action", ["[PUT INTO, bowl]", "[PUT ON, top]"])
+def test_room_that_is_kept_free_is_to_blame_for_what_would_fit(action: str) -> None:
+    """It fits alone, and is not said not to."""
+    (put,) = parse_plan(action)
+    middle = Keepout(0.42, -0.2, 0.04)
+    target = {"top": TOP} if put.target == "top" else {"bowl": BOWL}
+    run = episode(held=HELD, **target)
+    run.must("[PICK UP, held]")
+    cause = run.simulated.perform(run.snapshot, replace(put, keepout=(middle,))).record.cause
+    assert cause is not None and "beside the room that is kept free there" in cause.text
+    run.must(action)
 
 
 @pytest.mark.slow

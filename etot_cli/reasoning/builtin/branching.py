@@ -12,7 +12,7 @@ from dataclasses import replace
 from itertools import islice, product
 from typing import NamedTuple
 
-from etot_cli.errors import InstructionError
+from etot_cli.errors import UnsatisfiableError
 from etot_cli.reasoning.builtin.choices import Choice, choices
 from etot_cli.reasoning.builtin.constraints import broken_constraint
 from etot_cli.reasoning.builtin.goal import (
@@ -58,7 +58,7 @@ def branches_of(
         already holds.
 
     Raises:
-        InstructionError: no well-formed plan can do what is asked for.
+        UnsatisfiableError: no well-formed plan can do what is asked for.
         ReasonerStopped: more choices are left than are looked at.
     """
     if past:
@@ -89,7 +89,7 @@ def branches_of(
             f"only the first {MAX_ALTERNATIVES} ways to make the goal true were looked at",
         )
     if not seen:
-        raise InstructionError(f"no well-formed plan does what is asked for: {objection}")
+        raise UnsatisfiableError(f"no well-formed plan does what is asked for: {objection}")
 
 
 class _Candidate(NamedTuple):
@@ -174,7 +174,7 @@ def _branch(
             for _ in choice.placements[index]:
                 place, placement, grasp = puts.popleft()
                 name, relation, target, where = placement
-                if (place, name) in behind:
+                if (place, name) in behind or name in choice.left:
                     continue
                 if step.aside:
                     if _in_the_way(name, choice, sketch):
@@ -221,6 +221,8 @@ def _bring_back(
         step = steps[index]
         for put in placements:
             rode = put.relation is Relation.INSIDE and not sketch.is_moved(put.name)
+            if put.name in choice.left:
+                continue
             aside = isinstance(step, Put) and step.aside
             if rode and not aside and lasting[put.name] == index:
                 sketch.put(put.name, put.relation, put.target, None, put.where, left_open)

@@ -20,6 +20,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.ordering import Placement
 from etot_cli.reasoning.builtin.relations import container_parts, is_closed, is_open, parts_of
+from etot_cli.reasoning.builtin.surfaces import Surfaces
 from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import DESK, PartInfo, SceneState, owner_of
 
@@ -31,10 +32,12 @@ class Choice:
     Args:
         things: the chosen option of each referent.
         placements: of each Put, by its place among the steps, in the order of its objects.
+        left: objects that stay where they are: what they are to be beside comes to them.
     """
 
     things: tuple[tuple[Thing, ...], ...]
     placements: dict[int, tuple[Placement, ...]]
+    left: frozenset[str] = frozenset()
 
     def object(self, referent: int) -> str:
         """The single object that a referent stands for."""
@@ -67,16 +70,21 @@ def choices(goal: Goal, scene: SceneState, first: SceneState) -> Iterator[Choice
     """
     referents = [_with_parts(goal, index, first) for index in range(len(goal.referents))]
     puts = {index: step for index, step in enumerate(goal.steps) if isinstance(step, Put)}
+    lenient = [any(place.if_needed for place in step.places) for step in puts.values()]
+    surfaces = Surfaces(scene, first)
     for things in product(*(referent.options for referent in referents)):
         if not _distinct(referents, things):
             yield None
             continue
         for placed in _combined(list(puts.values()), things, scene):
-            resting = None if placed is None else _resting(placed, scene, first)
-            if resting is None or not _consistent(resting):
+            if placed is None:
                 yield None
-            else:
-                yield Choice(things, dict(zip(puts, resting, strict=True)))
+                continue
+            for way in surfaces.ways(placed, lenient):
+                if way is None or not _consistent(way.placed):
+                    yield None
+                else:
+                    yield Choice(things, dict(zip(puts, way.placed, strict=True)), way.left)
 
 
 def _combined(
@@ -213,40 +221,6 @@ def _whereabouts(
             return []
         found.append(Whereabouts(near.relation, names, near.point, near.denied))
     return [tuple(found)]
-
-
-def _resting(
-    placed: tuple[tuple[Placement, ...], ...], scene: SceneState, first: SceneState
-) -> tuple[tuple[Placement, ...], ...] | None:
-    """The placements with the surface named that a landmark stands on by then; None where an
-    object would be beside itself or its landmark stands on nothing.
-    """
-    surfaces: dict[str, str | None] = {
-        name: (state.on[0] if state.on and state.inside is None else None)
-        for name, state in scene.states.items()
-        # What is in the hand has not been moved for its own sake yet.
-        for state in [first.states.get(name, state) if state.in_hand else state]
-    }
-    # What is fixed touches nothing that it stands on.
-    fixed = (name for name, info in scene.infos.items() if not info.movable)
-    surfaces |= {name: DESK for name in fixed if not scene.states[name].on}
-    resting = []
-    for placements in placed:
-        row = []
-        for item in placements:
-            if any(item.name in where.landmarks for where in item.where):
-                return None
-            target = item.target
-            if not target:
-                landmark = next(mark for where in item.where for mark in where.landmarks)
-                support = surfaces[landmark]
-                if support is None:
-                    return None
-                target = support
-            surfaces[item.name] = target if item.relation is Relation.ON else None
-            row.append(item._replace(target=target))
-        resting.append(tuple(row))
-    return tuple(resting)
 
 
 def _distributions(

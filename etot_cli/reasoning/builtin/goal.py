@@ -98,11 +98,14 @@ class Place:
 
     ``where`` is None for what the first landmark of ``beside`` stands on. All of ``beside`` has to
     hold.
+    ``if_needed``: only the relations count. What stands right once the landmarks have moved stays
+    where it is, and without ``where`` any surface will do.
     """
 
     relation: Relation
     where: int | None
     beside: tuple[Near, ...] = ()
+    if_needed: bool = False
 
     def referents(self) -> tuple[int, ...]:
         """All referents that it is about."""

@@ -71,7 +71,9 @@ def _place(place: Place, goal: Goal) -> str:
     near = ", ".join(_near(item, goal) for item in place.beside)
     if not near:
         return surface
-    return f"{surface} ({near})" if surface else f"the same surface ({near})"
+    if not surface:
+        surface = "any surface" if place.if_needed else "the same surface"
+    return f"{surface} ({near})"
 
 
 def _near(near: Near, goal: Goal) -> str:

@@ -51,10 +51,12 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     stamps: Stamps = {}
     overlooked: list[Placement] = []
 
+    def possible(other: Request) -> Placement | None:
+        return next(placements(belief, other, Tally(belief.world), stamps), None)
+
     def helps(absent: Iterable[str]) -> bool:
         """Whether there is a place once some objects are taken away, and none there with them."""
-        without = replace(request, absent=request.absent.union(absent))
-        found = next(placements(belief, without, Tally(belief.world), stamps), None)
+        found = possible(replace(request, absent=request.absent.union(absent)))
         if found is None:
             return False
         as_it_is = placement_at(belief, request, found.place)
@@ -82,6 +84,13 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             [*guilty, name],
             f"there is no room for {name} {_preposition(request)} {address}: "
             f"{_listed(guilty)} in the way",
+        )
+    if request.keepout and possible(replace(request, keepout=())) is not None:
+        return failed(
+            CauseKind.NO_ROOM,
+            [name, *owner],
+            f"{name} does not fit {_preposition(request)} {address} beside the room that is kept "
+            "free there",
         )
     cleared = replace(request, absent=request.absent.union(everybody))
     if tally.obstructed or _has_good_place(belief, cleared, stamps):

@@ -1,0 +1,82 @@
+"""Formal goals on what is beside a thing that another goal moves, planned in simulation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from etot_cli.commands.execute import ExecuteOptions, run_execute
+from etot_cli.commands.plan import PlanOptions, plan_task
+from etot_cli.planning.result import SearchStatus
+from tests.metamorphic.variants import write
+
+MAT = {"kind": "box", "at": [0.42, -0.20], "size": [0.09, 0.09, 0.009], "mass": 0.05}
+PLATE = {"kind": "cylinder", "at": [0.42, -0.20], "diameter": 0.15, "height": 0.012, "mass": 0.4}
+BOWL = {"kind": "bowl", "at": [0.42, -0.20], "diameter": 0.13, "height": 0.05, "mass": 0.3}
+WINE = {"kind": "cylinder", "at": [0.40, 0.22], "diameter": 0.05, "height": 0.12, "mass": 0.3}
+EGG = {"kind": "sphere", "at": [0.40, 0.22], "diameter": 0.045, "mass": 0.06}
+VASE = {"kind": "cylinder", "diameter": 0.05, "height": 0.12, "mass": 0.3}
+NOISE = {"position_m": 0.015, "yaw_deg": 10}
+RIGHT, WRONG = [0.42, -0.02], [0.24, -0.20]
+"""Where the vase is to the left of the place of mat, plate or bowl, and where it is not."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(
+    ("place", "thing", "goal"), [(MAT, WINE, "on"), (PLATE, WINE, "on"), (BOWL, EGG, "inside")]
+)
+@pytest.mark.parametrize("at", [RIGHT, WRONG])
+def test_the_vase_is_moved_where_it_does_not_stand_right(
+    place: dict[str, Any],
+    thing: dict[str, Any],
+    goal: str,
+    at: list[float],
+    seed: int,
+    tmp_path: Path,
+) -> None:
+    """Two actions where it does, and beside mat, plate or bowl where it does not: on two of them
+    there is no room for it.
+    """
+    objects = {"place": place, "thing": thing, "vase": VASE | {"at": at}}
+    task = {
+        "name": "beside",
+        "scene": {"objects": objects, "variation": NOISE},
+        "goal": [{goal: ["thing", "place"]}, {"left_of": ["vase", "thing"]}],
+    }
+    options = PlanOptions(task=write(task, tmp_path), jobs=1, seed=seed, vary=True)
+    report = plan_task(options).report
+    assert report.status == SearchStatus.FEASIBLE.value, report.stopped
+    assert len(report.plan) == (2 if at == RIGHT else 4), report.plan
+    assert not report.doubts
+    if at == WRONG:
+        assert report.plan[-1] == "[PUT ON, desk] (left of thing)"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("at", "count"), [(RIGHT, 2), (WRONG, 4)])
+def test_the_robot_moves_it_where_it_does_not_stand_right(
+    at: list[float], count: int, tmp_path: Path
+) -> None:
+    task = {
+        "name": "beside",
+        "scene": {"objects": {"place": MAT, "thing": WINE, "vase": VASE | {"at": at}}},
+        "goal": [{"on": ["thing", "place"]}, {"left_of": ["vase", "thing"]}],
+    }
+    (trial,) = run_execute(ExecuteOptions(task=write(task, tmp_path))).report.trials
+    assert trial.status == "success"
+    assert len(trial.actions) == count
+
+
+def test_what_contradicts_itself_is_infeasible(tmp_path: Path) -> None:
+    objects = {"place": PLATE, "thing": WINE, "bowl": BOWL | {"at": [0.3, 0.0]}}
+    task = {
+        "name": "both",
+        "scene": {"objects": objects},
+        "goal": [{"on": ["thing", "place"]}, {"inside": ["thing", "bowl"]}],
+    }
+    report = plan_task(PlanOptions(task=write(task, tmp_path), jobs=1)).report
+    assert report.status == SearchStatus.INFEASIBLE.value
+    assert "it cannot be both at" in report.stopped
