@@ -77,7 +77,7 @@ REWORDED: dict[str, dict[str, list[str]]] = {
     },
     "pens": {
         "Put the pen in a pen holder.": EITHER,
-        "Insert the pencil into one of the holders": EITHER,
+        "Insert the pen into one of the holders": EITHER,
         "Turn the pen upright and insert it into either holder.": EITHER,
         "Grab the pen. Put it into either the black or the white holder.": EITHER,
         "Take the pen from the drawer and drop it into whichever holder": EITHER,
