@@ -159,7 +159,9 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     )
     told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
     told = told or is_not_to_stay(aside.said) or lacks_room(aside.said)
-    told = told or (aside.kind == "purpose" and is_made_possible(aside.said))
+    told = told or (
+        aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
+    )
     return told or strange or outside
 
 
@@ -195,7 +197,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     """Whether one of a sentence's clauses asks for nothing."""
     clause = clauses[at]
     behind = "" if at + 1 == len(clauses) else clauses[at + 1].said.removeprefix("then ")
-    last = at + 1 == len(clauses) or is_doing((behind.split() or [""])[0])
+    last = all(item.is_polite for item in clauses[at + 1 :])
+    last = last or is_doing((behind.split() or [""])[0])
     trailing = at > 0 and last and not asks_besides(clause.said)
     if clause.joint == "where" and not last:
         trailing = clauses[at + 1].comma and clauses[at + 1].said.startswith(_PLACES)
@@ -225,7 +228,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "comment", _:
             return clause.comma and is_comment(clause.said, is_name)
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
-    if so and (is_plan(clause.said, is_name) or wants_such_a_thing(clause.said, is_name)):
+    if (so and is_plan(clause.said, is_name)) or wants_such_a_thing(clause.said, is_name):
         return True
     return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
 
