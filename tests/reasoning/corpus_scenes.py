@@ -1916,3 +1916,17 @@ def turned_fronts() -> SceneState:
         for name, state in plain.states.items()
     }
     return replace(plain, states=states)
+
+
+def wool_table() -> SceneState:
+    """Balls of wool of three colours, one of them in a basket, a jar, a book, a glue stick."""
+    return scene(
+        item("basket", "bowl", (0.60, 0.28), size=(0.24, 0.24, 0.12), color="brown"),
+        ball("blue_wool", (0.60, 0.28), label="blue ball of wool", color="blue", on="basket",
+             inside="basket"),
+        ball("red_wool", (0.34, 0.36), label="red ball of wool", color="red"),
+        ball("yellow_wool", (0.40, 0.12), label="yellow ball of wool", color="yellow"),
+        cup("jar", (0.58, -0.02), size=(0.08, 0.08, 0.1)),
+        item("glue_stick", "cylinder", (0.34, -0.02), size=(0.03, 0.03, 0.1), label="glue stick"),
+        item("book", "box", (0.42, -0.34), size=(0.22, 0.18, 0.02), color="purple"),
+    )  # fmt: skip

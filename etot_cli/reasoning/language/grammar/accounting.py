@@ -58,6 +58,7 @@ from etot_cli.reasoning.language.words.places import FREE_SPOT, SOMEWHERE_FREE, 
 from etot_cli.reasoning.language.words.small_words import (
     FRAMES,
     SO_LONG,
+    SOMEBODY_COMES,
     SOMEBODY_LEFT,
     WITHOUT_MEANING,
 )
@@ -111,7 +112,7 @@ _FIXED = """
 _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
     f", {manner.NOT_STACKED}, {SO_LONG}"
-    f", {FREE_SPOT}, {SOMEWHERE_FREE}"
+    f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
 )
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.grammar.common import NOUN_WORD, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, NOUN_WORD
 from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.modifiers import (
     PLAIN_MODIFIER,
@@ -63,8 +63,18 @@ _CONDITIONS = sequence(
     ),
 )
 """Several things that are to be beside another, each on a side of its own."""
-EXTRA = sequence(
-    OPTIONAL_COMMA,
+_RATHER = "with, unless that tells which"
+
+
+def _unless_told_by(found: Any) -> Any:
+    """In "in the jar with the pen and the cap in the box", without a comma, the pen rather tells
+    which jar, where that is so.
+    """
+    several = isinstance(found, State) and len(found.subjects) > 1
+    return (_RATHER, (found,)) if several else found
+
+
+_EXTRA = sequence(
     either(
         CONDITION,
         _CONDITIONS,
@@ -110,6 +120,7 @@ EXTRA = sequence(
     ),
     build=lambda *found: found[0] if found else (),
 )
+EXTRA = either(sequence(COMMA, _EXTRA), sequence(_EXTRA, build=_unless_told_by))
 EXTRAS = some(EXTRA, most=3)
 
 
@@ -128,7 +139,9 @@ def put_of(
     groupings = [item for item in extras if isinstance(item, Grouping)]
     conditions = tuple(item for item in extras if isinstance(item, State))
     said = [item for item in extras if isinstance(item, tuple) and item]
-    conditions += tuple(state for name, states in said if name == "with" for state in states)
+    conditions += tuple(
+        state for name, states in said if name in ("with", _RATHER) for state in states
+    )
     turns = turns_of(said)
     named = {item[0] for item in said}
     if each := next((words for name, words in said if name == "apart" and words), ()):
@@ -164,7 +177,7 @@ def put_of(
         conditions,
         turns,
         by_color="color" in named,
-        far_fetched=2 * len(described),
+        far_fetched=2 * len(described) + 2 * (_RATHER in named),
         one_each="each" in named,
     )
 

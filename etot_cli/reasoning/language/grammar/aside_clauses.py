@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from etot_cli.reasoning.language.grammar.left_open import is_left_open, leaves_choice
+from etot_cli.reasoning.language.grammar.mishaps import BEFORE_IT_DOES, THING_WILL
 from etot_cli.reasoning.language.grammar.remarks import PEOPLE
 from etot_cli.reasoning.language.grammar.text import COMMA
 from etot_cli.reasoning.language.grammar.where_needed import done_where_needed
@@ -25,7 +26,8 @@ _WITHIN = Expression(
     r"|(?P<reason>because|since|now that|although|even though|even if|in case"
     rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
     rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
-    rf"|or(?= (?:{PEOPLE}|it|they) \w+))\b"
+    rf"|before(?= {BEFORE_IT_DOES}(?:$| {COMMA}))|or(?= (?:{PEOPLE}|it|they) \w+)"
+    rf"|or(?= {THING_WILL}(?:$| {COMMA})))\b"
     r"|(?P<plain>(?:and|but|without)"
     r"(?= (?:only|do not|you|feel free|leave|move|take|touch|moving|taking|touching)\b"
     r"[^~]* (?:if|unless|when) ))\b"

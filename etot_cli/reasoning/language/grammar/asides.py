@@ -11,7 +11,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.aside_clauses import GRANTED, Clause, clauses_of
+from etot_cli.reasoning.language.grammar.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.left_open import is_left_open, is_plan, is_wondering
+from etot_cli.reasoning.language.grammar.mishaps import befalls
 from etot_cli.reasoning.language.grammar.remarks import (
     BEFORE_NAMES,
     PEOPLE,
@@ -37,6 +39,7 @@ from etot_cli.reasoning.language.grammar.text import (
     spaced,
     words_in,
 )
+from etot_cli.reasoning.language.grammar.vague_wishes import wants_such_a_thing
 from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, is_descriptive, word_set
 
@@ -155,8 +158,10 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
         first not in all_words() and not is_name(first) and verb in ("is", "are", "has", "have")
     )
     told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
-    told = told or is_not_to_stay(aside.said)
-    told = told or (aside.kind == "purpose" and is_made_possible(aside.said))
+    told = told or is_not_to_stay(aside.said) or lacks_room(aside.said)
+    told = told or (
+        aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
+    )
     return told or strange or outside
 
 
@@ -164,7 +169,10 @@ def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
     """Whether a pronoun may mean what only an aside before it names."""
     stranger = False
     for part in parted:
-        stranger = stranger or any(_names_stranger(item.said, is_name) for item in part.asides)
+        stranger = stranger or any(
+            _names_stranger(item.said, is_name) or wants_such_a_thing(item.said, is_name)
+            for item in part.asides
+        )
         if part.rest:
             if stranger and _refers_back(part.rest.split(), is_name):
                 return True
@@ -189,7 +197,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     """Whether one of a sentence's clauses asks for nothing."""
     clause = clauses[at]
     behind = "" if at + 1 == len(clauses) else clauses[at + 1].said.removeprefix("then ")
-    last = at + 1 == len(clauses) or is_doing((behind.split() or [""])[0])
+    last = all(item.is_polite for item in clauses[at + 1 :])
+    last = last or is_doing((behind.split() or [""])[0])
     trailing = at > 0 and last and not asks_besides(clause.said)
     if clause.joint == "where" and not last:
         trailing = clauses[at + 1].comma and clauses[at + 1].said.startswith(_PLACES)
@@ -209,7 +218,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             apart = at > 0 and (last or clauses[at + 1].comma)
             return apart and not any(map(is_name, clause.said.split()))
         case "purpose", "before":
-            return trailing and not any(map(is_name, clause.said.split()))
+            named = any(map(is_name, clause.said.split()))
+            return trailing and (befalls(clause.said) or not named)
         case "purpose", ("so" | "so that" | "where"):
             where = clause.joint == "where"
             return trailing and is_purpose(clause.said, is_name, where=where)
@@ -218,7 +228,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "comment", _:
             return clause.comma and is_comment(clause.said, is_name)
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
-    if so and is_plan(clause.said, is_name):
+    if (so and is_plan(clause.said, is_name)) or wants_such_a_thing(clause.said, is_name):
         return True
     return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
 

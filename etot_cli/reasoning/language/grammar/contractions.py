@@ -46,7 +46,7 @@ CONTRACTIONS = (
     (r"'d(?= better\b)", " had"),
     (r"\b(i|it|that|we|you|they)'d\b", r"\1 would"),
     (r"\bi'm\b", "i am"),
-    (r"\b(i|you|we)'ll\b", r"\1 will"),
+    (r"(?<=\w)'ll\b", " will"),
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
     (r"\b(you|we|they)'re\b", r"\1 are"),
     (rf"(?<=\w)'s(?= (?:{_STATES}))", " is"),

@@ -213,7 +213,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r", (?:say|for example|e\.g\.),? (?=(?:to|in|on|into|onto|at|next|beside|near|behind)\b)",
         ", ",
     ),
-    (r"(?<=\w) (?:please|pls|plz)(?=, )", ""),
+    (r"(?<=\w),? (?:please|pls|plz)(?= ?:)|(?<=\w) (?:please|pls|plz)(?=, )", ""),
     (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"the only \1 that is "),
     (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
     (r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already))?\b", r"\1 it"),

@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 
+from etot_cli.reasoning.language.grammar.lacking_room import lacks_room
+from etot_cli.reasoning.language.grammar.mishaps import befalls
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
@@ -29,7 +31,7 @@ IsName = Callable[[str], bool]
 _RELATIONS = (
     "kids?|children|guests?|visitors?|boss|sister|brother|mother|mom|mum|father|dad|wife|husband|"
     "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
-    "patients?|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
+    "patients?|lady|ladies|gentlem[ae]n|wom[ae]n|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
 )
 _OWN = "hands?|feet|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|bus|train|taxi|shift"
 """Of people, and of nothing that is in a scene."""
@@ -37,7 +39,8 @@ PEOPLE = (
     r"(?:i|we|you|he|she|nobody|no one|somebody|someone|everybody|everyone|people"
     r"|grand(?:ma|pa)|granny|mum|mom|dad"
     r"|(?:mr|mrs|ms|dr|miss) \w+"
-    rf"|(?:(?:my|our|your|his|her|the) )(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
+    rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
+    rf"(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
 )
 _PERSON = Expression(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
@@ -188,9 +191,7 @@ _SO_NOTHING = Expression(
     r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"
     r"|cool|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
 )
-_OR_WILL = Expression(
-    rf"^(?:{PEOPLE}|it|they) \w+|^{_THING} (?:will |might |may )?(?:get|go|turn)s? (?:{TURNED})$"
-)
+_OR_WILL = Expression(rf"^(?:{PEOPLE}|it|they) \w+")
 _COMMENT = Expression(r"^(?:is|are|was|were|has|have) ")
 
 
@@ -240,9 +241,10 @@ def is_turning(said: str) -> bool:
 
 def is_warning(said: str) -> bool:
     """Whether this tells, behind "or", what else would happen ("it will fall")."""
-    return bool(_OR_WILL.match(said)) and not (
-        _DOING - {"get"} | ASKING - {"will", "would", "not"}
-    ) & {*said.split()}
+    return befalls(said) or (
+        bool(_OR_WILL.match(said))
+        and not (_DOING - {"get"} | ASKING - {"will", "would", "not"}) & {*said.split()}
+    )
 
 
 def is_comment(said: str, is_name: IsName) -> bool:
@@ -266,8 +268,8 @@ def is_remark(said: str, is_name: IsName) -> bool:
     """Whether this tells what somebody did, or how things outside of the scene are."""
     words = said.split()
     person = _PERSON.match(said)
-    if asks_besides(said):
-        return False
+    if asks_besides(said) or lacks_room(said):
+        return lacks_room(said)
     if person:
         happened, habit = _HAPPENED.match(person["did"]), _HABIT.match(person["did"])
         if _UNUSED.match(said) or (habit and _is_of_no_thing(habit, words, is_name)):

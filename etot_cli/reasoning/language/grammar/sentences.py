@@ -54,10 +54,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     PutClause,
 )
+from etot_cli.reasoning.language.grammar.syntax.phrases import State
+from etot_cli.reasoning.language.grammar.taking import TO_BE_EMPTY
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     SAID,
 )
+from etot_cli.reasoning.language.grammar.trees import nodes
 from etot_cli.reasoning.language.words import small_words
 
 
@@ -113,6 +116,17 @@ def _in_the_end(reading: Reading) -> Reading | None:
     return reading if all(isinstance(said.clause, EnsureClause) for said in reading) else None
 
 
+def _by_then(reading: Reading) -> Reading | None:
+    """How things are to be when somebody comes; what "goes" somewhere rather goes only then."""
+    going = any(isinstance(item, State) and item.going for item in nodes(reading))
+    return None if going else _in_the_end(reading)
+
+
+_BY_THEN = either(
+    sequence(SENTENCE, build=_by_then), sequence(EMPTY_WORDS, plain(TO_BE_EMPTY), EMPTY_WORDS)
+)
+
+
 def _aside(joined: tuple[str, Reading]) -> tuple[str, Reading]:
     """What goes somewhere without a verb; "the tray should have A and B on it" rather has both."""
     said, (placed, *rest) = joined
@@ -125,6 +139,8 @@ _GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANIN
 WHOLE = either(
     sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
     sequence(SENTENCE, COMMA, small_words.TRAILING_LAST, _END, build=_in_the_end),
+    sequence(_BY_THEN, OPTIONAL_COMMA, small_words.SOMEBODY_COMES, _END),
+    sequence(_GREETING, small_words.SOMEBODY_COMES, OPTIONAL_COMMA, _BY_THEN, _END),
     sequence(
         _GREETING,
         either(

@@ -190,6 +190,29 @@ def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutC
 _TOP = ("top",)
 _TOP_OF = sequence("the (top|surface) of", ALL_THINGS)
 _ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
+TO_BE_EMPTY = either(
+    variants(
+        sequence(
+            either(
+                sequence(ALL_THINGS, verbs.MODAL),
+                sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+                sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+            ),
+            optional(phrase("both, all"), ""),
+            manner.EMPTIED,
+            build=lambda things, said: Things(all_of(things.phrases, said)),
+        ),
+        to_be_empty,
+    ),
+    sequence(
+        verbs.NOTHING_IS,
+        one_of({(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}),
+        ALL_THINGS,
+        silent(optional(small_words.ANY_MORE)),
+        build=lambda at, things: emptied(things, held=at[0], part=at[1]),
+    ),
+)
+"""What is said of how things are to be, rather than of what is to be done."""
 EMPTY = either(
     sequence(
         "empty[ing] [out], unload[ing]",
@@ -250,27 +273,8 @@ EMPTY = either(
         optional(DESTINATIONS, None),
         build=emptied,
     ),
-    variants(
-        sequence(
-            either(
-                sequence(ALL_THINGS, verbs.MODAL),
-                sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
-                sequence("mak(e|ing)", ALL_THINGS),
-                sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
-            ),
-            optional(phrase("both, all"), ""),
-            manner.EMPTIED,
-            build=lambda things, said: Things(all_of(things.phrases, said)),
-        ),
-        to_be_empty,
-    ),
-    sequence(
-        verbs.NOTHING_IS,
-        one_of({(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}),
-        ALL_THINGS,
-        silent(optional(small_words.ANY_MORE)),
-        build=lambda at, things: emptied(things, held=at[0], part=at[1]),
-    ),
+    TO_BE_EMPTY,
+    variants(sequence("mak(e|ing)", ALL_THINGS, manner.EMPTIED), to_be_empty),
 )
 
 IS_EMPTY = variants(

@@ -69,6 +69,7 @@ class LentNouns(ABC):
             why = "a number alone is a count or a name; say which thing"
             raise ReferenceProblem(phrase.text, why, 3)
         elliptic = phrase.is_elliptic
+        noun = self._like_theme(phrase, noun) if role is Role.ANY and noun else noun
         if elliptic and phrase.text in phrase.words:
             self._check_color_alone(phrase, role, noun)
         resolved: Resolved | None = None
@@ -113,6 +114,26 @@ class LentNouns(ABC):
         if phrase.modifiers:
             raise ReferenceProblem(phrase.text, UNCLEAR, 2)
         return resolved
+
+    def _like_theme(self, phrase: NounPhrase, noun: str) -> str:
+        """After "take the blue ball out of the box and put it next to the red (one)" that is a
+        ball, where no box is red: the noun of what is moved, where that is told by a colour, too,
+        and one such thing has the other one; else the noun as it is.
+        """
+        colors = {word for word in phrase.words if is_descriptive(word) and word not in SIZES}
+        moved = [m for m in self.discourse.mentions if m.role is Role.THEME][-1:]
+        before = {word for m in moved for word in m.adjectives if is_descriptive(word)} - {*SIZES}
+        plain = phrase.is_elliptic or leaves_noun_out(phrase)
+        told = plain and colors and before and not colors & before and not phrase.modifiers
+        if not told or same_noun(moved[0].noun, noun):
+            return noun
+        with suppress(ReferenceProblem):
+            self.resolved_as(phrase, Role.ANY, noun)
+            return noun
+        with suppress(ReferenceProblem):
+            found = self.resolved_as(phrase, Role.ANY, moved[0].noun)
+            return moved[0].noun if [*map(len, found.options)] == [1] else noun
+        return noun
 
     def _check_rival(self, phrase: NounPhrase, role: Role, noun: str, resolved: Resolved) -> None:
         """After "the blue mug next to the blue bowl" it is open which of them is "the blue one".

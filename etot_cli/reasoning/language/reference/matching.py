@@ -296,6 +296,7 @@ def _match_in(
             raise ReferenceProblem(phrase, f"it may mean {names_of(entries)}", 2, word=head)
         entries = pairs
         sifted.notes.append(f"read {head!r} as {names_of(pairs)}")
+    mass = False
     if matches_any(head, THING_NOUNS):
         plural = head in ("everything", "rest", "others", "stuff") or singular(head) != head
     else:
@@ -304,15 +305,18 @@ def _match_in(
         plural = packs or any(entry.is_plural(head) for entry in entries)
         # "The fruit", "the yarn" of several balls of it
         shapes = all({*map(singular, entry.heads)} & SHAPES for entry in entries)
-        mass = (
-            head in MASS_NOUNS or (best == CONTENT and shapes and singular(head) != ROUND)
-        ) and len(entries) > 1
-        plural |= mass
+        stuff = best == CONTENT or all(head in entry.content for entry in entries)
+        mass = stuff and shapes and singular(head) != ROUND and len(entries) > 1
+        plural |= mass or (head in MASS_NOUNS and len(entries) > 1)
     jars = [e for e in pool if e.only_tells(head) and e.grade(head) is None]
     if best == GENERIC and jars and singular(head) in MATERIALS:
         return None  # where there is a glass jar "the glass" is no cup
-    loose = best == CONTENT or (
-        best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
+    loose = (
+        best == CONTENT
+        or mass
+        or (
+            best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
+        )
     )
     if loose and any(is_object(entry) for entry in entries):
         said = head.replace("_", " ")

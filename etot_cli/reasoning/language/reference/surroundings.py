@@ -16,10 +16,12 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
 )
 from etot_cli.reasoning.language.reference import space
+from etot_cli.reasoning.language.reference.alongside import put_on_the_same
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.areas import side_across
 from etot_cli.reasoning.language.reference.coreference import PLURAL_PRONOUNS
 from etot_cli.reasoning.language.reference.discourse import Discourse
+from etot_cli.reasoning.language.reference.modified import names_of_things
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.reference.usual_form import is_robot
@@ -364,7 +366,17 @@ class Surroundings:
             for item in range(len(discourse.referents))
             if {thing.name for thing in discourse.things(item)} <= below
         ]
-        (index,) = self._phrases.refer(phrase, Role.ANY, [*themes, *inside, *upon])
+        excluded = [*themes, *inside, *upon]
+        try:
+            (index,) = self._phrases.refer(phrase, Role.ANY, excluded)
+        except AmbiguousReference:
+            rather = put_on_the_same(discourse, themes, relation, excluded)
+            if rather is None:
+                raise
+            names = names_of_things(discourse.things(rather))
+            discourse.notes.append(f"read {phrase.text!r} as {names}")
+            discourse.mention_again(rather, Role.ANY)
+            return rather
         said = [item.clause for item in discourse.mentions if item.referent == index]
         rivals = [mark] if mark != index and clause in said else []
         infos = self._scene.infos

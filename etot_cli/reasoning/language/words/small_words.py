@@ -51,14 +51,18 @@ WITHOUT_MEANING = f"""
     ~comma if you would, ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
-    without (dropping|breaking) (it|them), before i forget, by the way, what a mess,
+    without (dropping|breaking) (it|them), before i forget, by the way,
+    what a mess [(in|around|over|) here|[over|in|] there|this is],
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
     ~comma i (think|believe|guess|suppose|reckon),
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
     that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
-    ~comma (my dear|my friend|dear|love|darling|honey|sweetie|sweetheart|friend|dude|man|bro),
-    ~comma (sir|madam|folks),
-    by (then|tonight|tomorrow|noon|midnight|lunchtime|bedtime|(this|the) (afternoon|evening)),
+    ~comma [my [dear|good]]
+    (dear|friend|love|darling|honey|sweetie|sweetheart|dearest|treasure|fellow|chap|man),
+    ~comma (dude|bro|sis|ma am|miss|mister|[good|dear|kind] (sir|madam)|folks|[you] guys|son|boss),
+    ~comma [my] (young|good|old|dear|clever) (man|lady|friend|fellow|boy|girl|chap),
+    by (then|tonight|tomorrow [(morning|noon|evening|night)]|noon|midnight|
+    lunchtime|bedtime|(this|the) (afternoon|evening)),
     (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here]
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
@@ -157,6 +161,18 @@ _WHEN_DONE = """
 """
 """Only then; as what is asked for comes to an end then, it is asked for of the end."""
 BY_THE_END = f"{_AT_END}, {_WHEN_DONE}"
+_SOMEBODY = f"""
+    i|we|he|she|they|(the|my|our) ({RELATIONS}|guests|customers|clients|patients|parents|
+    colleagues|students|visitors|kids|children|family|team|others|neighbors|neighbours)|
+    [my|our] (mum|mom|dad|grandma|grandpa)
+"""
+_BACK = f"""
+    ({_SOMEBODY}) (am|are|is|come[s]|get[s]|return[s]|arrive[s])
+    [back|home|in|here|over|round|there] [from (work|school|lunch|dinner)]
+    [tonight|tomorrow|later|again|today|in the (morning|evening|afternoon)]
+"""
+SOMEBODY_COMES = f"(when|before|by the time) ({_BACK})"
+"""With how things are to be by then; nobody is to wait for it."""
 END_STATE = f"({BY_THE_END}) [~comma]"
 """Before how things are to be by then."""
 ANY_MORE = "anymore, any more, any longer, yet, so far"

@@ -179,11 +179,15 @@ WANT = """
     (i|we) would rather (have|see),
     (what|all [that]) (i|we) [really|just] (want|need|would like) [to (have|see)] is
 """
+_SOMEBODY = f"{RELATIONS}|lady|gentleman|woman|man|person|visitor|shopper|diner|friend"
 OTHERS_WANT = f"""
-    (the|my|our) ({RELATIONS}) (wants|needs|would like [to have]),
-    (the|my|our)
-    (guests|customers|clients|patients|parents|colleagues|students|visitors|kids|children)
-    (want|need|would like [to have]),
+    (the|my|our|a|an|one|another|this|that) [(old|young|little|nice|first|next)] ({_SOMEBODY})
+    [(here|outside|at the (door|counter|table|bar)|over there)]
+    (wants|needs|would like [to have]|has ordered|ordered|asked for|asks for),
+    [the|my|our|some|two]
+    (guests|customers|clients|patients|parents|colleagues|students|visitors|kids|children|people|
+    ladies|girls|boys|friends)
+    (want|need|would like [to have]|have ordered|ordered|asked for),
     [my|our] (grandma|grandpa|granny|mum|mom|dad) (wants|needs|would like [to have]),
     (he|she|somebody|someone) (wants|needs|would like [to have]),
     they (want|need|would like [to have])

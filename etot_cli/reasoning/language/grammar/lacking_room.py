@@ -1,0 +1,27 @@
+"""Whether somebody only tells that there is no room, or that some is needed: a reason why things go
+elsewhere, and no thing.
+"""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.words.expressions import Expression
+
+_ROOM = (
+    r"(?:(?:some|more|a (?:bit|little)|a lot|lots|enough|not enough|no|little|too little|any|much)"
+    r"(?: more| extra| free)*(?: of)? |the )?(?:elbow )?(?:room|space)"
+)
+_WHERE = (
+    r"(?: (?:left|to (?:work|write|cook|eat|play|breathe)|(?:over |in )?here|there|now"
+    r"|(?:in|on) (?:the|my|our|this) (?:\w+ )?\w+))*"
+)
+_LACKING = Expression(
+    rf"(?:i|we) (?:(?:just|really|also) )?(?:(?:will |could |would )?(?:need|use|want|like)"
+    rf"(?: to have)?|do not have|have|am|are)(?: (?:short|out) of)? {_ROOM}{_WHERE}"
+    rf"|there is (?:just )?(?:not |hardly |barely )?{_ROOM}{_WHERE}"
+    rf"|(?:the |my )?(?:room|space) is (?:tight|short|scarce|limited){_WHERE}"
+)
+
+
+def lacks_room(said: str) -> bool:
+    """Whether this is what a clause tells ("I need some space here")."""
+    return bool(_LACKING.fullmatch(said))

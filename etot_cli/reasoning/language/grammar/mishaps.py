@@ -1,0 +1,33 @@
+"""What happens to a thing by itself where nothing is done about it: it melts, spoils, rolls off."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.small_words import TURNED
+
+_DOES = (
+    "melt|spoil|rot|perish|leak|spill|fall|roll|tip|topple|wilt|burn|cool|warm|dry|dries|break|"
+    "crack|slip|slide|shatter|curdle|evaporate|freeze|thaw|defrost|sour|harden|wither|slosh|"
+    "tumble|blow|vanish|crumble|clot|spoilt"
+)
+_GETS = (
+    f"{TURNED}|lost|broken|damaged|stolen|spoilt|spoiled|squashed|crushed|ruined|scratched|stained|"
+    "spilt|spilled|messy|lukewarm|sticky|rusty"
+)
+BEFALLS = (
+    rf"(?:(?:just|only|all|quickly|soon) )?"
+    rf"(?:(?:{_DOES})(?:e?s)?(?: (?:off|over|down|away|up|out))?"
+    rf"|(?:gets?|goes|go|turns?|becomes?) (?:too )?(?:{_GETS}|missing)"
+    r"|(?:falls?|goes|go) to (?:waste|pieces))(?: again| everywhere| in (?:the (?:sun|heat)|here))?"
+)
+"""As a regular expression, behind what it happens to."""
+_THING = r"(?:it|they|(?:the|my|our) (?:\w+ )?\w+)"
+THING_WILL = rf"{_THING} (?:will|might|may|could|is going to|are going to) (?:{BEFALLS})"
+"""What is only told of things: nobody asks for that, nor for the contrary alone."""
+BEFORE_IT_DOES = rf"{_THING} (?:{BEFALLS})"
+_FULL = Expression(rf"(?:{BEFORE_IT_DOES}|{THING_WILL})")
+
+
+def befalls(said: str) -> bool:
+    """Whether a clause tells what happens to a thing by itself ("it will melt")."""
+    return bool(_FULL.fullmatch(said))
