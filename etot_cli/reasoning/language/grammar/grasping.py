@@ -62,7 +62,7 @@ def _ruled_out(given: Input, at: int) -> list[Result]:
     ]
 
 
-_OTHER_POSE = sequence("not", Parser(_ruled_out, lambda: _POSE.first), optional("one"))
+_OTHER_POSE = sequence("not, no", Parser(_ruled_out, lambda: _POSE.first), optional("one"))
 POSE = either(
     sequence(optional("only, just"), _POSE, optional("only")),
     _OTHER_POSE,
@@ -130,7 +130,8 @@ GRASPED = sequence(
         sequence(
             optional(
                 "but, with, using, being, [being] (grasped|gripped|held|approached),"
-                "[while|by] (grasping|gripping|holding|approaching) (it|them)"
+                "[while|by] (grasping|gripping|holding|approaching) (it|them),"
+                "(grasp|grip) [~comma]"
             ),
             POSES,
         ),
@@ -222,6 +223,7 @@ GRASP = quiet(
             ),
             sequence("us(e|ing), try[ing]", _told(POSES), build=_so),
             sequence(
+                optional("(grasping|gripping|holding|grabbing|taking|lifting) (it|them)"),
                 _told(_OR_BOTH),
                 optional("[~comma] (either|any|both) [one|of them|way]"),
                 small_words.ANY_WILL_DO,

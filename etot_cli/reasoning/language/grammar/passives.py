@@ -74,7 +74,7 @@ THEN_PLACED = sequence(
     _ON,
     optional(f"{verbs.TO_BE_DONE}, be, to be"),
     EMPTY_WORDS,
-    verbs.BROUGHT,
+    f"{verbs.BROUGHT}, {verbs.LIES}",
     DESTINATIONS,
     build=_put_on,
 )
