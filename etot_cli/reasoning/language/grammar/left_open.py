@@ -47,11 +47,12 @@ _WHAT = (
 )
 _ON_DESK = rf"(?: on the (?:{'|'.join(DESK_NOUNS)}))?"
 _MANNER = r"(?:(?:grasp|grip|approach) (?:direction|pose)|grasp|grip|pose|orientation|order|way)"
+_OF_HOLDING = r"(?: of (?:grasp|gripp|hold|grabb|lift|tak|approach)ing (?:it|them))?"
 _LEFT_OPEN = Expression(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
     rf"|{_WHAT} {_NO_MATTER}|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
     rf"|the (?:exact )?{_MANNER} {_NO_MATTER}"
-    rf"|(?:any|either|both|all) {_MANNER}s? (?:(?:is|are) (?:both |equally |also )?"
+    rf"|(?:any|either|both|all) {_MANNER}s?{_OF_HOLDING} (?:(?:is|are) (?:both |equally |also )?"
     r"(?:fine|ok|okay|good|all right|alright)|will do|would do|works?)"
     r"(?: (?:for|with|by) me)?"
     r"|(?:the|my|our) (?:(?!not\b)\w+ ){1,3}(?:can|may|might|could)"

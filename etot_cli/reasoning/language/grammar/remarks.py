@@ -280,8 +280,8 @@ def is_remark(said: str, is_name: IsName) -> bool:
         did = person["did"].removeprefix(happened[0]).split()
         if happened[0].endswith((" to ", "will ")):
             has = did[0] == "have" and not (PLACED | ASKING | {*STATES}) & {*did}
-            told = words[0] != "you" or happened[0] != "will "
-            return told and (has or did[0] in OTHER_VERBS or did[0] not in all_words())
+            himself = words[0] != "you" or happened[0] != "will "
+            return himself and (has or did[0] in OTHER_VERBS or did[0] not in all_words())
         if happened[0].startswith(("would hate", "do not want")):
             return not any(map(is_name, words))
         placed = PLACED & {*did} and any(map(is_name, did))

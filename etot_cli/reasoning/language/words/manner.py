@@ -165,7 +165,8 @@ LAID = f"""
 """
 """Before a place, where "lying" alone rather tells what is there."""
 EITHER_WAY = """
-    [either] upright or (sideways|horizontally), [either] from (above|the top) or the side
+    [either] upright or (sideways|horizontally),
+    [either] from (above|[the] top) or [the] side, [either] from [the] side or (above|[the] top)
 """
 LYING = f"""
     {LAID}, lying,
