@@ -28,7 +28,7 @@ from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, opening_words
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, NUMBERS, singular, word_set
 from etot_cli.reasoning.language.words.nouns import STACK
-from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.patterns import spellings, words_of
 from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import OPEN_AT, SceneState
 
@@ -53,6 +53,8 @@ _REFERRING = word_set(
 """Below a heading they may speak of what that is about, which is not read."""
 _SWEEPING = word_set("other others rest else everything anything")
 """Of a desk."""
+_BUILT = words_of((verbs.BUILD,)) | {"on", "in", "onto"}
+"""With "stack" they say what is to become of things."""
 _DECLARED = frozenset({"is", "are"})
 _OF_ITS_OWN = re.compile(
     r"\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
@@ -123,8 +125,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """
     said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
     words = words_in(normalized(said[1])) if said else ()
-    # "A stack of three: …", "the tower on the tray: …"
-    counted = {*spellings(STACK)} & {*words} and {*NUMBERS, "on", "in", "onto"} & {*words}
+    # "A stack of three: …", "the tower on the tray: …", "make a pile: …"
+    counted = {*spellings(STACK)} & {*words} and (_BUILT | {*NUMBERS}) & {*words}
     if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:
         raise UnreadableError(instruction, "")
     on_desk = bool({*DESK_NOUNS} & {*words})

@@ -59,7 +59,13 @@ from etot_cli.reasoning.language.goals.placing import (
 from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is, leave_out
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.ruled_out import not_beside, rule_out
-from etot_cli.reasoning.language.goals.sharing import check_stance, is_left, rest_there, shared
+from etot_cli.reasoning.language.goals.sharing import (
+    bystanders,
+    check_stance,
+    is_left,
+    rest_there,
+    shared,
+)
 from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
@@ -296,7 +302,7 @@ def _condition(
         if phrase.words == ("everything",):
             why = "name what is to be there; what is there already comes along"
             raise ReferenceProblem(phrase.text, why, 3)
-    subjects = context.phrases.things(Things(condition.subjects), Role.THEME)
+    subjects = bystanders(context, condition)
     check_describes(context, condition, subjects, places_of)
     if not set(subjects) & set(themes):
         # "It" is rather what the bystander is in or on.

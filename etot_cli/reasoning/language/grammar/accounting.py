@@ -100,13 +100,14 @@ _FIXED = """
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer, any more,
     only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
     (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
-    (when|once|after|by the time) all is, a little open,
+    (when|once|after|by the time) all is, a little open, open a little,
+    open (only|just) [slightly|partly|partially|halfway], a little bit,
     before (you touch|touching|you do anything|doing anything) [to|with],
     (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on),
     all [that] (i|we) [really|just] (need|want|would like), all that (should|must) be,
     (thing|things|one|ones|object|objects|item|items) (left|remaining),
     all [that] (i|we) (need|want) (left|remaining),
-    (is|are) only [slightly|partly|partially|half|halfway|a (bit|little)]
+    (is|are) only [slightly|partly|partially|half|halfway|barely|a (bit|little|crack)]
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(

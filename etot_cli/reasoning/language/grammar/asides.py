@@ -12,7 +12,12 @@ from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.aside_clauses import GRANTED, Clause, clauses_of
 from etot_cli.reasoning.language.grammar.lacking_room import lacks_room
-from etot_cli.reasoning.language.grammar.left_open import is_left_open, is_plan, is_wondering
+from etot_cli.reasoning.language.grammar.left_open import (
+    is_desk_wish,
+    is_left_open,
+    is_plan,
+    is_wondering,
+)
 from etot_cli.reasoning.language.grammar.mishaps import befalls
 from etot_cli.reasoning.language.grammar.remarks import (
     BEFORE_NAMES,
@@ -158,7 +163,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
         first not in all_words() and not is_name(first) and verb in ("is", "are", "has", "have")
     )
     told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
-    told = told or is_not_to_stay(aside.said) or lacks_room(aside.said)
+    told = told or is_not_to_stay(aside.said) or is_desk_wish(aside.said) or lacks_room(aside.said)
     told = told or (
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
@@ -228,7 +233,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "comment", _:
             return clause.comma and is_comment(clause.said, is_name)
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
-    if (so and is_plan(clause.said, is_name)) or wants_such_a_thing(clause.said, is_name):
+    planned = so and (is_desk_wish(clause.said) or is_plan(clause.said, is_name))
+    if planned or wants_such_a_thing(clause.said, is_name):
         return True
     return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
 

@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.chains import (
     BARE_CHAIN,
     CHAIN,
     WITH_MORE_SO,
+    Joined,
     chained,
     joint,
     then_done,
@@ -82,7 +83,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY, SOURCE
+from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY, NOTHING_THERE, SOURCE
 from etot_cli.reasoning.language.grammar.togetherness import PARTED
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,
@@ -138,18 +139,18 @@ def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
     return None if held else (*first, *rest)
 
 
-IN_THE_END = either(
-    plain(
-        either(
-            sequence(STATE, build=lambda state: EnsureClause((state,))),
-            IS_EMPTY,
-            BOTH_ARE,
-            TOLD_APART,
-        )
-    ),
-    HEADLINE,
+_SO_OR_EMPTY = plain(
+    either(sequence(STATE, build=lambda state: EnsureClause((state,))), IS_EMPTY, NOTHING_THERE)
 )
+IN_THE_END = either(_SO_OR_EMPTY, plain(either(BOTH_ARE, TOLD_APART)), HEADLINE)
 """How things are, where it is said that they are to be so in the end."""
+
+
+def _made_so(first: Reading, more: Joined) -> Reading | None:
+    """How things are to be, some of them empty; else it is one clause."""
+    done = chained(first, more)
+    so = done and all(isinstance(said.clause, EnsureClause) for said in done)
+    return None if so else done
 
 
 _AND = either(COMMA, "and, and then, then")
@@ -287,6 +288,13 @@ WITH_MORE_BEFORE_IT = either(
         IN_THE_END,
         some(either(joint("and", LIST, IN_THE_END), WITH_MORE_SO), most=6),
         build=chained,
+    ),
+    sequence(
+        # "Make sure that the box holds the pen and that nothing is on the tray"
+        verbs.ENSURE,
+        _SO_OR_EMPTY,
+        some(joint("and", LIST, optional("that"), _SO_OR_EMPTY), least=1, most=5),
+        build=_made_so,
     ),
     sequence(
         plain(IF_NOT_SO),

@@ -62,7 +62,7 @@ def _ruled_out(given: Input, at: int) -> list[Result]:
     ]
 
 
-_OTHER_POSE = sequence("not", Parser(_ruled_out, lambda: _POSE.first), optional("one"))
+_OTHER_POSE = sequence("not, no", Parser(_ruled_out, lambda: _POSE.first), optional("one"))
 POSE = either(
     sequence(optional("only, just"), _POSE, optional("only")),
     _OTHER_POSE,
@@ -107,6 +107,17 @@ def _with_a_grasp(text: str, poses: Any) -> Any:
     return GraspClause(None, poses) if told else None
 
 
+def _named_grasp(text: str, poses: Any) -> Any:
+    """A grasp that is called one; "from above" alone may be said of a place."""
+    return poses if _GRASPS & {*text.replace(":", "").replace(",", "").split()} else None
+
+
+_NAMED_GRASP = sequence(
+    spanned(sequence(optional("(grasp|grip) [~comma]"), POSES), _named_grasp),
+    build=lambda poses: poses,
+)
+
+
 def _told(parser: Parser) -> Parser:
     return sequence(spanned(parser, _in_so_many_words), build=lambda poses: poses)
 
@@ -130,7 +141,8 @@ GRASPED = sequence(
         sequence(
             optional(
                 "but, with, using, being, [being] (grasped|gripped|held|approached),"
-                "[while|by] (grasping|gripping|holding|approaching) (it|them)"
+                "[while|by] (grasping|gripping|holding|approaching) (it|them),"
+                "(grasp|grip) [~comma]"
             ),
             POSES,
         ),
@@ -222,11 +234,13 @@ GRASP = quiet(
             ),
             sequence("us(e|ing), try[ing]", _told(POSES), build=_so),
             sequence(
+                optional("(grasping|gripping|holding|grabbing|taking|lifting) (it|them)"),
                 _told(_OR_BOTH),
-                optional("[~comma] (either|any|both) [one|of them|way]"),
+                optional("[~comma] (either|any|both) [one|of them|way|grasp|grasps]"),
                 small_words.ANY_WILL_DO,
                 build=_so,
             ),
+            sequence(_NAMED_GRASP, build=_so),
             sequence(_told(_OR_BOTH), "~comma", small_words.DOES_NOT_MATTER, build=_so),
             sequence(
                 "the (grasp|grip)", "(should|must|may|can|has to|needs to) be", POSES, build=_so

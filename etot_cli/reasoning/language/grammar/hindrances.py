@@ -146,7 +146,7 @@ HINDRANCE = either(
     sequence("there is, there are", noun_phrase, words.STANDING_OUT, _OF_IT, build=_standing_out),
     sequence(
         noun_phrase,
-        one_of({"ajar": f"({words.ONLY_SLIGHTLY}) (open|ajar)", "empty": words.FREE}),
+        one_of({"ajar": words.SLIGHTLY_OPEN, "empty": words.FREE}),
         build=_in_state,
     ),
 )

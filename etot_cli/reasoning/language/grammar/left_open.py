@@ -47,11 +47,13 @@ _WHAT = (
 )
 _ON_DESK = rf"(?: on the (?:{'|'.join(DESK_NOUNS)}))?"
 _MANNER = r"(?:(?:grasp|grip|approach) (?:direction|pose)|grasp|grip|pose|orientation|order|way)"
+_OF_HOLDING = r"(?: of (?:grasp|gripp|hold|grabb|lift|tak|approach)ing (?:it|them))?"
 _LEFT_OPEN = Expression(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
     rf"|{_WHAT} {_NO_MATTER}|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
     rf"|the (?:exact )?{_MANNER} {_NO_MATTER}"
-    rf"|(?:any|either) {_MANNER} (?:is fine|is ok|is okay|will do|would do|works)"
+    rf"|(?:any|either|both|all) {_MANNER}s?{_OF_HOLDING} (?:(?:is|are) (?:both |equally |also )?"
+    r"(?:fine|ok|okay|good|all right|alright)|will do|would do|works?)"
     r"(?: (?:for|with|by) me)?"
     r"|(?:(?:the|my|our) (?:(?!not\b)\w+ ){1,3}|(?:it|they) )(?:can|may|might|could)"
     r" (?:go|be|end up|stand|lie|be put) (?:just )?"
@@ -84,6 +86,20 @@ def is_left_open(said: str) -> bool:
 def leaves_choice(said: str) -> bool:
     """Whether behind a clause "as long as" says what is asked for, of whatever is left open."""
     return any(found.fullmatch(said) for found in (_LEFT_OPEN, _ANY_WILL_DO, _WHICH_PLACE))
+
+
+_TIDY = "(?:clear|tidy|clean|empty|free|neat|uncluttered)"
+_WISHED = rf"{_I} (?:want|need|like|would like|prefer)(?: to have)?"
+_DESK = rf"(?:{'|'.join(DESK_NOUNS)})"
+_TIDY_DESK = Expression(
+    rf"{_WISHED} (?:the|my|our) {_DESK} (?:to be )?{_TIDY}|{_WISHED} an? {_TIDY} {_DESK}"
+    rf"|(?:the|my|our) {_DESK} (?:should|must|has to|needs to) be {_TIDY}"
+)
+
+
+def is_desk_wish(said: str) -> bool:
+    """Whether somebody wants his desk clear, before what is to be done for that."""
+    return bool(_TIDY_DESK.fullmatch(said))
 
 
 def is_plan(said: str, is_name: IsName) -> bool:

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.coordination import coordinated, told_t
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.naming import DESCRIPTIVE, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
     Parser,
     Rule,
     at_end,
@@ -41,7 +42,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     singular,
     word_set,
 )
-from etot_cli.reasoning.language.words.patterns import words_of
+from etot_cli.reasoning.language.words.patterns import openings_of, words_of
 
 
 def _both(both: Any, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
@@ -95,12 +96,18 @@ _PARTS = sequence(
     either(COMMA, at_end),
     build=_parts,
 )
+_MODAL = openings_of((verbs.MODAL,))
+_BEFORE_VERB = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] in _MODAL else [])
+_TOO = optional(sequence("too, as well", OPTIONAL_COMMA, _BEFORE_VERB))
+"""Behind the last of several things of which something is said next."""
 _LIST = sequence(
     noun_phrase,
     some(
         either(
             sequence(LIST_COMMA, noun_phrase, build=lambda np: (False, np)),
-            sequence(OPTIONAL_COMMA, small_words.AND, noun_phrase, build=lambda np: (True, np)),
+            sequence(
+                OPTIONAL_COMMA, small_words.AND, noun_phrase, _TOO, build=lambda np: (True, np)
+            ),
         ),
         most=9,
     ),

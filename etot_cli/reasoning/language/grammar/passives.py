@@ -28,7 +28,12 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     RemoveClause,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.grammar.taking import SOURCE, is_emptying
 from etot_cli.reasoning.language.grammar.trees import UNSAID, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
@@ -66,7 +71,13 @@ _ON = sequence(
 """Behind what is to be taken, in the passive."""
 
 
-def _put_on(where: tuple[Destination, ...]) -> PutClause:
+_LIES = words_of((verbs.LIES,))
+
+
+def _put_on(said: str, where: tuple[Destination, ...]) -> PutClause | None:
+    """What was taken goes on to where it is put; to "sit there" is to be where it was."""
+    if said.split()[0] in _LIES and any(item.toward is Toward.HERE for item in where):
+        return None
     return put_to(Things((NounPhrase(pronoun=UNSAID, text="it"),)), where)
 
 
@@ -74,12 +85,14 @@ THEN_PLACED = sequence(
     _ON,
     optional(f"{verbs.TO_BE_DONE}, be, to be"),
     EMPTY_WORDS,
-    verbs.BROUGHT,
+    phrase(f"{verbs.BROUGHT}, {verbs.LIES}"),
     DESTINATIONS,
     build=_put_on,
 )
 """Where what was taken goes then ("… and placed on the tray")."""
-BEFORE_PLACED = sequence(OPTIONAL_COMMA, "before being", verbs.BROUGHT, DESTINATIONS, build=_put_on)
+BEFORE_PLACED = sequence(
+    OPTIONAL_COMMA, "before being", phrase(verbs.BROUGHT), DESTINATIONS, build=_put_on
+)
 ALSO_DONE = sequence(
     _ON,
     either(

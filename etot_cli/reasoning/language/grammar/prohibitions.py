@@ -262,6 +262,7 @@ KEEP_STILL = either(
     sequence(
         optional("let"), THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)
     ),
+    sequence("let[ting], leav(e|ing)", THINGS, "be", build=partial(AvoidClause, Avoid.MOVE)),
     OTHERS_STILL,
     sequence(
         # After "the cups" rather one of them that is left out.

@@ -164,7 +164,9 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return replace(put_to(things, where), far_fetched=int(again))
 
 
-OUT_AND_INTO = sequence(SOURCE, either(DIRECTED, sequence(LIST, optional("go[es]"), DESTINATIONS)))
+OUT_AND_INTO = sequence(
+    SOURCE, either(DIRECTED, sequence(LIST, optional(f"go[es], {verbs.LIES}"), DESTINATIONS))
+)
 """From one place to another ("out of the box and on the desk")."""
 
 
@@ -173,7 +175,7 @@ _A_PLACE = "a [new|nice|good|free|safe|proper] (place|spot|home|seat) [~comma]"
 
 _COMES_AND_GOES = """
     [should|must|has to|have to|can] come[s] (out|off) [of (it|there)] and
-    [should|must|has to|have to|can|to] (go|goes|be put)
+    [should|must|has to|have to|can|to] (go|goes|be put|stand|sit|lie|rest)
 """
 
 
@@ -194,7 +196,7 @@ PUT = either(
     sequence(
         either(
             sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}"),
-            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.DONE)),
+            sequence(verbs.WANTED, ALL_THINGS, optional(f"{verbs.DONE}, to (come|get|go)")),
         ),
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),

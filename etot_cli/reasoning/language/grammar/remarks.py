@@ -56,7 +56,8 @@ _HAPPENED = Expression(
     r"|^(?:am going to need|"
     r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
     rf"|^do not want (?:any(?:one|body|thing) |it |them )?(?=to (?:{_MISHAPS})\b)"
-    r"|^(?:wants?|needs?|have|has|plans?|hopes?|would like|(?:am|are|is) going|will have) to "
+    r"|^(?:wants?|needs?|have|has|plans?|hopes?|would like|(?:am|are|is) (?:going|about)"
+    r"|will have) to |^will (?!be\b|need\b|[^~]* (?:myself|ourselves)$)"
     r"|^(?:need|want) something to \w+(?: (?:with|on|from|in))?$"
     r"|^will [^~]* (?:myself|ourselves)$"
     r"|^keeps? (?:losing|forgetting|dropping|misplacing|missing|knocking|bumping|tripping)\b"
@@ -279,8 +280,10 @@ def is_remark(said: str, is_name: IsName) -> bool:
             named = more if verb in OTHER_VERBS else words  # "I drink from it" is of no drink
             return not any(map(is_name, named)) and _does_nothing(person["did"])
         did = person["did"].removeprefix(happened[0]).split()
-        if happened[0].endswith(" to "):
-            return did[0] in OTHER_VERBS or did[0] not in all_words()
+        if happened[0].endswith((" to ", "will ")):
+            has = did[0] == "have" and not (PLACED | ASKING | {*STATES}) & {*did}
+            himself = words[0] != "you" or happened[0] != "will "
+            return himself and (has or did[0] in OTHER_VERBS or did[0] not in all_words())
         if happened[0].startswith(("would hate", "do not want")):
             return not any(map(is_name, words))
         placed = PLACED & {*did} and any(map(is_name, did))

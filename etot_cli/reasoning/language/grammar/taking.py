@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.grammar.destinations import (
 from etot_cli.reasoning.language.grammar.grasping import GRASPED, HELD_SO, POSES
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    Parser,
     either,
     one_of,
     optional,
@@ -87,6 +88,7 @@ PICK = sequence(
     THINGS,
     optional("up"),
     optional(either(SOURCE, sequence("(from|off [of]) the top of", noun_phrase)), None),
+    silent(optional(manner.BY_HAND)),
     optional(GRASPED, None),
     silent(optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")),
     build=_pick,
@@ -187,6 +189,18 @@ def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutC
     return replace(put_to(things, where), far_fetched=0 if things_said else cost)
 
 
+def _nothing_there(said: str) -> Parser:
+    """Where there is to be nothing, behind words for that."""
+    return sequence(
+        said,
+        one_of({(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}),
+        ALL_THINGS,
+        silent(optional(small_words.ANY_MORE)),
+        build=lambda at, things: emptied(things, held=at[0], part=at[1]),
+    )
+
+
+_HOLDS_NOTHING = "contains nothing, contain nothing, holds nothing, hold nothing"
 _TOP = ("top",)
 _TOP_OF = sequence("the (top|surface) of", ALL_THINGS)
 _ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
@@ -204,13 +218,7 @@ TO_BE_EMPTY = either(
         ),
         to_be_empty,
     ),
-    sequence(
-        verbs.NOTHING_IS,
-        one_of({(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}),
-        ALL_THINGS,
-        silent(optional(small_words.ANY_MORE)),
-        build=lambda at, things: emptied(things, held=at[0], part=at[1]),
-    ),
+    _nothing_there(verbs.NOTHING_IS),
 )
 """What is said of how things are to be, rather than of what is to be done."""
 EMPTY = either(
@@ -275,12 +283,21 @@ EMPTY = either(
     ),
     TO_BE_EMPTY,
     variants(sequence("mak(e|ing)", ALL_THINGS, manner.EMPTIED), to_be_empty),
+    variants(sequence(verbs.ENSURE, ALL_THINGS, _HOLDS_NOTHING), to_be_empty),
 )
 
 IS_EMPTY = variants(
-    sequence(ALL_THINGS, verbs.BE, silent(optional("then, all")), manner.EMPTIED), to_be_empty
+    sequence(
+        ALL_THINGS,
+        either(
+            sequence(verbs.BE, silent(optional("then, all")), manner.EMPTIED),
+            _HOLDS_NOTHING,
+        ),
+    ),
+    to_be_empty,
 )
 """What something is done for ("so that the box is empty")."""
+NOTHING_THERE = _nothing_there(verbs.NOTHING_IS_SO)
 
 
 def _lidded(lids: Things) -> PutClause | None:

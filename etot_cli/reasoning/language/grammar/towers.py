@@ -270,6 +270,19 @@ _TOWER = either(
     ON_A_BASE,
     LAYERED,
     sequence(A_TOWER, optional(DESTINATIONS, ()), SO, _ENDS, build=_of_its_ends),
+    sequence(
+        # "Make a pile: yellow on top of the red block"
+        A_TOWER,
+        SO,
+        noun_phrase,
+        places.ONTO,
+        noun_phrase,
+        build=lambda tower, *nps: (
+            None
+            if (named := _announced(tower, nps[::-1])) is None
+            else TowerClause(Things(_with_nouns(named)), upward=True)
+        ),
+    ),
     variants(
         sequence(A_TOWER, optional(DESTINATIONS, ()), optional(SO), _LAYERS),
         lambda found: [

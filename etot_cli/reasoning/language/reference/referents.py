@@ -249,21 +249,23 @@ class Referents(Meanings):
         named = phrase.words and not phrase.is_elliptic
         if not unmoved or not named or self.spoken_of(phrase, role, themes) is not None:
             return
-        moved = discourse.things(*themes)
+        if (now := self._around(phrase, role, discourse.things(*themes))) is not None:
+            discourse.add(now, phrase.text, Role.ANY)
+
+    def _around(self, phrase: NounPhrase, role: Role, there: Sequence[Thing]) -> Resolved | None:
+        """The one place of some sort that all of some things are in or on."""
+        plain = replace(phrase, determiner="all")
         for parts_first in (True, False):
-            here: list[Thing] = []
             with suppress(ReferenceProblem):
-                plain = replace(phrase, determiner="all")
                 fitting = self.resolved_as(plain, role, None, parts_first=parts_first)
                 here = [
                     place
                     for place in fitting.options[0]
-                    if all(space.touches(thing, place, self.scene) for thing in moved)
+                    if all(space.touches(thing, place, self.scene) for thing in there)
                 ]
-            if len(here) == 1:
-                now = Resolved(((here[0],),), noun=fitting.noun)
-                discourse.add(now, phrase.text, Role.ANY)
-                return
+                if len(here) == 1:
+                    return Resolved(((here[0],),), noun=fitting.noun)
+        return None
 
     def _where_it_went(self, phrase: NounPhrase, role: Role, excluded: Sequence[int]) -> int | None:
         """What "the box with the pen in it" means once the pen has been put into it; None where
@@ -288,11 +290,18 @@ class Referents(Meanings):
         return None
 
     def _the_same(self, phrase: NounPhrase, role: Role, excluded: Sequence[int]) -> int:
+        """What was spoken of before, or the place of the only other thing that was, which stays
+        ("leave the cup alone and put the pen on the same tray").
+        """
         found = self.spoken_of(phrase, role, excluded)
+        said = {item.referent for item in self.discourse.mentions} - {*excluded}
+        moved = said & {*self.discourse.put, *self.discourse.lifted}
+        if found is None and len(said) == 1 and not (moved or phrase.modifiers):
+            now = self._around(phrase, role, self.discourse.things(*said))
+            found = None if now is None else self.discourse.add(now, phrase.text, role)
         if found is None:
-            raise ReferenceProblem(
-                phrase.text, "'same': nothing was spoken of before that it could be", 3, word="same"
-            )
+            why = "'same': nothing was spoken of before that it could be"
+            raise ReferenceProblem(phrase.text, why, 3, word="same")
         return found
 
     def _note_landmarks(self, phrase: NounPhrase, told: tuple[tuple[Thing, ...], ...]) -> None:

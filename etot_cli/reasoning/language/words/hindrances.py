@@ -47,11 +47,12 @@ SOMEBODY_DID_NOT = f"""
     {_SOMEBODY} (has|have|had) not [yet] (closed|shut|opened),
     (nobody|no one) [has] (closed|shut|opened)
 """
-ONLY_SLIGHTLY = """
-    (is|are) (only|just) [slightly|partly|partially|half|halfway|a (bit|little)],
-    (is|are) (slightly|partly|partially|halfway)
+_A_BIT = "slightly|partly|partially|halfway|half way|a ([little|tiny] bit|little|crack)"
+SLIGHTLY_OPEN = f"""
+    (is|are) (only|just) [{_A_BIT}|half] (open|ajar), (is|are) [just|only] barely open,
+    (is|are) (slightly|partly|partially|halfway|half way|a (crack|little bit)) (open|ajar),
+    (is|are) [only|just] open [only|just] ({_A_BIT})
 """
-"""Before "open"."""
 NOT_QUITE = f"""
     (is|are) not [quite|fully|completely|entirely|properly|really|yet]
     (open|opened|closed|shut|free) [{_PROPERLY}], (is|are) (stuck|jammed),

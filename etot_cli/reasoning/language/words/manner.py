@@ -165,7 +165,8 @@ LAID = f"""
 """
 """Before a place, where "lying" alone rather tells what is there."""
 EITHER_WAY = """
-    [either] upright or (sideways|horizontally), [either] from (above|the top) or the side
+    [either] upright or (sideways|horizontally),
+    [either] from (above|[the] top) or [the] side, [either] from [the] side or (above|[the] top)
 """
 LYING = f"""
     {LAID}, lying,
@@ -174,19 +175,21 @@ LYING = f"""
 FITTING = "so [that] (it|they) (fits|fit) [in|inside] [there|it]"
 GRASP = "grasp|grip|pose|pick|hold|approach"
 GRIPPER = "gripper|hand|fingers|wrist"
+BY_HAND = "(with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm)"
+"""Says nothing: it does all so."""
 _THE_HAND = f"(the|your|its) ({GRIPPER}) [held|kept|being|pointing]"
 HAND_LEVEL = f"{_THE_HAND} (horizontal|horizontally|level|sideways)"
 HAND_DOWN = f"{_THE_HAND} (vertical|vertically|[straight] (down|downward|downwards))"
 HORIZONTAL = f"""
     horizontally, sideways,
     [with|using|in|by] [a] (horizontal|sideways|side) ({GRASP}), [a] horizontal,
-    (from|by) (the|its|a|one) (side|sides), from one side,
+    (from|by) (the|its|a|one) (side|sides), from [one] side,
     with a horizontal ({GRIPPER}), with {HAND_LEVEL}
 """
 VERTICAL = f"""
     vertically, top down,
     [with|using|in|by] [a] (vertical|top|top down|rim) ({GRASP}), [a] vertical,
-    [from] (above|straight above|overhead), from (the|its) top, from the top,
+    [from] (above|straight above|overhead), from [the|its] top,
     by (the|its) (rim|edge|top) [from above],
     with a vertical ({GRIPPER}), with {HAND_DOWN}
 """

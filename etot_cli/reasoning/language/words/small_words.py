@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from etot_cli.reasoning.language.words.manner import BY_HAND
 from etot_cli.reasoning.language.words.verbs import RELATIONS, THE_ROBOT
 
 NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
@@ -13,7 +14,10 @@ _EASIER = """
     (easier|easiest|best|better|possible|simpler|simplest|[more|most] convenient)
     [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)]
 """
-_WILL_DO = "(is|are|would be) (fine|ok|okay|good|all right|alright)|will do|would do|works|work"
+_WILL_DO = """
+    (is|are|would be) [both|equally|all|also|just as] (fine|ok|okay|good|all right|alright)|
+    will do|would do|works|work
+"""
 ANY_WILL_DO = f"""
     ({_WILL_DO}) [(for|with|by) (me|us|this|now|(the|this) (demo|test|task|experiment|trial|run))]
 """
@@ -24,7 +28,7 @@ WITHOUT_MEANING = f"""
     again,
     immediately, right away, right now, for me, fully, completely, all the way, wide, there after,
     one (by one|after the other|after another), one at a time, in the process, if you please,
-    (with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm),
+    {BY_HAND},
     pls, plz, thx, ty, lol, haha, hehe, btw, fyi, (would|will|could|can) you, any way you like,
     at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),

@@ -106,14 +106,18 @@ ARRANGE = """
     (arrange|rearrange|reorder|change|organize|organise|tidy|tidy up|clean up|set|set up|
     lay|prepare|sort)
 """
-NOTHING_IS = """
+NOTHING_IS_SO = """
+    nothing (is|lies|stands|sits|remains) [left|lying|standing|sitting], there is nothing [left]
+"""
+"""Before where there is to be nothing, as was said before."""
+NOTHING_IS = f"""
     (nothing (should|must|may|can|is to|has to) (be|stay|remain)|
     (i|we) (do not want anything|want nothing) [to be]) [left|lying|standing|sitting],
     (nothing (should|must|may|can|is to|has to)|(ensure|make sure|see to it) [that] nothing)
     (stay|remain|stays|remains) [left],
     there (should|must|has to|needs to|is to) be nothing [left],
     there (should|must|may|can) (not|no longer) be anything [left],
-    (ensure|make sure|see to it) [that] (nothing is|there is nothing) [left]
+    ({ENSURE}) ({NOTHING_IS_SO})
 """
 """Before where there is to be nothing."""
 _BROUGHT = """
