@@ -157,9 +157,11 @@ def emptied(
 ANYTHING = Things((NounPhrase(words=("anything",), text="anything"),))
 
 
-def stays_empty(np: NounPhrase, far_fetched: int = 0) -> AvoidClause:
+def stays_empty(
+    np: NounPhrase, far_fetched: int = 0, toward: Toward = Toward.INSIDE
+) -> AvoidClause:
     """Nothing is to be put into what stays empty, or is to be so and is already."""
-    where = Destination(Toward.INSIDE, (np,))
+    where = Destination(toward, (np,))
     return AvoidClause(Avoid.PUT, ANYTHING, (where,), not_left=True, far_fetched=far_fetched)
 
 
@@ -189,14 +191,27 @@ def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutC
     return replace(put_to(things, where), far_fetched=0 if things_said else cost)
 
 
+def _to_be_bare(found: tuple[Prep | None, tuple[str, ...], Things]) -> tuple[Clause, ...]:
+    """What takes all off things, or out of them; the one thing that is so already stays so."""
+    at, part, things = found
+    (np, *more) = things.phrases
+    toward = Toward.ON if at else Toward.INSIDE
+    stays = () if part or more or np.modifiers else (stays_empty(np, 1, toward),)
+    return emptied(things, held=at, part=part), *stays
+
+
 def _nothing_there(said: str) -> Parser:
-    """Where there is to be nothing, behind words for that."""
-    return sequence(
-        said,
-        one_of({(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}),
-        ALL_THINGS,
-        silent(optional(small_words.ANY_MORE)),
-        build=lambda at, things: emptied(things, held=at[0], part=at[1]),
+    """Where there is to be nothing, behind words for that; it stays so where it is so already."""
+    places = {(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}
+    return variants(
+        sequence(
+            said,
+            one_of(places),
+            ALL_THINGS,
+            silent(optional(small_words.ANY_MORE)),
+            build=lambda at, things: (*at, things),
+        ),
+        _to_be_bare,
     )
 
 
