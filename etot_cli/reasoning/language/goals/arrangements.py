@@ -6,7 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from etot_cli.reasoning.builtin.goal import Constraint, Keep, Place, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.goal import (
+    Constraint,
+    Grouping,
+    Keep,
+    Place,
+    Put,
+    Relation,
+    Thing,
+    things_in,
+)
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
@@ -38,6 +47,7 @@ def tower(context: Context, clause: TowerClause) -> None:
     spoken = clause.whole and (context.discourse.mentions or not clause.whole.phrases[0].pronoun)
     whole = context.phrases.things(clause.whole, Role.THEME) if clause.whole and spoken else ()
     themes = whole or context.phrases.things(clause.things, Role.THEME)
+    _check_not_apart(context, themes, text)
     places = context.places.of(clause.base, themes) if clause.base else ()
     indices = [] if whole else _any_of(context, themes, clause)
     things = [context.discourse.things(index)[0] for index in indices]
@@ -62,6 +72,20 @@ def tower(context: Context, clause: TowerClause) -> None:
         place = _upon(context, lower, upper, under, inside=clause.nested)
         context.steps.append(Put((above,), (place,)))
     context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
+
+
+def _check_not_apart(context: Context, themes: Sequence[int], text: str) -> None:
+    """Behind "one on each shelf", "the red one on top" is about shelves.
+
+    Raises:
+        ReferenceProblem: things that are to be apart would be upon each other.
+    """
+    things = {*context.discourse.things(*themes)}
+    for step in context.done:
+        if isinstance(step, Put) and step.grouping is Grouping.SEPARATELY:
+            apart = (context.discourse.referents[index].options for index in step.what)
+            if any(things & {*things_in(options)} for options in apart):
+                raise ReferenceProblem(text, "say where each of them goes", 3)
 
 
 def _layer_by_layer(context: Context, clause: TowerClause, placed: PutClause) -> None:

@@ -98,6 +98,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             for index in context.phrases.things(_one_of_any(clause.things), Role.THEME):
                 context.steps.append(Pick(index, poses))
                 context.discourse.lifted |= {index}
+                for place in context.source((index,)):
+                    context.mention_part(place)
             if clause.to:
                 context.discourse.notes.append(f"{clause.to!r}: {verbs.HELD_UP}")
         case GraspClause():

@@ -100,6 +100,8 @@ class Context:
         "the other glove" that goes on the bench is the one that is not there.
         """
         targets = [np for item in destinations for np in item.targets if np.words]
+        for np in targets:
+            self._tell_holding(np, things)
         marks = (np for item in destinations for near in item.beside for np in near.phrases)
         targets += [np for np in marks if np.words]
         for phrase in (np for np in things.phrases if np.words):
@@ -112,6 +114,26 @@ class Context:
                         self.phrases.refer(named, Role.ANY)
                     else:
                         self._tell_there(phrase, np)
+
+    def _tell_holding(self, place: NounPhrase, things: Things) -> None:
+        """Behind "the apple stays where it is" "the other holder" is one that the apple is not in,
+        if what goes there is in none.
+        """
+        before = {item.referent for item in self.discourse.mentions}
+        spoken = self.discourse.things(*before)
+        if not (quantity_of(place.determiner).other and spoken):
+            return
+        with suppress(ReferenceProblem):
+            named = self.all_called(place, Role.PLACE)
+            going = [self.phrases.meaning(np, Role.THEME).options for np in things.phrases]
+            away = {thing for options in going for option in options for thing in option}
+            held = [any(touches(thing, at, self.scene) for thing in away) for at in named]
+            if self.phrases.spoken_of(place, Role.PLACE) is None and not any(held):
+                self._tell(
+                    place,
+                    Role.PLACE,
+                    lambda at: any(touches(thing, at, self.scene) for thing in spoken),
+                )
 
     def _tell_there(self, phrase: NounPhrase, place: NounPhrase) -> None:
         """Speaks of those of some things that are at a place already."""

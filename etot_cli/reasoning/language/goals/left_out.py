@@ -49,7 +49,7 @@ def without_ruled_out(goal: Goal, scene: SceneState) -> Goal:
     referents = list(goal.referents)
     for step in (step for step in goal.steps if isinstance(step, Put) and not step.removal):
         (place, *more) = step.places
-        if more or place.where is None or place.beside or len(referents[place.where].options) > 1:
+        if more or place.where is None or len(referents[place.where].options) > 1:
             continue
         at = {a for t in things_in(referents[place.where].options) for a in addresses(t, scene)}
         ruled_out: dict[str, set[str]] = {}

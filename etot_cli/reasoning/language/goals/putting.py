@@ -208,7 +208,8 @@ def put(
         last = group.things == clause.groups[-1].things
         ruled_out = tuple(item for item in ruled_out if item.toward is not Toward.BESIDE)
         if ruled_out and (last or len(context.discourse.things(*where)) > 1):
-            rule_out(context, themes, ruled_out)  # what has but one place goes there
+            # What has but one place goes there.
+            rule_out(context, themes, ruled_out, besides=where)
     if chosen:
         text = context.discourse.referents[chosen[-1]].text
         raise ReferenceProblem(text, "say where each of them goes", 2)

@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.space import addresses, touches
 from etot_cli.world.state import DESK
@@ -125,15 +126,30 @@ def rule_out(
     destinations: Sequence[Destination],
     *,
     left: bool = False,
+    besides: Sequence[int] = (),
 ) -> tuple[Place, ...]:
-    """Says where things must not be put, or (``left``) be left; returns these places."""
+    """Says where things must not be put, or (``left``) be left; returns these places.
+
+    ``besides``: where they go, which "it" in "instead of on it" is not, if it can be another.
+    """
     for index in themes:
         is_not_chosen(context, index, which=True)
     names = dict.fromkeys(thing.name for thing in context.discourse.things(*themes))
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []
     beside = [item.text for where in destinations for item in where.beside]
-    for place in (found := context.places.of(destinations, themes, stays=left)):
+    discourse = context.discourse
+    try:
+        before, discourse.replaced = discourse.replaced, discourse.replaced | {*besides}
+        found = context.places.of(destinations, themes, stays=left)
+    except AmbiguousReference:
+        raise
+    except ReferenceProblem:
+        discourse.replaced = before
+        found = context.places.of(destinations, themes, stays=left)
+    finally:
+        discourse.replaced = before
+    for place in found:
         if place.beside or place.where is None:
             text = next(iter(beside), text)
             raise ReferenceProblem(text, "only containers and surfaces can be ruled out", 2)

@@ -9,6 +9,7 @@ from etot_cli.reasoning.builtin.goal import Goal, Near, Place, Put, Relation, St
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.fetched import set_down
 from etot_cli.reasoning.language.goals.grasps import grasped
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
@@ -114,6 +115,12 @@ class Understanding:
             if isinstance(spoken.clause, MoveClause) and not spoken.clause.opens and ahead(spoken):
                 # "Open the bottom drawer after closing the top one and put the pen inside"
                 self.context.discourse.step_back(said)
+            last = self.context.last
+            if isinstance(last, PickClause) and last.fetched and spoken.order is Order.THEN:
+                if before is not None:
+                    timed[before] = set_down(self.context, timed[before], steps)
+                elif self.timed:
+                    self.timed[-1] = set_down(self.context, self.timed[-1], steps)
             self.context.last = spoken.clause
             item = Timed(steps, spoken.order, self.sentence)
             if before is not None and continues(timed[before], item):

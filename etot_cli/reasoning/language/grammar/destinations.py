@@ -300,7 +300,9 @@ WHERE = Rule(
             DESTINATIONS,
             OPTIONAL_COMMA,
             either(
-                f"{nouns.CONTRAST}, anywhere (but|except)", sequence(after("anywhere"), "except")
+                f"{nouns.CONTRAST}, anywhere (but|except)",
+                sequence(after("anywhere"), "except"),
+                sequence(after("rather", "prefer"), "than"),
             ),
             optional(verbs.BEING),
             separated(destination, "or, nor", most=3),

@@ -89,6 +89,18 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"\b{_OF_TWO}(?:,| -)? ?\(?({_NOUNS}) or ({_NOUNS})(?:\)|, |(?= (?:should|goes|has)\b))",
         r"either \1 or \2 ",
     ),
+    (
+        r"\b((?:one|an?) (?:\w+ )??\w+), (?:no matter|it does not matter) which(?: one)?, "
+        r"(?=(?:in|into|on|onto|next to|beside|behind) )",
+        r"\1 ",
+    ),
+    # Of levels "on top" is the upper one.
+    (
+        r"\b(on each (?:shelf|board|level)(?: of [^.,;:]*)?)[:,] "
+        r"(the (?:\w+ )?\w+) on (?:the )?top(?:,| and|, and) "
+        r"(the (?:\w+ )?\w+) (?:below|underneath|(?:at|on) the bottom)(?=[.;!?]|$)",
+        r"\1: \2 on the upper and \3 on the lower",
+    ),
     # What has room in something, where it is put there
     (
         rf"(^|[.;!] )({NAMED} [^.,:;]*?) (?:will |would |should |can )?fits? "

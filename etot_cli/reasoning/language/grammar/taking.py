@@ -67,10 +67,12 @@ def _pick(
         return None
     poses = tuple(dict.fromkeys(before or after or ()))
     gathered = verb in _GATHERED and things.may_be_several and things.phrases[-1].modifiers
-    return PickClause(things.taken_from(ahead or source), poses, far_fetched=int(bool(gathered)))
+    got = things.taken_from(ahead or source)
+    return PickClause(got, poses, far_fetched=int(bool(gathered)), fetched=verb in _FETCHED)
 
 
 _GATHERED = frozenset(spellings(verbs.GATHER))
+_FETCHED = frozenset(spellings("fetch[ing], get[ting], retriev(e|ing)"))
 
 
 PICK = sequence(

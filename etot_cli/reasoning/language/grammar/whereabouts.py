@@ -8,6 +8,9 @@ from collections.abc import Callable
 from etot_cli.reasoning.language.words.small_words import NAMED
 
 _TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
+_ROOM = r"there is (?:still |enough |some |plenty of )?(?:room|space)"
+_AT = rf"(?:on|in|next to|beside|behind|in front of|to the (?:left|right) of) {NAMED}"
+_SO_PUT_IT = r"so (?:please )?(put|place|set|lay|stand) (?:it|them) (?:in )?there\b"
 
 WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
@@ -44,8 +47,10 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"\1another ",
     ),
     (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
+    (rf"(^|[.;!] )({_AT} [^.,;]*?),? {_ROOM} for ({NAMED} [^.,;]*), {_SO_PUT_IT}", r"\1\4 \3 \2"),
+    (rf"\b{_ROOM} for ({NAMED} [^.,;]*? {_AT} [^.,;]*), {_SO_PUT_IT}", r"\2 \1"),
     (
-        r"\bthere is (?:still |enough |some |plenty of )?(?:room|space) (on|in) "
+        rf"\b{_ROOM} (on|in) "
         rf"({NAMED} [^.,;]*), so (?:please )?(put|place|set|lay|stand) ([^.,;]*?) (?:in )?there\b",
         r"\3 \4 \1 \2",
     ),

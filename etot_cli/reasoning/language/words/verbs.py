@@ -286,7 +286,7 @@ SWAP = """
     (swap|exchange|switch|trade|change) [the] (places|positions) of
 """
 CHANGE_PLACES = """
-    [should|must|shall|have to|need to|are to] (change|swap|switch|trade|exchange)
+    [should|must|shall|have to|need to|are to|to] (change|swap|switch|trade|exchange)
     (places|place|positions|position|spots),
     [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]
 """

@@ -30,6 +30,8 @@ class PickClause:
     """Somebody wants it; what is said of its place may say where."""
     far_fetched: int = 0
     """By how much the words rather mean that several things are brought there."""
+    fetched: bool = False
+    """It is got from where it is, rather than picked up."""
 
 
 @dataclass(frozen=True, slots=True)
