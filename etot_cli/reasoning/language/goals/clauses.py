@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.goals.so_in_the_end import (
     told_by_contents,
 )
 from etot_cli.reasoning.language.goals.turns import in_turns
+from etot_cli.reasoning.language.grammar.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.putting import DOWN
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
@@ -44,7 +45,6 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.by_now import note_placed
 from etot_cli.reasoning.language.reference.determiners import quantity_of

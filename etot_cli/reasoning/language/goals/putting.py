@@ -69,6 +69,7 @@ from etot_cli.reasoning.language.goals.sharing import (
 from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
+from etot_cli.reasoning.language.grammar.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
@@ -85,7 +86,6 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
     stance_in,
 )
-from etot_cli.reasoning.language.grammar.taking import ANYTHING, is_emptying
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.space import touches

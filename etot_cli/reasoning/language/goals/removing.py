@@ -20,9 +20,9 @@ from etot_cli.reasoning.language.goals.placing import (
     add_put,
 )
 from etot_cli.reasoning.language.goals.prohibitions import avoid
+from etot_cli.reasoning.language.grammar.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, RemoveClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
-from etot_cli.reasoning.language.grammar.taking import ANYTHING, is_emptying
 from etot_cli.reasoning.language.reference.antecedents import NothingThere
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import touches

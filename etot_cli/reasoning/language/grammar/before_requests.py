@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.grammar.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.emptying import EMPTY, IS_EMPTY, NOTHING_THERE
 from etot_cli.reasoning.language.grammar.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.headlines import (
     HEADLINE,
@@ -83,7 +84,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import EMPTY, IS_EMPTY, NOTHING_THERE, SOURCE
+from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.togetherness import PARTED
 from etot_cli.reasoning.language.grammar.topics import (
     AS_IT_IS,

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.common import (
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doubles import so_in_turn
+from etot_cli.reasoning.language.grammar.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.ensuring import OF_SEVERAL
 from etot_cli.reasoning.language.grammar.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so, timed
@@ -52,7 +53,6 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     TowerClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
-from etot_cli.reasoning.language.grammar.taking import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.trees import nodes
 from etot_cli.reasoning.language.grammar.verbless import VERBLESS

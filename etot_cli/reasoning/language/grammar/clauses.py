@@ -25,8 +25,10 @@ from etot_cli.reasoning.language.grammar.doubles import (
     bared,
     with_others,
 )
+from etot_cli.reasoning.language.grammar.emptying import EMPTY
 from etot_cli.reasoning.language.grammar.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.exclusions import but_some, excluding, of_the_things
+from etot_cli.reasoning.language.grammar.filling import COVER, FILL
 from etot_cli.reasoning.language.grammar.flanking import FLANKED
 from etot_cli.reasoning.language.grammar.grasping import GRASP
 from etot_cli.reasoning.language.grammar.holding import HOLD
@@ -81,14 +83,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import (
-    COVER,
-    EMPTY,
-    FILL,
-    HAND_OVER,
-    PICK,
-    REMOVE,
-)
+from etot_cli.reasoning.language.grammar.taking import HAND_OVER, PICK, REMOVE
 from etot_cli.reasoning.language.grammar.togetherness import IN_ONE_PLACE
 from etot_cli.reasoning.language.grammar.towers import TOWER
 from etot_cli.reasoning.language.grammar.unstacking import REVERSED, SPREAD

@@ -8,6 +8,7 @@ from etot_cli.reasoning.language.grammar.clauses import INSTEAD, LEFT_OUT, plain
 from etot_cli.reasoning.language.grammar.common import COMMA, IN_HAND, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doors import STATE_NAMED
+from etot_cli.reasoning.language.grammar.emptying import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.exclusions import of_the_things
 from etot_cli.reasoning.language.grammar.modifiers import (
     CONTRASTED,
@@ -41,7 +42,6 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.towers import STACKED
 from etot_cli.reasoning.language.grammar.verbless import VERBLESS

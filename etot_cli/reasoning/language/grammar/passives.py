@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.common import (
     after,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -34,7 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import SOURCE, is_emptying
+from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.grammar.trees import UNSAID, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.patterns import words_of

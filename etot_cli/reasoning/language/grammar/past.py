@@ -7,6 +7,7 @@ from dataclasses import replace
 from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.emptying import emptied
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -29,7 +30,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import State
-from etot_cli.reasoning.language.grammar.taking import SOURCE, emptied
+from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 
 SO = sequence(

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.emptying import contents_of
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -30,7 +31,6 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import contents_of
 from etot_cli.reasoning.language.grammar.trees import pronouns
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep

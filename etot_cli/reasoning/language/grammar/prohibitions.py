@@ -8,6 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
+from etot_cli.reasoning.language.grammar.emptying import ANYTHING, stays_empty
 from etot_cli.reasoning.language.grammar.instruments import (
     LET_MEET,
     MEETING,
@@ -33,7 +34,6 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import ANYTHING, stays_empty
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 

@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
 )
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.emptying import TO_BE_EMPTY
 from etot_cli.reasoning.language.grammar.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.headlines import (
     PLACED,
@@ -55,7 +56,6 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import State
-from etot_cli.reasoning.language.grammar.taking import TO_BE_EMPTY
 from etot_cli.reasoning.language.grammar.text import QUESTION
 from etot_cli.reasoning.language.grammar.topics import (
     SAID,
