@@ -71,6 +71,8 @@ def _group(
     if how == "over":
         to = (item.toward is Toward.TO and not item.word for item in where)
         where = tuple(replace(w, word=ACROSS) if so else w for w, so in zip(where, to, strict=True))
+    if how == "together" and sum(len(item.targets) for item in where if not item.denied) > 1:
+        return None  # which is more than a way to say "put" where there is a choice
     home = how == "back" and any(item.toward is Toward.STEAD for item in where)
     sweeping = any(np.words == ("everything",) and not np.modifiers for np in things.phrases)
     return (

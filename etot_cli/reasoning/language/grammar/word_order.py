@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.common import (
 )
 from etot_cli.reasoning.language.grammar.destinations import (
     DESTINATIONS,
+    WHERE,
 )
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -59,7 +60,7 @@ SAID_AHEAD = sequence(
         sequence(COMMA, either(TURN, CONDITION), COMMA),
         valued(sequence(OPTIONAL_COMMA, manner.IN_THIS_ORDER, OPTIONAL_COMMA), lambda _: ()),
     ),
-    DESTINATIONS,
+    WHERE,
     build=lambda things, said, where: put_of(put_to(things, where).groups, (said,)),
 )
 """What may follow the place stands before it."""
