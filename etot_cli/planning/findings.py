@@ -131,9 +131,9 @@ class Findings:
         """Plans that worked and are not what was asked for, with why; those apart with which the
         best plan begins.
         """
-        best = () if self.best is None else self.best.actions
+        best = None if self.best is None else self.best.actions
         return {
             actions: why
             for actions, why in self._doubted.items()
-            if why and actions != best[: len(actions)]
+            if why and (best is None or actions != best[: len(actions)])
         }
