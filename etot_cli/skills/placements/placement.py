@@ -53,6 +53,9 @@ with 20 to 40."""
 BEST_TRIES, SPREAD = 20, 0.06
 """After so many of the best places the others are spread over the floor, this far apart with the
 same turn [m]: what goes wrong at twenty of them does beside them too."""
+LEVEL_TRIES = 40
+"""Where a floor has so many places, who stands on it is in the way before anything is put on top:
+three mugs for a cupboard were piled up, and toppled."""
 ALL_TRIES = 200
 """Places that are looked at before an object is blamed, close to each other: half a second."""
 SAME_PLACE = 0.012
@@ -126,16 +129,22 @@ def placements(
     if thoroughly:
         tries = ALL_TRIES
     done: list[_Mark] = []
-    found, upright, far = 0, 0, np.inf
+    found, upright, passed, far = 0, 0, 0, np.inf
     for place in finder.places(as_held=stamps is not None):
         position, rotation = place.pose.position, place.pose.rotation
         if tally.looked_at >= tries:
             return
         if place.laid and upright >= BEST_TRIES:
             continue  # there is room but for the hand, which may hold it otherwise
+        on_others = place.bearers - {request.support.owner}
+        if on_others and tally.looked_at + passed >= LEVEL_TRIES:
+            continue
         radius = float(np.hypot(*position[:2]))
-        apart = SPREAD if tally.looked_at >= BEST_TRIES and not thoroughly else 0.0
-        if radius > far or any(mark.covers(position, rotation, apart) for mark in done):
+        if radius > far or any(mark.covers(position, rotation) for mark in done):
+            continue
+        spread = tally.looked_at >= BEST_TRIES and not thoroughly
+        if spread and any(mark.covers(position, rotation, SPREAD) for mark in done):
+            passed += 1
             continue
         placement, reached = _placement(belief, request, place, tally)
         upright += not place.laid
@@ -181,7 +190,7 @@ class _Mark:
     rotation: Vector | None
     radius: float
 
-    def covers(self, position: Vector, rotation: Vector, apart: float) -> bool:
+    def covers(self, position: Vector, rotation: Vector, apart: float = 0.0) -> bool:
         """Whether another place is much the same, or with one turn nearer than ``apart`` [m]."""
         offset = position - self.position
         radius = self.radius if self.rotation is None else max(self.radius, apart)
