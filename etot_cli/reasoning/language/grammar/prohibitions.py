@@ -225,9 +225,10 @@ KEEP_OUT = sequence(
 )
 _EVERYTHING_ELSE = "everything else, all else, the rest [of it|of them]"
 _OTHERS = "the others [of them]"
+_THERE = "[up|down|over] (there|here)"
 _STAYS = sequence(
     verbs.LEFT_THERE,
-    optional(f"{manner.AS_IT_IS}, put, there, here, out"),
+    optional(f"{manner.AS_IT_IS}, put, {_THERE}, out"),
 )
 _THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
 _THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))
@@ -267,7 +268,7 @@ KEEP_STILL = either(
     sequence(
         # After "the cups" rather one of them that is left out.
         either(
-            sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, there, here"),
+            sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, {_THERE}"),
             sequence(
                 f"leav(e|ing), keep[ing], {verbs.IGNORE}, you can leave", THINGS, optional("out")
             ),
