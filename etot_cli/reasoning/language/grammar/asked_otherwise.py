@@ -171,6 +171,12 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?=(?:can|may|could|must|should|has to|goes)\b)(?!\w+ not\b)",
         r"\1 \2 come out\3, it ",
     ),
+    # "The cup and the mug should not be in the same box: one in the red, one in the blue box"
+    (
+        rf"^({NAMED} [^.,;:]*? and [^.,;:]*?) (?:should|must|shall) not (?:both )?"
+        r"(?:be(?: put)?|go|end up|stand|lie) (?:in|on|into|onto) the same \w+[:;,.] (?=one\b)",
+        r"put \1 separately: ",
+    ),
     (_INCLUDED, _goes_along),
     # What stays in or comes out asks for nothing.
     (
