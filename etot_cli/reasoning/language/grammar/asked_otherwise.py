@@ -151,6 +151,32 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?: out| up)?: (?=one\b)",
         r"\1put \2 separately: ",
     ),
+    (
+        r"\b(should|must|shall|have to|need to|are to) (all|both) "
+        r"((?:be|go|end up|stand|lie)(?: (?:put|kept|stored|placed))?) together\b",
+        r"\1 \3 \2 together",
+    ),
+    # "Put it in any cup. Don't use the red one"
+    (
+        r"\b((?:an?|any|either|one of (?:the|my|our)) (?:(?!then\b)[^.;!?])*?)"
+        r"(?:[.;!?]+ (?:(?:but|please|just) )*not|"
+        r"[.;!?,]+ (?:(?:but|please|just|and) )*do not (?:use|take|pick|choose)) "
+        r"((?:the|my) (?:\w+ )?\w+ one)(?=(?:,? please)?(?:[.;!?]|$))",
+        r"\1, but not \2",
+    ),
+    # "The cup has to come out first and can go on the tray"
+    (
+        rf"(?<!and )(?<!or )\b({_ONE}) (has to|needs to|must|should) come out"
+        r"((?: of (?:it|there))? (?:first|beforehand|before that)) and "
+        r"(?=(?:can|may|could|must|should|has to|goes)\b)(?!\w+ not\b)",
+        r"\1 \2 come out\3, it ",
+    ),
+    # "The cup and the mug should not be in the same box: one in the red, one in the blue box"
+    (
+        rf"^({NAMED} [^.,;:]*? and [^.,;:]*?) (?:should|must|shall) not (?:both )?"
+        r"(?:be(?: put)?|go|end up|stand|lie) (?:in|on|into|onto) the same \w+[:;,.] (?=one\b)",
+        r"put \1 separately: ",
+    ),
     (_INCLUDED, _goes_along),
     # What stays in or comes out asks for nothing.
     (

@@ -147,6 +147,7 @@ GRASPED = sequence(
             POSES,
         ),
         _NOT_WITH,
+        phrase(f"with {manner.HAND_EITHER_WAY}", _BOTH),
         sequence("whether", POSES, optional(f"[that] ({small_words.DOES_NOT_MATTER})")),
         sequence(
             "[while|by] (keeping|holding)",
@@ -213,6 +214,10 @@ _WHETHER = sequence(
     "whether, if",
     either(
         sequence(f"you [are to|should] ({verbs.PICK}|approach)", THINGS, optional("up")),
+        sequence(
+            f"(it|{verbs.THE_ROBOT}) (grasps|grips|grabs|holds|takes|lifts|picks up|approaches)",
+            THINGS,
+        ),
         sequence(
             ALL_THINGS, f"(is|are|gets|get) ({_BY_THE_HAND}|approached|picked up|taken|lifted)"
         ),

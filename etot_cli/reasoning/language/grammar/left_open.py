@@ -48,10 +48,15 @@ _WHAT = (
 _ON_DESK = rf"(?: on the (?:{'|'.join(DESK_NOUNS)}))?"
 _MANNER = r"(?:(?:grasp|grip|approach) (?:direction|pose)|grasp|grip|pose|orientation|order|way)"
 _OF_HOLDING = r"(?: of (?:grasp|gripp|hold|grabb|lift|tak|approach)ing (?:it|them))?"
+_OF_DOING = (
+    r"(?: (?:in which |that |)(?:you (?:do|move|take|put|place|handle)"
+    r" (?:this|that|it|them|these|things)"
+    r"|(?:this|that|it) (?:is done|happens)|(?:they|things) are (?:done|moved|put|placed)))"
+)
 _LEFT_OPEN = Expression(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
     rf"|{_WHAT} {_NO_MATTER}|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
-    rf"|the (?:exact )?{_MANNER} {_NO_MATTER}"
+    rf"|the (?:exact )?{_MANNER}{_OF_DOING}? {_NO_MATTER}"
     rf"|(?:any|either|both|all) {_MANNER}s?{_OF_HOLDING} (?:(?:is|are) (?:both |equally |also )?"
     r"(?:fine|ok|okay|good|all right|alright)|will do|would do|works?)"
     r"(?: (?:for|with|by) me)?"

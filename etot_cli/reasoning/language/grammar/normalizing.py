@@ -44,6 +44,14 @@ _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _QUOTES = re.compile('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')
 _ITEMS = re.compile(r"[.)]\s|\bstep\b")
 """Without such signs nothing is listed by numbers or letters."""
+_ARTICLE_LEFT_OUT = Expression(
+    r"\b(?:(out of) (?=way\b)|((?<!start )(?<!starting )(?:at|by)) (?=end\b)|"
+    r"(on) (?=(?:left|right)(?:$|[,.:;!?\n]"
+    r"| (?:side|hand|half|end|edge|of|and|in|into|to|onto)\b))|"
+    r"(at) (?=(?:front|back|rear|left|right|top|bottom)(?:$|[,.:;!?\n]| (?:of|and|in|into)\b))|"
+    r"(in) (?=(?:middle|cent(?:re|er))(?:$|[,.:;!?\n]| (?:of|and|in|into)\b)))"
+)
+"""Fixed phrases as they are typed in haste ("out of way", "at end", "on right")."""
 _COUNTED_OFF = re.compile(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
 """The number of a step, in words ("One, open the drawer. Two, …")."""
 
@@ -55,7 +63,7 @@ def normalized(text: str) -> str:
     text = _WELL.sub(r"\1", _RIGHT.sub(r"\1", text))
     text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
-    text = in_plain_words(text)
+    text = _ARTICLE_LEFT_OUT.sub(lambda said: f"{said[0]}the ", in_plain_words(text))
     text = _BRACKETED.sub(_qualified, text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[()\[\]]", " , ", text)
     text = text.replace(":", " : ")

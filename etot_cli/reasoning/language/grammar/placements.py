@@ -18,7 +18,7 @@ _FINE = r"(?:is|would be|will be) (?:fine|ok|okay|good|all right|alright)"
 _OF_TWO = r"one of (?:the two|them|these|those)"
 _NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
 _LIE = r"(?:(?:be (?:put |placed |moved )?|stay|remain|go|end up|stand|lie) ?)"
-_THERE = r"(?:(?:in|on|inside) it|inside|there|(?:in|on|inside) (?:the|my) [^.,;:]*?)"
+_THERE = r"(?:(?:in|on|inside) it|inside|there|(?:in|on|inside) (?!it\b|them\b)\w[^.,;:]*?)"
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
 )
@@ -41,7 +41,7 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(^|[.;:,] |\b(?:and|but) )((?:the|my) (?:\w+ ){{0,2}}?\w+|it|\w+) "
         r"(?:can|may|might|could|must|should|has to|have to) "
         rf"{_LIE}(?:({_THERE})|in(?: there)?) or (?:{_LIE})?"
-        r"(?=(?:in|on|inside|into|onto) (?:the|my)\b)",
+        r"(?=(?:in|on|inside|into|onto) (?!it\b|them\b)\w)",
         lambda said: f"{said[1]}{said[2]} should be {said[3] or 'inside'} or ",
     ),
     # Who may leave it open need not close it

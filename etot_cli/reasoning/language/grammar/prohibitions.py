@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.instruments import (
     WITH_IT,
     with_it,
 )
+from etot_cli.reasoning.language.grammar.modifiers import MODIFIER
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -23,6 +24,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     phrase,
     sequence,
+    some,
 )
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, EnsureClause
@@ -57,6 +59,14 @@ def _not_wanted(things: Things) -> AvoidClause | None:
 def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
     """What is not to be used is not to hold or bear things, some or any."""
     return AvoidClause(Avoid.PUT, things or ANYTHING, (Destination(Toward.TO, nps),))
+
+
+def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause | None:
+    """What stays where it is, with where that is ("leave the cup where it is on the tray")."""
+    if len(things.phrases) > 1 or any(item.prep not in (Prep.ON, Prep.IN) for item in at):
+        return None
+    np = reduce(NounPhrase.told_by, at, things.phrases[0])
+    return None if np.pronoun else _avoid(Avoid.MOVE, replace(things, phrases=(np,)))
 
 
 _FORBIDDEN = either(
@@ -225,9 +235,10 @@ KEEP_OUT = sequence(
 )
 _EVERYTHING_ELSE = "everything else, all else, the rest [of it|of them]"
 _OTHERS = "the others [of them]"
+_THERE = "[up|down|over] (there|here)"
 _STAYS = sequence(
     verbs.LEFT_THERE,
-    optional(f"{manner.AS_IT_IS}, put, there, here, out"),
+    optional(f"{manner.AS_IT_IS}, put, {_THERE}, out"),
 )
 _THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
 _THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))
@@ -265,9 +276,18 @@ KEEP_STILL = either(
     sequence("let[ting], leav(e|ing)", THINGS, "be", build=partial(AvoidClause, Avoid.MOVE)),
     OTHERS_STILL,
     sequence(
+        either(
+            sequence("leav(e|ing), keep[ing]", THINGS),
+            sequence(optional("let"), THINGS, verbs.LEFT_THERE),
+        ),
+        "[exactly|just|right] where (it is|they are)",
+        some(MODIFIER, least=1, most=2),
+        build=_left_where_it_is,
+    ),
+    sequence(
         # After "the cups" rather one of them that is left out.
         either(
-            sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, there, here"),
+            sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, {_THERE}"),
             sequence(
                 f"leav(e|ing), keep[ing], {verbs.IGNORE}, you can leave", THINGS, optional("out")
             ),

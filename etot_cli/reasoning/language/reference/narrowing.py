@@ -115,9 +115,11 @@ def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Reso
         return None
     here = {item.referent for item in said if item.clause == discourse.clause} & known
     if not here and said[-1].clause == discourse.clause - 1:
-        # "Take the pens out and put one into the cup"; of several cups "one" may be any cup.
+        # "Take the pens out and put one into the cup"; of several cups "one" may be any cup,
+        # unless these were but named ("the red cup and the blue cup: one …").
         last = [item for item in said if item.clause == said[-1].clause]
         alike = all(same_noun(item.noun, noun) for item in last)
+        alike = alike and any(item.referent in discourse.put for item in last)
         here = {item.referent for item in (last[-1:] if alike else last)} & known
     things = dict.fromkeys(thing for index in sorted(here) for thing in discourse.things(index))
     again = choice and said[-1].clause == discourse.clause

@@ -48,10 +48,11 @@ SOMEBODY_DID_NOT = f"""
     (nobody|no one) [has] (closed|shut|opened)
 """
 _A_BIT = "slightly|partly|partially|halfway|half way|a ([little|tiny] bit|little|crack)"
+_BY_NOW = "only|just|already|still|now"
 SLIGHTLY_OPEN = f"""
     (is|are) (only|just) [{_A_BIT}|half] (open|ajar), (is|are) [just|only] barely open,
-    (is|are) (slightly|partly|partially|halfway|half way|a (crack|little bit)) (open|ajar),
-    (is|are) [only|just] open [only|just] ({_A_BIT})
+    (is|are) [{_BY_NOW}] ({_A_BIT}|half) (open|ajar),
+    (is|are) [{_BY_NOW}] open [only|just] ({_A_BIT})
 """
 NOT_QUITE = f"""
     (is|are) not [quite|fully|completely|entirely|properly|really|yet]

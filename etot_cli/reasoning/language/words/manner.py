@@ -7,7 +7,7 @@ CLOSED_STATE = """
     [still] [fully|completely|properly|all the way] (closed|shut) [behind (it|them)]
 """
 A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
-ALL_THE_WAY = "wide, all the way, fully, completely, entirely"
+ALL_THE_WAY = "wide, all the way, the rest of the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
 _UNLESS = """
     if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so} [already],
@@ -166,7 +166,9 @@ LAID = f"""
 """Before a place, where "lying" alone rather tells what is there."""
 EITHER_WAY = """
     [either] upright or (sideways|horizontally),
-    [either] from (above|[the] top) or [the] side, [either] from [the] side or (above|[the] top)
+    [either] from (above|[the] top) or [the] side, [either] from [the] side or (above|[the] top),
+    [either] [a] side or [a] (top|top down) [grasp|grip],
+    [either] [a] (top|top down) or [a] side [grasp|grip]
 """
 LYING = f"""
     {LAID}, lying,
@@ -180,6 +182,9 @@ BY_HAND = "(with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot 
 _THE_HAND = f"(the|your|its) ({GRIPPER}) [held|kept|being|pointing]"
 HAND_LEVEL = f"{_THE_HAND} (horizontal|horizontally|level|sideways)"
 HAND_DOWN = f"{_THE_HAND} (vertical|vertically|[straight] (down|downward|downwards))"
+HAND_EITHER_WAY = (
+    f"{_THE_HAND} [either] (horizontal[ly] or vertical[ly]|vertical[ly] or horizontal[ly])"
+)
 HORIZONTAL = f"""
     horizontally, sideways,
     [with|using|in|by] [a] (horizontal|sideways|side) ({GRASP}), [a] horizontal,

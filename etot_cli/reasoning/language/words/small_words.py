@@ -26,7 +26,8 @@ WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though,
     again,
-    immediately, right away, right now, for me, fully, completely, all the way, wide, there after,
+    immediately, right away, right now, for me, fully, completely, all the way,
+    the rest of the way, wide, there after,
     one (by one|after the other|after another), one at a time, in the process, if you please,
     {BY_HAND},
     pls, plz, thx, ty, lol, haha, hehe, btw, fyi, (would|will|could|can) you, any way you like,
@@ -48,6 +49,8 @@ WITHOUT_MEANING = f"""
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
     however you (like|can|want), as you (like|wish|prefer|please),
+    (whichever|either|any) way (round|around) [you (like|want|prefer|please)],
+    [in] (any|whichever|whatever) order [you (like|want|prefer|please)],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
     if possible,
