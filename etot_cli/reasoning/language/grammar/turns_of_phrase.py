@@ -81,6 +81,13 @@ TURNS_OF_PHRASE: tuple[tuple[str, str], ...] = (
         rf"(?: away| up)?: (?=[^.:;]* (?:to|in|into|on|onto) {NAMED})",
         r"\1\2",
     ),
+    # Where somebody will eat it from, and "there" behind that
+    (
+        rf"\b((?:i|we) (?:want|would like|need) to (?:eat|drink|serve|cut) {NAMED} (?:\w+ )??\w+) "
+        rf"(?:from|off|on|in|out of) ({NAMED} (?:\w+ )??\w+),? so ((?:please )?)"
+        rf"(?:put|lay|place|set|bring) (it|them) there{_END}",
+        r"\1, so \3bring \4 to \2",
+    ),
     # A reason between two requests
     (
         rf"(,? so (?:that )?(?:it|they) (?:stays?|keeps?|remains?) {_WELL})(?= and (?:then )?\w+)",
