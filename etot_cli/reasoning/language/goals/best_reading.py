@@ -60,6 +60,7 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
         if found and simplicity > cost and not undecided and not odd:
             break
         attempt = state.copy()
+        attempt.context.sentence = sentence.text
         try:
             attempt.read(reading)
             goal = attempt.goal()

@@ -59,35 +59,6 @@ def check_taken(
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
 
 
-_BESIDE = (Prep.NEXT_TO, Prep.NEAR, Prep.LEFT, Prep.RIGHT, Prep.BEHIND, Prep.FRONT, Prep.BETWEEN)
-
-
-def note_described(context: Context, group: PutGroup, places: Sequence[Place]) -> None:
-    """Notes that "vial A next to vial B" tells where the only one is, and not where it goes.
-
-    Raises:
-        ReferenceProblem: it is where it would go, so that this is hardly what is meant.
-    """
-    if any(place.beside or place.where is None for place in places):
-        return
-    for phrase in group.things.phrases:
-        near = [item for item in phrase.modifiers if item.prep in _BESIDE and not item.denied]
-        if len(near) != 1 or near != [*phrase.modifiers]:
-            continue
-        alone: list[Thing] = []
-        with suppress(ReferenceProblem):  # "the tool behind the tin" is one of several tools
-            whole = replace(phrase, modifiers=())
-            alone = [*things_in(context.phrases.meaning(whole, Role.THEME).options)]
-        if len(alone) == 1:
-            at = context.discourse.things(*(p.where for p in places if p.where is not None))
-            if any(touches(alone[0], place, context.scene) for place in at):
-                why = "it is there already; say 'on …, next to …' for where it goes"
-                raise ReferenceProblem(phrase.text, why, 3)
-            text = phrase.text.replace("_", " ")
-            note = f"{text!r}: where it is now, not where it goes"
-            context.discourse.notes.append(note)
-
-
 def check_swept(context: Context, clause: PutClause) -> None:
     """Whether "everything from the plate and the tray" may be what is on both, or the tray."""
     (first, *more) = [np for group in clause.groups for np in group.things.phrases]

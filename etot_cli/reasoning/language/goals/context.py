@@ -89,6 +89,8 @@ class Context:
         """The clause before."""
         self.order = Order.SAID
         """When the clause that is being read is to be done."""
+        self.sentence = ""
+        """The text of the sentence that is being read."""
 
     def single(self, thing: Thing, text: str) -> int:
         """A referent for one thing."""

@@ -27,12 +27,12 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_taken,
     choose_by_place,
     leave_there,
-    note_described,
     tell_apart,
     without_riders,
 )
 from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.described import note_described
 from etot_cli.reasoning.language.goals.homes import (
     in_stead,
     never_there,
@@ -179,7 +179,7 @@ def put(
             in_the_end=not chosen_from,
         )
         check_taken(context, group, themes, places)
-        note_described(context, group, places)
+        note_described(context, group, places, told=wherever)
         check_poured(context, group, themes, places)
         if stance is not None:
             places = with_stance(context, themes, places, stance)

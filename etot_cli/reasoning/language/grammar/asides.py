@@ -18,7 +18,7 @@ from etot_cli.reasoning.language.grammar.left_open import (
     is_plan,
     is_wondering,
 )
-from etot_cli.reasoning.language.grammar.mishaps import befalls
+from etot_cli.reasoning.language.grammar.mishaps import befalls, is_kept_well
 from etot_cli.reasoning.language.grammar.remarks import (
     BEFORE_NAMES,
     PEOPLE,
@@ -227,7 +227,10 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             return trailing and (befalls(clause.said) or not named)
         case "purpose", ("so" | "so that" | "where"):
             where = clause.joint == "where"
-            return trailing and is_purpose(clause.said, is_name, where=where)
+            kept = any(item.comma for item in clauses[at + 1 : at + 2]) and is_kept_well(
+                clause.said
+            )
+            return (trailing or (kept and at > 0)) and is_purpose(clause.said, is_name, where=where)
         case "purpose", _:
             return trailing and is_warning(clause.said)
         case "comment", _:

@@ -236,6 +236,7 @@ ENSURE = either(
             NOT_FALLING,
             being("end[s] up"),
             containing(verbs.CONTAIN),
+            containing("(should|must|shall|has to|have to|is to) (carry|bear)", Toward.ON),
             sequence(noun_phrase, verbs.END_WITH, NP_LIST, IN_OR_ON_IT, build=holding),
         ),
         lambda state: EnsureClause((state,)),

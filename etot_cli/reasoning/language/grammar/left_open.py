@@ -12,7 +12,7 @@ from etot_cli.reasoning.language.grammar.remarks import (
     asks_besides,
 )
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, LEVELS, SIDES, THING_NOUNS
 
 _I = r"(?:i|we)"
 _NOT_CARING = (
@@ -45,6 +45,9 @@ _WHAT = (
     rf"|which{_OF_THEM}(?: (?:goes|go|ends? up|is put) (?:where|in which))?"
     rf"|what (?:happens to|becomes of){_WORDS}+|whether(?! you\b| i\b| we\b){_WORDS}+|{_WHETHER})"
 )
+_AT = "|".join(sorted({*LEVELS, *SIDES}))
+_EITHER = rf"(?:the )?(?:{_AT})(?: \w+)? or (?:the )?(?:{_AT})(?: (?!or\b)\w+)??"
+"""Either of two of a place's parts ("lower or upper")."""
 _ON_DESK = rf"(?: on the (?:{'|'.join(DESK_NOUNS)}))?"
 _MANNER = r"(?:(?:grasp|grip|approach) (?:direction|pose)|grasp|grip|pose|orientation|order|way)"
 _OF_HOLDING = r"(?: of (?:grasp|gripp|hold|grabb|lift|tak|approach)ing (?:it|them))?"
@@ -55,7 +58,8 @@ _OF_DOING = (
 )
 _LEFT_OPEN = Expression(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
-    rf"|{_WHAT} {_NO_MATTER}|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
+    rf"|(?:{_WHAT}|{_EITHER}|(?:what|which) \w+) {_NO_MATTER}"
+    rf"|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
     rf"|the (?:exact )?{_MANNER}{_OF_DOING}? {_NO_MATTER}"
     rf"|(?:any|either|both|all) {_MANNER}s?{_OF_HOLDING} (?:(?:is|are) (?:both |equally |also )?"
     r"(?:fine|ok|okay|good|all right|alright)|will do|would do|works?)"

@@ -31,3 +31,14 @@ _FULL = Expression(rf"(?:{BEFORE_IT_DOES}|{THING_WILL})")
 def befalls(said: str) -> bool:
     """Whether a clause tells what happens to a thing by itself ("it will melt")."""
     return bool(_FULL.fullmatch(said))
+
+
+_KEPT_WELL = Expression(
+    r"(?:it|they) (?:stays?|keeps?|remains?) (?:nice and |nicely )?"
+    r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"
+)
+
+
+def is_kept_well(said: str) -> bool:
+    """Whether a clause tells what something stays like where it is put ("it stays fresh")."""
+    return bool(_KEPT_WELL.fullmatch(said))

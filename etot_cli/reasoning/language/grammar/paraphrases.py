@@ -313,9 +313,9 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         "",
     ),
     (
-        r"\b(?:to|in|on|at) (?:a|some|the) (?:spot|place|position|location) "
-        r"(?=(?:between|next to|beside|near|behind|in front of|on|in|(?:to the )?(?:left|right) of)"
-        r"\b)",
+        r"\b(?:to|in|on|at) (?:a|some|the) (?:free )?(?:spot|place|position|location) "
+        r"(?=(?:right |just |directly )?(?:between|next to|beside|near|behind|in front of|on|in"
+        r"|close to|(?:to the )?(?:left|right) of)\b)",
         "",
     ),
     (

@@ -142,10 +142,10 @@ def holding(
     return None if told and held[1:] else State((*held, *more), (Destination(toward, (np,)),))
 
 
-def containing(verb: str) -> Parser:
-    """What is in or on something, by a verb for that."""
+def containing(verb: str, toward: Toward = Toward.INSIDE) -> Parser:
+    """What is in or on something, by a verb for that; ``toward``: where none is said."""
     return either(
-        sequence(noun_phrase, verb, NP_LIST, optional(IN_OR_ON_IT, Toward.INSIDE), build=holding),
+        sequence(noun_phrase, verb, NP_LIST, optional(IN_OR_ON_IT, toward), build=holding),
         sequence(noun_phrase, verb, NP_LIST, IN_OR_ON_IT, _AS_WELL, build=holding),
     )
 

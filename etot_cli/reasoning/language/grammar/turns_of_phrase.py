@@ -1,0 +1,97 @@
+"""Ways of speaking that say no more than plain ones, and what may stay as it is."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.world.colors import BASIC_COLORS
+
+_COLOR = "|".join(BASIC_COLORS)
+_END = r"(?=[.,;!?]|$)"
+_FINE = r"(?:fine|ok|okay|all right|alright|no problem)"
+_KEPT = r"(?:(?:can |to )?(?:stays?|remains?|is|are|be)(?: (?:left|kept))?)"
+_LEFT = r"(?:hanging|standing|sitting|left|still|just)"
+_WELL = r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"
+
+TURNS_OF_PHRASE: tuple[tuple[str, str], ...] = (
+    # Who finds it fine if it stays open need not have it so
+    (
+        rf"\bit (?:is|would be|will be) {_FINE}(?: (?:by|with|for) (?:me|us))? "
+        rf"(?:if|for|when) ({NAMED} (?:\w+ )*?\w+|it|they|them) {_KEPT} "
+        rf"(?=(?:open|closed|shut)(?: (?:afterwards|after that|in the end))?{_END})",
+        r"\1 may stay ",
+    ),
+    (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe),? (?:please|pls|plz)(?= (?:and|then|but)\b)", ""),
+    # "There is a drawer hanging open", "shut the drawer that was left open"
+    (
+        r"(^|[.;!,] )there (is|are) ((?:an?|one|two|some|the) \w+(?: \w+)??) "
+        rf"(?:(?:that|which) (?:is|are) )?(?:{_LEFT} )?"
+        r"(?=(?:wide )?(?:open|ajar)(?:,|[.;!] | and\b))",
+        r"\1there \2 \3 that \2 ",
+    ),
+    (
+        rf"\b((?:close|shut) {NAMED} \w+(?: \w+)??) "
+        rf"(?:(?:that|which) (?:is|are|was|were|has been) )?{_LEFT} "
+        rf"(?=(?:wide )?(?:open|ajar)(?: and\b|{_END}))",
+        r"\1 that is ",
+    ),
+    # Where it goes, said of what was named before
+    (
+        rf"(^|[.;!] )((?:now|next|then|and) )*({NAMED} (?:\w+ )*?\w+), "
+        rf"(?=(?:into|onto|in|on) {NAMED} (?:\w+ )*?with (?:it|them){_END})",
+        r"\1\2\3: ",
+    ),
+    (rf"\btake (it|them) (?=there{_END}|there (?:and|then)\b)", r"bring \1 "),
+    (
+        rf"\bha(?:s its|ve its|ve their) (?:home|place|spot)s? (?=(?:in|on|inside) {NAMED})",
+        "belong ",
+    ),
+    # What "comes off first" and goes somewhere
+    (
+        rf"\b((?:but|and|then) )?({NAMED} (?:\w+ )?\w+) "
+        r"(?:comes|goes|gets taken|is taken) off first"
+        r"(?: and|, and| and then|, then) (?=(?:goes|is put) )",
+        r"\1first \2 ",
+    ),
+    (
+        rf"\b({NAMED} (?:{_COLOR}) one (?:is|goes|ends up|sits) (?:in|on|on top of|next to)) "
+        rf"({_COLOR}){_END}",
+        r"\1 the \2 one",
+    ),
+    (rf"(^|[.;!,] )only (?={NAMED} (?:\w+ )*?\w+ (?:has|needs?) to go away: )", r"\1just "),
+    (
+        rf"\b({NAMED} (?:\w+ )*?\w+) (?:has|have|needs?|must|should|is|are) (?:to )?"
+        rf"(?:go|be put|be tidied|be cleared) away: "
+        rf"(?=(?:(?:in|into|on|onto) )?{NAMED}|\w+ (?:drawer|shelf|board)\b)",
+        r"\1: ",
+    ),
+    # Of the two that were named it is said which is to be on which
+    (
+        r"(\bthere (?:is|are) an? [^.;,]*? on (?:top of )?an? [^.;,]*[.;,] )((?:so |please )*)"
+        r"(?:turn|swap|switch|reverse|flip|change) (?:the|their|this) (?:order|stack) "
+        r"(?:around |round |over )?(?=so (?:that )?)so (?:that )?",
+        r"\1\2make sure that ",
+    ),
+    (
+        rf"\b((?:tidy|clear|put|store|stow|pack) away {NAMED} [^.,:;]*), "
+        rf"(?=(?:in|into) {NAMED} \w+(?: \w+)?{_END}(?!,))",
+        r"\1 ",
+    ),
+    (
+        r"(^|[.;!] )((?:please |just )*)(?:sort|tidy up|tidy|put away) (?:these|this|the following)"
+        rf"(?: away| up)?: (?=[^.:;]* (?:to|in|into|on|onto) {NAMED})",
+        r"\1\2",
+    ),
+    # Where somebody will eat it from, and "there" behind that
+    (
+        rf"\b((?:i|we) (?:want|would like|need) to (?:eat|drink|serve|cut) {NAMED} (?:\w+ )??\w+) "
+        rf"(?:from|off|on|in|out of) ({NAMED} (?:\w+ )??\w+),? so ((?:please )?)"
+        rf"(?:put|lay|place|set|bring) (it|them) there{_END}",
+        r"\1, so \3bring \4 to \2",
+    ),
+    # A reason between two requests
+    (
+        rf"(,? so (?:that )?(?:it|they) (?:stays?|keeps?|remains?) {_WELL})(?= and (?:then )?\w+)",
+        r"\1,",
+    ),
+)
+"""In order."""
