@@ -23,8 +23,10 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
-_NOT_THIS = sequence(
-    small_words.NOT_THERE, noun_phrase, build=lambda np: Modifier(Prep.CONTRAST, (np,))
+_NOT_THIS = either(
+    sequence(small_words.IN_STEAD, noun_phrase, OPTIONAL_COMMA),
+    # "Not the cup should be empty" says nothing of another one.
+    sequence("not", noun_phrase, COMMA),
 )
 
 
@@ -67,6 +69,8 @@ def not_so(chain: Parser) -> Parser:
     )
     return either(
         sequence(LEFT_OUT, COMMA, chain, build=_without),
-        sequence(_NOT_THIS, OPTIONAL_COMMA, chain, build=_without),
+        sequence(
+            valued(_NOT_THIS, lambda np: Modifier(Prep.CONTRAST, (np,))), chain, build=_without
+        ),
         sequence(there, chain, build=_elsewhere),
     )
