@@ -12,8 +12,7 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import HandPart
 from etot_cli.skills.outcome import Blockers
 from etot_cli.skills.placements.judging import SHORT_DROP, Quality, Request
-from etot_cli.skills.placements.places import Place, PlaceFinder
-from etot_cli.skills.placements.undersides import Stamps
+from etot_cli.skills.placements.places import Place
 from etot_cli.world.arrays import Vector
 from etot_cli.world.model import World
 from etot_cli.world.pose import LINE_STEP, UP, Pose, straight
@@ -21,53 +20,51 @@ from etot_cli.world.state import DESK, owner_of
 
 HOVER = 0.06
 """Height above a surface from which an object is lowered straight [m]."""
+
+
 MOUTH_CLEARANCE = 0.02
 """How far above a container's rim the lowest part starts going in [m]."""
+
+
 OUTSIDE = 0.03
 """Distance of the object from a front before it goes in [m]."""
+
+
 SURFACE_GAP, FLOOR_GAP = 0.002, 0.006
 """The object is let go this far above a surface [m]; and above a container's floor or a board,
 which may be dragged along by what is pressed on it, and over which it goes in."""
+
+
 ENTRY_HIGHER = 0.012
 """Before a front it is higher than it is let go by this where the roof leaves room [m]: what slides
 down in the fingers on the way there (5 mm and more, half-way around) must not meet the edge."""
+
+
 RETREAT = 0.09
 """Distance of the straight retreat [m]."""
+
+
 LOWER_STEP = 0.016
 """Spacing of poses on the way down [m]."""
+
+
 RELEASES = (0.024, 0.016, 0.010, 0.006, 0.003)
 """How far the fingers open to let go [m]: the widest that touches nothing but the object. 12 mm a
 side are clear of what leans over; 1.5 mm a side still let go."""
+
+
 CLEARANCE = 0.001
 """Distance that hand and object keep from everything on the way down [m]."""
+
+
 RAISES = (0.0, 0.006, 0.014, 0.026, 0.042)
 """Higher up the hand may be able to open where it cannot at the bottom, and the wrist of a level
 hand may clear the floor [m]."""
+
+
 SLANTING, STRAIGHT = 0.7, 0.9998
 """Cosines of ways out to straight ahead and to each other: a hand points in by no more than 40° to
 either side; on the way through a shelf 1° makes a few millimetres, as much as a finger opens."""
-MAX_TRIES, TRIES_AGAIN = 60, 8
-"""Places of one action that are looked at exactly, and when somebody is thought away. Of 30 floors
-with a free place that was not among the best 40, one had it beyond these 60; most are all looked at
-with 20 to 40."""
-BEST_TRIES, SPREAD = 20, 0.06
-"""After so many of the best places the others are spread over the floor, this far apart with the
-same turn [m]: what goes wrong at twenty of them does beside them too."""
-LEVEL_TRIES = 40
-"""Where a floor has so many places, who stands on it is in the way before anything is put on top:
-three mugs for a cupboard were piled up, and toppled."""
-ALL_TRIES = 200
-"""Places that are looked at before an object is blamed, close to each other: half a second."""
-SAME_PLACE = 0.012
-"""Where something is in the way, it is so for the same turn this far around [m]."""
-APART = 0.02
-"""Placements that are offered are this far apart [m]: what goes wrong at one does beside it too."""
-MAX_FOUND = 8
-"""Placements offered for one action."""
-UNREACHED_AROUND = 0.03
-"""What the arm does not reach it does not reach with the same turn this far around either [m]."""
-UNREACHED_STEP = 0.02
-"""Places this much further away than one that the arm does not reach are not looked at [m]."""
 
 
 @dataclass(frozen=True)
@@ -106,72 +103,14 @@ class Tally:
         return self.unreached + self.obstructed
 
 
-def placements(
-    belief: Belief,
-    request: Request,
-    tally: Tally,
-    stamps: Stamps | None = None,
-    *,
-    thoroughly: bool = False,
-) -> Iterator[Placement]:
-    """Prepared placements, the best first; worked out as they are asked for.
-
-    Args:
-        belief: the scene, with the object in the hand.
-        request: what goes where.
-        tally: takes note of what becomes of the places.
-        stamps: undersides known from looking at the same floor before. Whoever has them looks
-            again, and more briefly.
-        thoroughly: look at many more places, none left out between others.
-    """
-    finder = PlaceFinder(belief, request, stamps)
-    tries = MAX_TRIES if stamps is None else TRIES_AGAIN
-    if thoroughly:
-        tries = ALL_TRIES
-    done: list[_Mark] = []
-    found, upright, passed, far = 0, 0, 0, np.inf
-    for place in finder.places(as_held=stamps is not None):
-        position, rotation = place.pose.position, place.pose.rotation
-        if tally.looked_at >= tries:
-            return
-        if place.laid and upright >= BEST_TRIES:
-            continue  # there is room but for the hand, which may hold it otherwise
-        on_others = place.bearers - {request.support.owner}
-        if on_others and tally.looked_at + passed >= LEVEL_TRIES:
-            continue
-        radius = float(np.hypot(*position[:2]))
-        if radius > far or any(mark.covers(position, rotation) for mark in done):
-            continue
-        spread = tally.looked_at >= BEST_TRIES and not thoroughly
-        if spread and any(mark.covers(position, rotation, SPREAD) for mark in done):
-            passed += 1
-            continue
-        placement, reached = _placement(belief, request, place, tally)
-        upright += not place.laid
-        if placement is not None:
-            yield placement
-            found += 1
-            if found == MAX_FOUND:
-                return
-            done.append(_Mark(position, None, APART))
-        elif reached:
-            tally.obstructed += 1
-            done.append(_Mark(position, rotation, SAME_PLACE))
-        else:
-            tally.unreached += 1
-            done.append(_Mark(position, rotation, UNREACHED_AROUND))
-            if radius > belief.arm.comfortable_radius(request.support.center[2]):
-                far = min(far, radius + UNREACHED_STEP)
-
-
 def placement_at(belief: Belief, request: Request, place: Place) -> Placement | None:
     """The placement at one place; None where something is in the way there, or the arm does not
     reach it.
     """
-    return _placement(belief, request, place, Tally(belief.world))[0]
+    return prepared_at(belief, request, place, Tally(belief.world))[0]
 
 
-def _placement(
+def prepared_at(
     belief: Belief, request: Request, place: Place, tally: Tally
 ) -> tuple[Placement | None, bool]:
     """The placement at one place, and whether the arm gets there at all."""
@@ -180,22 +119,6 @@ def _placement(
         way = _Way(belief, request, place, tally)
         placement = way.through_front() if request.support.from_front else way.from_above()
     return placement, way.reached
-
-
-@dataclass(frozen=True)
-class _Mark:
-    """A place that has been dealt with: with one turn, or with all where there is none."""
-
-    position: Vector
-    rotation: Vector | None
-    radius: float
-
-    def covers(self, position: Vector, rotation: Vector, apart: float = 0.0) -> bool:
-        """Whether another place is much the same, or with one turn nearer than ``apart`` [m]."""
-        offset = position - self.position
-        radius = self.radius if self.rotation is None else max(self.radius, apart)
-        near = bool(np.hypot(offset[0], offset[1]) < radius)
-        return near and (self.rotation is None or np.array_equal(rotation, self.rotation))
 
 
 class _Way:

@@ -11,9 +11,10 @@ from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Preference, Request
+from etot_cli.skills.placements.looking import placements
 from etot_cli.skills.placements.orientation import points_down
 from etot_cli.skills.placements.overhang import from_open_side
-from etot_cli.skills.placements.placement import Placement, Tally, placements
+from etot_cli.skills.placements.placement import Placement, Tally
 from etot_cli.skills.placements.refusal import why_no_place
 from etot_cli.skills.placements.support import (
     DESK_EDGE,

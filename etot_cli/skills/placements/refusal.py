@@ -10,13 +10,8 @@ import numpy as np
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Quality, Request
-from etot_cli.skills.placements.placement import (
-    BEST_TRIES,
-    Placement,
-    Tally,
-    placement_at,
-    placements,
-)
+from etot_cli.skills.placements.looking import BEST_TRIES, placements
+from etot_cli.skills.placements.placement import Placement, Tally, placement_at
 from etot_cli.skills.placements.places import PlaceFinder
 from etot_cli.skills.placements.relief import relief
 from etot_cli.skills.placements.undersides import Stamps

@@ -133,14 +133,10 @@ def _nothing_there(said: str) -> Parser:
 
 
 _HOLDS_NOTHING = "contains nothing, contain nothing, holds nothing, hold nothing"
-
-
 _TOP = ("top",)
 
 
 _TOP_OF = sequence("the (top|surface) of", ALL_THINGS)
-
-
 _ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
 
 
@@ -240,6 +236,4 @@ IS_EMPTY = variants(
     to_be_empty,
 )
 """What something is done for ("so that the box is empty")."""
-
-
 NOTHING_THERE = _nothing_there(verbs.NOTHING_IS_SO)

@@ -1,0 +1,112 @@
+"""Which places are looked at closely, one after the other, until some are free."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from etot_cli.skills.belief import Belief
+from etot_cli.skills.placements.judging import Request
+from etot_cli.skills.placements.placement import Placement, Tally, prepared_at
+from etot_cli.skills.placements.places import PlaceFinder
+from etot_cli.skills.placements.undersides import Stamps
+from etot_cli.world.arrays import Vector
+
+MAX_TRIES, TRIES_AGAIN = 60, 8
+"""Places of one action that are looked at exactly, and when somebody is thought away. Of 30 floors
+with a free place that was not among the best 40, one had it beyond these 60; most are all looked at
+with 20 to 40."""
+BEST_TRIES, SPREAD = 20, 0.06
+"""After so many of the best places the others are spread over the floor, this far apart with the
+same turn [m]: what goes wrong at twenty of them does beside them too."""
+LEVEL_TRIES = 40
+"""Where a floor has so many places, who stands on it is in the way before anything is put on top:
+three mugs for a cupboard were piled up, and toppled."""
+ALL_TRIES = 200
+"""Places that are looked at before an object is blamed, close to each other: half a second."""
+SAME_PLACE = 0.012
+"""Where something is in the way, it is so for the same turn this far around [m]."""
+APART = 0.02
+"""Placements that are offered are this far apart [m]: what goes wrong at one does beside it too."""
+MAX_FOUND = 8
+"""Placements offered for one action."""
+UNREACHED_AROUND = 0.03
+"""What the arm does not reach it does not reach with the same turn this far around either [m]."""
+UNREACHED_STEP = 0.02
+"""Places this much further away than one that the arm does not reach are not looked at [m]."""
+
+
+def placements(
+    belief: Belief,
+    request: Request,
+    tally: Tally,
+    stamps: Stamps | None = None,
+    *,
+    thoroughly: bool = False,
+) -> Iterator[Placement]:
+    """Prepared placements, the best first; worked out as they are asked for.
+
+    Args:
+        belief: the scene, with the object in the hand.
+        request: what goes where.
+        tally: takes note of what becomes of the places.
+        stamps: undersides known from looking at the same floor before. Whoever has them looks
+            again, and more briefly.
+        thoroughly: look at many more places, none left out between others.
+    """
+    finder = PlaceFinder(belief, request, stamps)
+    tries = MAX_TRIES if stamps is None else TRIES_AGAIN
+    if thoroughly:
+        tries = ALL_TRIES
+    done: list[_Mark] = []
+    found, upright, passed, far = 0, 0, 0, np.inf
+    for place in finder.places(as_held=stamps is not None):
+        position, rotation = place.pose.position, place.pose.rotation
+        if tally.looked_at >= tries:
+            return
+        if place.laid and upright >= BEST_TRIES:
+            continue  # there is room but for the hand, which may hold it otherwise
+        on_others = place.bearers - {request.support.owner}
+        if on_others and tally.looked_at + passed >= LEVEL_TRIES:
+            continue
+        radius = float(np.hypot(*position[:2]))
+        if radius > far or any(mark.covers(position, rotation) for mark in done):
+            continue
+        spread = tally.looked_at >= BEST_TRIES and not thoroughly
+        if spread and any(mark.covers(position, rotation, SPREAD) for mark in done):
+            passed += 1
+            continue
+        placement, reached = prepared_at(belief, request, place, tally)
+        upright += not place.laid
+        if placement is not None:
+            yield placement
+            found += 1
+            if found == MAX_FOUND:
+                return
+            done.append(_Mark(position, None, APART))
+        elif reached:
+            tally.obstructed += 1
+            done.append(_Mark(position, rotation, SAME_PLACE))
+        else:
+            tally.unreached += 1
+            done.append(_Mark(position, rotation, UNREACHED_AROUND))
+            if radius > belief.arm.comfortable_radius(request.support.center[2]):
+                far = min(far, radius + UNREACHED_STEP)
+
+
+@dataclass(frozen=True)
+class _Mark:
+    """A place that has been dealt with: with one turn, or with all where there is none."""
+
+    position: Vector
+    rotation: Vector | None
+    radius: float
+
+    def covers(self, position: Vector, rotation: Vector, apart: float = 0.0) -> bool:
+        """Whether another place is much the same, or with one turn nearer than ``apart`` [m]."""
+        offset = position - self.position
+        radius = self.radius if self.rotation is None else max(self.radius, apart)
+        near = bool(np.hypot(offset[0], offset[1]) < radius)
+        return near and (self.rotation is None or np.array_equal(rotation, self.rotation))
