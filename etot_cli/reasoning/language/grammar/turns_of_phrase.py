@@ -22,6 +22,7 @@ _AFTERWARDS = (
     r"(?:afterwards|after that|(?:at|in) the end|(?:when|once|after) you are (?:done|finished)"
     r"|(?:when|once) you have finished)"
 )
+_ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -109,8 +110,17 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     # A reason ahead of a request
     (
-        rf"(^|[.;!] )(?:in order |so as )?to keep (it|them) ({_WELL}), ([^.;!?]+)",
+        rf"(^|[.;!] )(?:in order |so as )?to keep (it|them) ({_WELL}), {_ASKED_FOR}",
         lambda said: f"{said[1]}{said[4]}, so that {_STAYS[said[2]]} {said[3]}",
+    ),
+    (
+        rf"(^|[.;!] )(?:in order |so as )?to keep ({NAMED} (?:\w+ )??\w+?(s?)) ({_WELL}), "
+        rf"((?:please )?(?:put|place|store|move|set|leave) )?(it|them) {_ASKED_FOR}",
+        lambda said: (
+            f"{said[1]}{said[5] or ''}{said[2]} {said[7]}, so that {_STAYS[said[6]]} {said[4]}"
+            if bool(said[3]) == (said[6] == "them")
+            else said[0]
+        ),
     ),
     # How it was for too long, behind a request
     (rf", (?=(?:it|that) has been (?:open|closed|shut) {_SO_LONG}{_END}(?!,))", ". "),
@@ -162,7 +172,10 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"(?:that |which )?you (?:will |can )?find "
         r"(?=(?:between|in|on|behind|beside|under|next to|near) [^.,;:]*? "
         r"(?:belongs?|goes?|should|must|has to|needs to)\b)",
-        r"\1\2 that is ",
+        lambda said: (
+            f"{said[1]}{said[2]} that "
+            f"{'are' if said[2].endswith('s') and not said[2].endswith('ss') else 'is'} "
+        ),
     ),
 )
 """In order."""
