@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
+
 from etot_cli.reasoning.language.words.small_words import NAMED
 from etot_cli.world.colors import BASIC_COLORS
 
@@ -11,8 +14,18 @@ _FINE = r"(?:fine|ok|okay|all right|alright|no problem)"
 _KEPT = r"(?:(?:can |to )?(?:stays?|remains?|is|are|be)(?: (?:left|kept))?)"
 _LEFT = r"(?:hanging|standing|sitting|left|still|just)"
 _WELL = r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"
+_SO_LONG = (
+    r"(?:for )?(?:long enough|(?:too|so|very) long|ages|hours|days|weeks"
+    r"|quite (?:some|a) (?:time|while))"
+)
+_AFTERWARDS = (
+    r"(?:afterwards|after that|(?:at|in) the end|(?:when|once|after) you are (?:done|finished)"
+    r"|(?:when|once) you have finished)"
+)
+_ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
+_STAYS = {"it": "it stays", "them": "they stay"}
 
-TURNS_OF_PHRASE: tuple[tuple[str, str], ...] = (
+TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # Who finds it fine if it stays open need not have it so
     (
         rf"\bit (?:is|would be|will be) {_FINE}(?: (?:by|with|for) (?:me|us))? "
@@ -73,7 +86,9 @@ TURNS_OF_PHRASE: tuple[tuple[str, str], ...] = (
     ),
     (
         rf"\b((?:tidy|clear|put|store|stow|pack) away {NAMED} [^.,:;]*), "
-        rf"(?=(?:in|into) {NAMED} \w+(?: \w+)?{_END}(?!,))",
+        rf"(?=(?:in|into) {NAMED} \w+(?: (?!or\b)\w+)?(?: or {NAMED} \w+(?: \w+)?)?"
+        rf"(?:{_END}(?!,)|,? and (?:then )?(?:close|shut)\b"
+        r"|, (?:i do not (?:mind|care)|no matter|it does not matter|whichever)\b))",
         r"\1 ",
     ),
     (
@@ -92,6 +107,75 @@ TURNS_OF_PHRASE: tuple[tuple[str, str], ...] = (
     (
         rf"(,? so (?:that )?(?:it|they) (?:stays?|keeps?|remains?) {_WELL})(?= and (?:then )?\w+)",
         r"\1,",
+    ),
+    # A reason ahead of a request
+    (
+        rf"(^|[.;!] )(?:in order |so as )?to keep (it|them) ({_WELL}), {_ASKED_FOR}",
+        lambda said: f"{said[1]}{said[4]}, so that {_STAYS[said[2]]} {said[3]}",
+    ),
+    (
+        rf"(^|[.;!] )(?:in order |so as )?to keep ({NAMED} (?:\w+ )??\w+?(s?)) ({_WELL}), "
+        rf"((?:please )?(?:put|place|store|move|set|leave) )?(it|them) {_ASKED_FOR}",
+        lambda said: (
+            f"{said[1]}{said[5] or ''}{said[2]} {said[7]}, so that {_STAYS[said[6]]} {said[4]}"
+            if bool(said[3]) == (said[6] == "them")
+            else said[0]
+        ),
+    ),
+    # How it was for too long, behind a request
+    (rf", (?=(?:it|that) has been (?:open|closed|shut) {_SO_LONG}{_END}(?!,))", ". "),
+    # Ways of taking hold of a thing, and places, of which any will do
+    (
+        r"[,;.:] an? (\w+) (grasp|grip) (?:and|or) an? (\w+) \2 "
+        rf"(?:is|are|would be) (?:both |equally )?{_FINE}{_END}",
+        r" with a \1 \2 or a \3 \2",
+    ),
+    (
+        rf"\b(?:one|any|either) of the (?:two )?(\w+?)(?:(?<=[xsh])es|s)((?: please)?), "
+        rf"({_COLOR}) or ({_COLOR})"
+        rf"(?:, (?:both|either|each) (?:is|are|would be) (?:equally )?{_FINE})?{_END}",
+        r"the \3 \1 or the \4 \1\2",
+    ),
+    # What is to be in what "has" it, and by when; all that is so is so in the end
+    (
+        rf"( in it,? (?:and )?with (?:its|the) door (?:closed|shut)) {_AFTERWARDS}{_END}",
+        r"\1",
+    ),
+    (
+        rf"\b(there (?:should|must) be no [^.,;:]*? (?:in|on) {NAMED} \w+(?: \w+)??),?"
+        rf" {_AFTERWARDS}(?=;|[.!] )",
+        r"\1",
+    ),
+    # What goes somewhere first and what goes on top of that
+    (
+        r"(^|[.;!] )((?:(?!and\b|then\b|not\b|but\b)\w+ ){1,5}?goes (?:in|into|on|onto) "
+        rf"{NAMED} \w+(?: \w+)?) first,?"
+        rf" (?:and|then|and then) (?={NAMED} [^.,;:]* on top of (?:that|it){_END})",
+        r"\1first \2, then ",
+    ),
+    # What is not somewhere yet and is to go there
+    (
+        r"(^|[.;!,] )((?:please |now |then )*)(?:whatever|whichever) (\w+) (?:is|are) not"
+        rf"(?: already| yet)? ((?:in|on) {NAMED} \w+(?: (?!already\b|yet\b)\w+)?)"
+        r"(?: already| yet)?, "
+        rf"(?:please )?(put|place|bring|move) (?:it|them) there{_END}",
+        r"\1\2\5 all the \3 that is not \4 \4",
+    ),
+    (
+        r"\b(the (?:end|final|target|goal) (?:state|situation|arrangement)) (?:that )?"
+        r"(?:i|we) (?:want|need|would like)(?= is\b|:)",
+        r"\1",
+    ),
+    # A thing that is found somewhere
+    (
+        rf"(^|[.;!] )({NAMED} (?:\w+ )??(?!that\b|which\b)\w+) "
+        r"(?:that |which )?you (?:will |can )?find "
+        r"(?=(?:between|in|on|behind|beside|under|next to|near) [^.,;:]*? "
+        r"(?:belongs?|goes?|should|must|has to|needs to)\b)",
+        lambda said: (
+            f"{said[1]}{said[2]} that "
+            f"{'are' if said[2].endswith('s') and not said[2].endswith('ss') else 'is'} "
+        ),
     ),
 )
 """In order."""

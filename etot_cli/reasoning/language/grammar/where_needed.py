@@ -51,6 +51,10 @@ _TAKE_IT = rf"(?:{_TAKE} {_THING} (?:{_OUT}|{_ELSEWHERE})|{_TOUCH} {_THING}(?: {
 _TAKING_IT = (
     rf"(?:{_TAKING} {_THING} (?:{_OUT}|{_ELSEWHERE})|{_TOUCHING} {_THING}(?: {_ELSEWHERE})?)"
 )
+_AND_LEAVE_IT = (
+    rf"(?: and (?:leave {_IT} there|(?:leave|put|lay|set|place|stand|keep) {_IT} "
+    r"on (?:the|my|our) (?:desk|table|counter|worktop|bench)))"
+)
 _LEAVE_IT = rf"leave {_THING} (?:alone|untouched)"
 _FINE = r"(?:fine|ok|okay|all right|alright|allowed|permitted|no problem)"
 _ALLOWED = (
@@ -63,6 +67,7 @@ _WHERE_NEEDED = Expression(
     rf"{_YOU}(?:{_TAKE_IT}|{_TAKING_IT}){_FIRST} {_NEEDED}"
     rf"|you (?:can|could) {_TAKE} {_THING} {_ELSEWHERE}{_FIRST}"
     rf"|{_ALLOWED} {_TAKE_IT}{_FIRST}(?: {_NEEDED})?"
+    rf"|it (?:is|would be) {_FINE} (?:for you to|to|if you) {_TAKE_IT}{_AND_LEAVE_IT}"
     rf"|{_TAKING_IT} (?:is|would be) {_FINE}(?: {_NEEDED})?"
     rf"|{_THING} (?:may|might|can|could) be {_TAKEN}{_FIRST}(?: {_NEEDED})?"
     rf"|(?:you {_MAY_HAVE_TO} {_TAKE_IT}|{_THING} {_MAY_HAVE_TO} be {_TAKEN}){_FIRST}"
