@@ -86,14 +86,16 @@ def shortened(word: str, known: Iterable[str]) -> str | None:
     It has at least four letters, leaves out two or more, and is no word of English itself.
     """
     stem = word.removesuffix("s")
-    if len(stem) < SHORTENED_TO or not word.isalpha() or is_english(stem) or is_english(word):
+    if len(stem) < SHORTENED_TO or not word.isalpha():
         return None
     several = word != stem
     found = {
         name for name in known if name.isalpha() and len(name) > len(stem) + 1 + several
         if name.startswith(stem) and (singular(name) != name) == several
     }  # fmt: skip
-    return found.pop() if len(found) == 1 else None
+    # The dictionary is loaded only where it matters: that takes longer than reading.
+    alone = len(found) == 1 and not (is_english(stem) or is_english(word))
+    return found.pop() if alone else None
 
 
 def exchanged(word: str, known: Iterable[str]) -> str | None:
