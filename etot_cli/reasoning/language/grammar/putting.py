@@ -158,6 +158,11 @@ def brought(things: Things, source: Any, where: tuple[Destination, ...]) -> PutG
     return PutGroup(things.taken_from(lent[0] if lent else source), where)
 
 
+def _rather_there(text: str, clause: PutClause) -> PutClause:
+    """In "grab the cup on top of the shelf" the cup may as well be there by now."""
+    return replace(clause, far_fetched=clause.far_fetched + ("on top of" in text))
+
+
 def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
     """Down, or where it was; behind "carry it to the bowl" "and release it" asks for no more."""
     again = any(np.pronoun for np in things.phrases)
@@ -325,23 +330,26 @@ PUT = either(
     ),
     sequence(verbs.DO_NOT, verbs.PUT, THINGS, INSTEAD, build=put_to),
     sequence(verbs.PUT, RESPECTIVE_GROUPS, build=PutClause),
-    sequence(
-        verbs.BRING,
-        separated(
-            sequence(
-                THINGS,
-                # "Off the tray and onto the shelf"
-                optional(sequence(SOURCE, optional(LIST)), None),
-                DIRECTED,
-                build=brought,
+    spanned(
+        sequence(
+            verbs.BRING,
+            separated(
+                sequence(
+                    THINGS,
+                    # "Off the tray and onto the shelf"
+                    optional(sequence(SOURCE, optional(LIST)), None),
+                    DIRECTED,
+                    build=brought,
+                ),
+                LIST,
+                most=5,
             ),
-            LIST,
-            most=5,
+            # "Get the cup and the pen onto the tray, pen in the cup"
+            some(sequence(LIST_COMMA, PUT_GROUP), most=3),
+            EXTRAS,
+            build=lambda groups, more, extras: put_of((*groups, *more), extras),
         ),
-        # "Get the cup and the pen onto the tray, pen in the cup"
-        some(sequence(LIST_COMMA, PUT_GROUP), most=3),
-        EXTRAS,
-        build=lambda groups, more, extras: put_of((*groups, *more), extras),
+        _rather_there,
     ),
     sequence(
         # "Clear it all off the tray and onto the shelf"
