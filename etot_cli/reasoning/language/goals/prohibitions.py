@@ -43,7 +43,6 @@ _KEEPS = {
 }
 
 
-_ADDRESS = attrgetter("address")
 _LEAVING = (Avoid.TOUCH, Avoid.MOVE, Avoid.HIT)
 _THE_REST = (("the rest",), ("all the rest",), ("the others",))
 
@@ -135,9 +134,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     if clause.avoid in _LEAVING:
         context.discourse.left_alone |= {*indices}
         out = [thing for i in indices for thing in context.discourse.left_out.get(i, ())]
-        for thing in sorted(
-            out, key=_ADDRESS
-        ):  # "all as it is except for the cup; that goes on the tray"
+        # "All as it is except for the cup; that goes on the tray"
+        for thing in sorted(out, key=attrgetter("address")):
             context.discourse.alone(thing, Role.THEME)
     # A drawer moves by being opened or closed, not with its chest.
     joints = sum(JOINT_NOUNS.values(), ())

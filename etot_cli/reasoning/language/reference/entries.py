@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     KIND_GROUPS,
     LIDDED,
+    NAMED_FOR_A_SORT,
     OTHER_SORTS,
     SORTS,
     basic_color,
@@ -269,8 +270,8 @@ def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
     if own & PACKED:
         fitting += [group for group in groups if PACKS & {*group}]
     if not fitting and not own & (COMMON_NOUNS | OF_A_SORT):
-        fitting = list(groups[-1:] if kind == "pen" else groups)
-    if kind in own and kind != "pen":  # which is itself a sort of what is so long and thin
+        fitting = list(groups[-1:] if kind in NAMED_FOR_A_SORT else groups)
+    if kind in own and kind not in NAMED_FOR_A_SORT:
         fitting = list(groups)
     return tuple(noun for group in fitting for noun in group)
 

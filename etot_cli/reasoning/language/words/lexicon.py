@@ -35,6 +35,8 @@ KIND_GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
     "shelf": (("shelf", "rack", "bookcase", "bookshelf", "stand"),),
 }  # fmt: skip
 """Nouns that name an object by its kind, those that may stand for each other together."""
+NAMED_FOR_A_SORT = frozenset({"pen"})
+"""Kinds named for but one sort of them: a marker is no pen, and what is neither is a rod."""
 KIND_NOUNS = {
     kind: tuple(noun for group in groups for noun in group) for kind, groups in KIND_GROUPS.items()
 }
