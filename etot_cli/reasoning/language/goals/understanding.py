@@ -97,7 +97,7 @@ class Understanding:
             )
             said = len(self.context.discourse.mentions)
             before_it = {mention.referent for mention in self.context.discourse.mentions}
-            steps = tuple(steps_of(spoken.clause, self.context))
+            steps = self._steps(spoken)
             further = spoken is not reading[0] or spoken.order is Order.THEN
             # "Take the dish out of the oven … Put the pan in the oven instead"
             named = {*self.context.discourse.things(*before_it)}
@@ -130,6 +130,18 @@ class Understanding:
                 timed[before] = item
         check_opposites(self.context.discourse)
         self.timed += [timed[id(spoken)] for spoken in reading if id(spoken) in timed]
+
+    def _steps(self, spoken: Spoken) -> tuple[Step, ...]:
+        """The steps of a clause. What has been spoken of before is nowhere else by then where it
+        comes first ("put the bowl on the tray; the tray has to be cleared first").
+        """
+        discourse = self.context.discourse
+        if spoken.order is not Order.FIRST:
+            return tuple(steps_of(spoken.clause, self.context))
+        later, discourse.placed = discourse.placed, {}
+        steps = tuple(steps_of(spoken.clause, self.context))
+        discourse.placed |= later
+        return steps
 
     def _narrowed(self, step: Step, after: Step | None) -> bool:
         """Whether the next step says more closely where things go ("carry it over to the bag and

@@ -249,6 +249,9 @@ def check_selected(asked: Asked, things: Sequence[Thing], scene: SceneState) -> 
         raise asked.problem(f"{word!r} does not tell which of {names} is meant", 3, word)
     if asked.nameless and asked.count == 1 and len(things if quantity.definite else kinds) > 1:
         raise AmbiguousReference(phrase.text, [thing.name for thing in things])
+    if asked.nameless and asked.role is Role.PART and chests:
+        parts = [part.address for part in scene.infos[chests[0].name].parts]
+        raise AmbiguousReference(phrase.text, parts)
 
 
 def _says_several(asked: Asked) -> bool:

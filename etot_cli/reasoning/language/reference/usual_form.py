@@ -85,7 +85,9 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             return left
         (whole, *_) = of.phrases
         modifiers = (*whole.modifiers, *left.without_modifier(of).modifiers)
-        return usual_form(replace(left, words=whole.words, modifiers=modifiers))
+        return usual_form(
+            replace(left, words=whole.words, modifiers=modifiers, without=whole.without)
+        )
     if phrase.determiner.startswith("only "):
         phrase = replace(phrase, determiner=phrase.determiner.removeprefix("only "))
     out = next((item for item in phrase.modifiers if item.prep is Prep.EXCEPT), None)
@@ -142,11 +144,14 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         if one in LEVELS:
             # Of two open drawers the lower one may be the middle one of three.
             told, modifiers = told[:-1], (Modifier(Prep.SIDE, words=(LEVELS[one],)), *modifiers)
-        return replace(phrase, words=(*told, *noun), modifiers=modifiers, among=among)
+        without = (*phrase.without, *whole.without)
+        return replace(
+            phrase, words=(*told, *noun), modifiers=modifiers, among=among, without=without
+        )
     if told != phrase.words and is_descriptive(one) and singular(whole.head) != whole.head:
         # "The blue one of the pill boxes", after which "the white one" is one of these, too
         noun = (*whole.words[:-1], whole.head if last == "ones" else singular(whole.head))
-        return replace(phrase, words=(*told, *noun))
+        return replace(phrase, words=(*told, *noun), without=(*phrase.without, *whole.without))
     return phrase
 
 
