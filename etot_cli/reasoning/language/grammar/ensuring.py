@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.grammar.states import (
     ALL_SO,
     ALWAYS,
     IN_OR_ON_IT,
+    NONE,
     NOT_FALLING,
     OPEN_OR_CLOSED,
     PREDICATE,
@@ -120,6 +121,18 @@ OF_SEVERAL = 2
 
 _THERE = (Destination(Toward.HERE, word=AS_SAID),)
 
+
+
+def _none(nps: tuple[NounPhrase, ...]) -> bool:
+    """Whether something is said of no such thing."""
+    return all(np.determiner in NONE for np in nps)
+
+
+def _none_left(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
+    """Who leaves none of some things open closes them."""
+    return ensured(state_of(nps, word)) if _none(nps) else None
+
+
 _ARE_STILL = sequence(
     NP_LIST, silent(optional("[to be] [left|kept]")), OPEN_OR_CLOSED, build=not_left
 )
@@ -168,6 +181,14 @@ ENSURE = either(
         build=_may_be,
     ),
     sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
+    sequence(verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=_none_left),
+    sequence(
+        # "No cup but the red one is allowed on the tray"
+        NP_LIST,
+        "(is|are) (allowed|permitted|welcome|wanted) [to (be|stand|lie|go|stay)]",
+        DESTINATIONS,
+        build=lambda nps, so: ensured(state_of(nps, so)) if _none(nps) else None,
+    ),
     sequence(
         # "I do not need the microwave open anymore"
         either(
@@ -236,7 +257,7 @@ ENSURE = either(
             NOT_FALLING,
             being("end[s] up"),
             containing(verbs.CONTAIN),
-            containing("(should|must|shall|has to|have to|is to) (carry|bear)", Toward.ON),
+            containing(verbs.TO_CARRY, Toward.ON),
             sequence(noun_phrase, verbs.END_WITH, NP_LIST, IN_OR_ON_IT, build=holding),
         ),
         lambda state: EnsureClause((state,)),

@@ -321,6 +321,7 @@ _modifier = either(
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),
     sequence(COMMA, CONTRASTED, COMMA),
+    sequence(COMMA, nouns.EXCEPT, exceptions, COMMA, build=excepting),
     sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions, LEFT, build=excepting),
 )
 MODIFIER.define(_modifier)

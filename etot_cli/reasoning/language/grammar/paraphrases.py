@@ -8,6 +8,7 @@ from collections.abc import Callable
 from etot_cli.reasoning.language.grammar.asked_otherwise import ASKED_OTHERWISE
 from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
+from etot_cli.reasoning.language.grammar.end_states import END_STATES
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
@@ -77,6 +78,7 @@ def _in_turn(said: re.Match[str]) -> str:
 
 _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     *CONTRACTIONS,
+    *END_STATES,
     *ASKED_OTHERWISE,
     *OBSTACLES,
     *LISTINGS,

@@ -116,6 +116,12 @@ _FORBIDDEN = either(
 _AVOIDED = sequence("avoid, [while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH))
 AVOID = either(
     _AVOIDED,
+    sequence(
+        # "Nothing may be put on the desk"
+        either(verbs.NOTHING_GOES, sequence(phrase(verbs.SET), "nothing")),
+        DESTINATIONS,
+        build=lambda *said: AvoidClause(Avoid.PUT, ANYTHING, said[-1], negated=True),
+    ),
     sequence(optional(verbs.ENSURE), NOT_MET),
     sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
     sequence(

@@ -175,7 +175,15 @@ OUT_AND_INTO = sequence(
 """From one place to another ("out of the box and on the desk")."""
 
 
-_A_PLACE = "a [new|nice|good|free|safe|proper] (place|spot|home|seat) [~comma]"
+_A_PLACE = """
+    a [new|nice|good|free|safe|proper] (place|spot|home|seat) [~comma], [some|enough] (room|space)
+"""
+
+
+_NEEDS_A_PLACE = """
+    [still] (needs|need|deserves) (a|its|their) [new|safe|proper] (place|spot|home|places|homes),
+    (should|must|has to|have to|is to|are to) find (a|its|their) [new|safe|proper] (place|spot|home)
+"""
 
 
 _COMES_AND_GOES = """
@@ -186,7 +194,10 @@ _COMES_AND_GOES = """
 
 PUT = either(
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
-    sequence("find[ing]", _A_PLACE, "for", THINGS, DESTINATIONS, build=put_to),
+    sequence(
+        "find[ing]", _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to
+    ),
+    sequence(ALL_THINGS, _NEEDS_A_PLACE, DESTINATIONS, build=put_to),
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(verbs.WANTED, CHOICE, optional("to be"), DESTINATIONS, build=put_to),
     sequence(

@@ -188,6 +188,7 @@ STATE = either(
     STAYS,
     NOT_FALLING,
     containing("contains, holds, has, have"),
+    containing(verbs.CARRIES, Toward.ON),
 )
 
 
@@ -230,6 +231,14 @@ def kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> Ensu
 
 
 BESIDES_SO = either(
+    sequence(
+        # "…: the cup, containing the pen"
+        "containing, holding, carrying, bearing",
+        NP_LIST,
+        build=lambda held: ensured(
+            State(held, (Destination(Toward.INSIDE, (NounPhrase(pronoun="it", text="it"),)),))
+        ),
+    ),
     sequence(
         "with",
         NP_LIST,

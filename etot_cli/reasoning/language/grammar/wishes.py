@@ -58,15 +58,25 @@ def _shared(things: Things, place: NounPhrase) -> PutClause | None:
     return replace(put, grouping=Grouping.TOGETHER) if things.may_be_several else None
 
 
+def _its_own(things: Things, place: NounPhrase) -> PutClause | None:
+    """Things of which each is to have a place "of its own"."""
+    own = place.determiner == "a" and place.words[:1] == ("different",)
+    return put_to(things, (Destination(Toward.TO, (place,), FILLED),)) if own else None
+
+
 WANTED = either(
     PASSIVE,
+    sequence(ALL_THINGS, verbs.TO_HAVE, noun_phrase, build=_its_own),
     sequence(
         either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
         DESTINATIONS,
         build=put_to,
     ),
     sequence(
-        either(sequence("have, let", ALL_THINGS, "join"), sequence(ALL_THINGS, verbs.JOIN)),
+        either(
+            sequence(f"have, let, {verbs.CAN}", ALL_THINGS, "[please] join"),
+            sequence(ALL_THINGS, verbs.JOIN),
+        ),
         noun_phrase,
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
@@ -84,7 +94,7 @@ WANTED = either(
             # "On the tray I want the cup with the pen in it"
             DESTINATIONS,
             OPTIONAL_COMMA,
-            f"{verbs.WANTED}, {verbs.THERE_BE}",
+            f"{verbs.WANTED}, {verbs.STANDS_THERE}",
             NP_LIST,
             build=lambda where, nps: EnsureClause((State(nps, where),)),
         )
@@ -165,6 +175,7 @@ def _belonging(things: Things, where: tuple[Destination, ...]) -> EnsureClause:
     return EnsureClause((State(things.phrases, where),))
 
 
+_ENSURED = silent(optional(verbs.ENSURE))
 _THE_ONE = "is the one [that|which]"
 _POINTED_OUT = either(
     phrase("that, it, this", NounPhrase(pronoun="it", text="that")),
@@ -172,8 +183,9 @@ _POINTED_OUT = either(
 )
 TOLD_APART = either(
     # "The cup is the only thing that goes on the tray", "what belongs there is the cup"
-    sequence(ALL_THINGS, _IS, _WHAT_GOES, DESTINATIONS, build=_there),
+    sequence(_ENSURED, ALL_THINGS, _IS, _WHAT_GOES, DESTINATIONS, build=_there),
     sequence(
+        _ENSURED,
         _WHAT_GOES,
         DESTINATIONS,
         _IS,
@@ -234,7 +246,10 @@ TOLD_APART = either(
         either(
             sequence("is where", ALL_THINGS, verbs.BELONG),
             sequence("is where", verbs.WANTED, ALL_THINGS, optional("to (be|go|stand|lie)")),
-            sequence("is the (home|place|spot) (for|of)", ALL_THINGS),
+            sequence(
+                "is the [proper|right|correct|best|usual|natural] (home|place|spot) (for|of)",
+                ALL_THINGS,
+            ),
         ),
         build=lambda np, things: _belonging(things, _at(np)),
     ),

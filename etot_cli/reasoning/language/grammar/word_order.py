@@ -85,7 +85,11 @@ FRONTED = quiet(
         either(
             # "The pen is to be taken out and put in the cup" puts no cup in there.
             sequence(not_after(*verbs.BEING_TAKEN), verbs.PUT, DESTINATIONS),
-            sequence(DESTINATIONS, OPTIONAL_COMMA, either(verbs.PUT, "go[es], belong[s]")),
+            sequence(
+                DESTINATIONS,
+                OPTIONAL_COMMA,
+                either(verbs.PUT, f"go[es], belong[s], come[s]"),
+            ),
         ),
         NP_LIST,
         build=_fronted,
@@ -106,7 +110,7 @@ PLACE_AHEAD = quiet(
 _THESE = "(this|these|the following) [things|objects|items]"
 FOLLOWING = sequence(
     either(
-        sequence(sequence(verbs.PUT, _THESE), DESTINATIONS, COMMA),
+        sequence(f"{verbs.PUT}, set up, arrange, lay out, have", _THESE, DESTINATIONS, COMMA),
         sequence(
             either(sequence(_THESE, verbs.MODAL), "what (goes|belongs|should go|should be)"),
             DESTINATIONS,
@@ -118,13 +122,18 @@ FOLLOWING = sequence(
 )
 
 
+def _counted(whole: NounPhrase, nps: tuple[NounPhrase, ...]) -> bool:
+    """Whether so many things are named as was said ("both fruits, apple and pear")."""
+    return {"both": 2, **NUMBERS}.get((whole.determiner.split() or [""])[-1]) == len(nps)
+
+
 def _named_behind(
     whole: NounPhrase, where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]
 ) -> PutClause | None:
     """Several things that are announced together; "the green one" is one of these."""
     noun = singular(whole.head)
     every = noun == whole.head and whole.words == ("everything",)
-    counted = {"both": 2, **NUMBERS}.get(whole.determiner) == len(nps)
+    counted = _counted(whole, nps)
     some = not whole.determiner and is_category(whole.head)  # "food in the basket: …"
     several = nps[1:] or (not whole.determiner and nps[0].is_elliptic)
     if not several or not (every or counted or some or whole.determiner in _ALL_THESE):
@@ -143,6 +152,13 @@ LISTED = quiet(
         either(
             sequence(verbs.PUT, noun_phrase, _LISTED),
             sequence(noun_phrase, _LISTED, verbs.MODAL),
+            sequence(
+                # "Both fruits, apple and pear, must go in the bowl"
+                noun_phrase,
+                sequence(COMMA, NP_LIST, COMMA),
+                verbs.MODAL,
+                build=lambda whole, nps: (whole, nps) if _counted(whole, nps) else None,
+            ),
             sequence(verbs.WANTED, noun_phrase, _LISTED, optional("to (go|be)")),
         ),
         DESTINATIONS,

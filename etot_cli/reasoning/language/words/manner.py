@@ -85,8 +85,8 @@ HELD = "held"
 """The state of what is there."""
 AS_IT_IS = """
     [standing|lying|sitting] [exactly|right|just] where (it|they|he|she) (is|are|was|were),
-    as (it|they) (is|are) [now],
-    [just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched, unchanged,
+    [exactly|just] as (it|they) (is|are) [right] [now],
+    [exactly|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched, unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
 UNTOUCHED = """

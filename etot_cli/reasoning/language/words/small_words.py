@@ -94,7 +94,7 @@ TASK = f"""
     {ANNOUNCED} ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
     [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted)
-    (state|configuration|arrangement|result|situation|setup) ~comma
+    (state|configuration|arrangement|result|situation|setup|condition|layout|picture) ~comma
 """
 GOAL_IS = """
     [the|our|my|your] [desired|required|intended] (goal|target|(final|end|goal|target)

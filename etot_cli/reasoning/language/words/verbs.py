@@ -122,31 +122,47 @@ NOTHING_IS = f"""
 """Before where there is to be nothing."""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
+    carried|shifted|relocated|positioned|deposited|transported|lowered|stowed|tucked|slid|popped|
     put away|put down|put back|set down|laid down
 """
-BROUGHT = f"{_BROUGHT}, stood, positioned, returned"
+BROUGHT = f"{_BROUGHT}, stood, returned"
 """What was taken from one place is then, to another one."""
+NOTHING_GOES = f"""
+    (nothing|no (thing|object|item)) (should|must|may|can|shall|is to|has to)
+    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move)
+"""
+"""Before where nothing more is to go."""
 _BEING = "standing|lying|sitting|located|resting"
 BEING = f"({_BEING}|being)"
 _MUST = """
     should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had better|
     (is|are) (supposed|meant) to, will (have|need) to
 """
-_SIMPLY = "[simply|[just] as well|just|also|please|best]"
+_IN_FACT = "still|really|definitely|eventually|ultimately|preferably|now"
+_SIMPLY = f"[simply|[just] as well|just|also|please|best|{_IN_FACT}|in the end]"
+_TO_STAND = "stand|sit|lie|rest|live"
+"""How what goes somewhere is there then."""
 _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
 _WELL = "good|nice|nicely|lovely|great|perfect|perfectly|fine|well"
 MODAL = f"""
-    ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}]|(end|finish|wind) up [{_BEING}]|get|
-    go [back]|stand|sit|lie|rest|live|belong), (should|must|shall) (finally|then) be,
-    (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
+    [{_IN_FACT}] ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}|found|returned|stood]|
+    (end|finish|wind) up [{_BEING}]|get|(go|come|move|return) [back]|land|
+    [come to] ({_TO_STAND})|come to be|belong),
+    (should|must|shall) (finally|then) be,
+    (can|could|may|might|will) {_SIMPLY} ((go|come|move|return) [back]|end up|be ({_BROUGHT})),
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
-    move[s] [up|down|over|back]
+    move[s] [up|down|over|back], (is|are) [now|still|also] (wanted|needed|required|due)
 """
-THERE_BE = f"there ({_MUST}) be"
+_STAND_THERE = f"""
+    (be|go|stand|sit|lie|rest|(be|end up) ({_BEING}|placed|put|found|kept)|end up)
+"""
+THERE_BE = f"there ({_MUST}) {_SIMPLY} ({_STAND_THERE})"
+STANDS_THERE = f"({_MUST}) {_SIMPLY} ({_STAND_THERE}|come), {THERE_BE}"
+"""Behind a place and before what is to be there."""
 THERE_BE_ONLY = f"there ({_MUST}) only be, there (is|are) only to be"
 THERE_IS = "there is, there are"
 THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
@@ -154,7 +170,7 @@ OF_SEVERAL = frozenset({"go", "belong", "live", "are", "have", "need", "want"})
 """Verbs that are not said of one thing."""
 BELONG = f"{MODAL}, (is|are) (kept|stored)"
 """Behind a thing, where something is its place."""
-TO_BE_DONE = f"({_MUST}) {_SIMPLY} (be|get), (can|could|may|might) {_SIMPLY} be"
+TO_BE_DONE = f"[{_IN_FACT}] ({_MUST}) {_SIMPLY} (be|get), (can|could|may|might) {_SIMPLY} be"
 """Before what is done with a thing, in the passive."""
 WERE_DONE = "is, are, was, were, (could|would|can|should) be"
 TO_BE_DONE_BY_YOU = f"to, you ({_MUST}), (i|we) (want|need|would like) you to"
@@ -219,6 +235,11 @@ HOLDS = "already (holds|contains|has), (holds|contains|has) already"
 """Between a vessel and what is in it by now."""
 USE = "use, using"
 CONTAIN = f"({_MUST}) (contain|hold|have|(be|end up) (containing|holding)), keep[s]"
+TO_HAVE = f"({_MUST}) (have|get|be given), gets, get, needs, need, wants"
+"""Between things and what each of them is to have of its own."""
+CARRIES = "carries, carry, bears, bear, supports, support"
+TO_CARRY = f"({_MUST}) [then|finally|still] (carry|bear|support)"
+"""Between a thing and what is to be on it."""
 HOLDS_IT = f"""
     ({_MUST}) [then|finally|now|still] (hold|have|(be|end up) (holding|gripping|grasping)),
     [is|are|end[s] up] (holding|gripping|grasping), holds, ends up with
@@ -253,8 +274,8 @@ WERE = f"""
 LET = "have, let, get"
 LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
 """Between them is what is to go somewhere."""
-JOIN = "joins, [can|may|should|must|is to|are to|has to|needs to|will] join"
-SHARE = "[can|may|should|must|is to|are to|has to|have to|will] share[s]"
+JOIN = f"joins, [can|may|could|might|will|{_MUST}] join"
+SHARE = f"[can|may|could|might|will|{_MUST}] share[s]"
 COME_AWAY = """
     [should|must|shall|can|may|could|has to|have to|needs to|need to|ought to|is to|are to] come[s]
 """
