@@ -235,6 +235,10 @@ def _said_again(the: str, np: NounPhrase) -> Modifier | None:
     return Modifier(Prep.EXCEPT, (said,), denied=True) if general and single else None
 
 
+_LEVEL = sequence(
+    word(lambda given, text: text in LEVELS),
+    build=lambda level: Modifier(Prep.QUALITY, words=(level,)),
+)
 APPOSED = either(
     sequence(
         COMMA,
@@ -258,7 +262,7 @@ APPOSED = either(
         either(COMMA, at_end),
         build=_denied,
     ),
-    sequence(LIST_COMMA, "the", QUALITY, "one, ones", either(COMMA, at_end)),
+    sequence(LIST_COMMA, "the", either(QUALITY, _LEVEL), "one, ones", either(COMMA, at_end)),
 )
 _modifier = either(
     PLAIN_MODIFIER,

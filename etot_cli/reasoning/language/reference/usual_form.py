@@ -72,11 +72,7 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             determiner = "all"  # whatever is so
         words = ("objects",) if determiner.startswith("all") else ("object",)
         return replace(phrase, determiner=determiner, words=words)
-    if (
-        last in MASS_NOUNS
-        and phrase.determiner == "the"
-        and phrase.words[0].endswith(("most", "est"))
-    ):
+    if last in MASS_NOUNS and phrase.determiner == "the" and _compares(phrase):
         return usual_form(replace(phrase, determiner="the 1"))  # "the leftmost fruit"
     if last in _OTHERS and len(phrase.words) == 1:
         of = next((m for m in phrase.modifiers if m.prep is Prep.OF and m.phrases[0].words), None)
@@ -148,6 +144,13 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         noun = (*whole.words[:-1], whole.head if last == "ones" else singular(whole.head))
         return replace(phrase, words=(*told, *noun))
     return phrase
+
+
+def _compares(phrase: NounPhrase) -> bool:
+    """Whether one of several things is told by comparing them ("the fruit that is larger")."""
+    told = (m.words for m in phrase.modifiers if m.prep is Prep.QUALITY and not m.denied)
+    compared = any(word in SIZES and word.endswith(("er", "est")) for said in told for word in said)
+    return compared or phrase.words[0].endswith(("most", "est"))
 
 
 def _named(phrase: NounPhrase, noun: str) -> NounPhrase:
