@@ -47,6 +47,13 @@ SAID_AGAIN = (
         _without_assurance,
     ),
     (r"(, (?:the|my) (?:\w+ ){0,2}ones?),? (?:that is|i mean)(?=[.,;!?]|$)", r"\1"),
+    (r", (?:and )?none of (?=(?:those|these)\b)", ", not one of "),
+    (
+        r", whose (door|lid|drawer) (?:you|should|must|is to)(?: be)?(?: (?:then|afterwards))? "
+        r"(close|shut|open)(?:d|ed|ned)?(?: (?:then|afterwards|again|in the end))?(?=[.,;!?]|$)",
+        r", then \2 its \1",
+    ),
+    (r", though not (?=one\b)", ", but not "),
     (r"(?<=\w)(?<!one), that is(?=[.!?]|$)", ""),
     (
         rf"(?P<before>^|[.;,] )(?:{_SO_MANY}) (?P<noun>\w+(?: \w+)?), {_WHICH},? "

@@ -35,6 +35,8 @@ _OTHERS = frozenset(
 )
 """The others of what was spoken of before."""
 
+_WHERE = (Prep.FROM, Prep.IN, Prep.ON)
+_AROUND = (Prep.WITH, Prep.CONTAINING, Prep.BEARING)
 _ITS_OWNER = NounPhrase(pronoun="it", text="the contents")
 """Of "the contents" of what was spoken of."""
 
@@ -144,6 +146,28 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         noun = (*whole.words[:-1], whole.head if last == "ones" else singular(whole.head))
         return replace(phrase, words=(*told, *noun))
     return phrase
+
+
+def around_itself(phrase: NounPhrase) -> NounPhrase:
+    """A phrase that tells where its thing is by what holds "it", with its own words for that."""
+    pronouns = ("it",) if singular(phrase.head) == phrase.head else ("they", "them")
+    itself = replace(phrase, modifiers=())
+
+    def named(np: NounPhrase) -> NounPhrase:
+        return replace(itself, text=np.text) if np.pronoun in pronouns else np
+
+    def inner(np: NounPhrase) -> NounPhrase:
+        told = (
+            replace(item, phrases=tuple(map(named, item.phrases))) if item.prep in _AROUND else item
+            for item in np.modifiers
+        )
+        return replace(np, modifiers=tuple(told))
+
+    modifiers = (
+        replace(item, phrases=tuple(map(inner, item.phrases))) if item.prep in _WHERE else item
+        for item in phrase.modifiers
+    )
+    return replace(phrase, modifiers=tuple(modifiers)) if phrase.words else phrase
 
 
 def _compares(phrase: NounPhrase) -> bool:
