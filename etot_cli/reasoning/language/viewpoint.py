@@ -17,13 +17,16 @@ _YOURS = (
     r"(?:(?:are|is)(?: (?:standing|sitting|looking))?|stands?|looks?|sits?)"
     r"|(?:the way|as) (?:you|the (?:robot|arm)) sees? (?:it|them|things)"
 )
+_SIDE = r"(?P<hand>\b(?:to|on) )(?:your|the (?:robot|arm)'s) (?P<side>(?:left|right)(?: side)? of)"
 _OTHERS = (
     rf"(?:{_SEEN} )?from (?:my|our|his|her|their|the (?:user|operator|camera)(?:'s)?) {_VIEW}"
     rf"|{_SEEN} (?:from|by) (?:me|us|him|her|them|(?:my|the (?!robot|arm))[\w ]+?(?=[,.;!?]|$))"
     rf"|(?:{_SEEN} )?from where (?:i|we|he|she|they) (?:am|are|is|stand|look|sit)s?"
     r"|(?:the way|as) (?:i|we|he|she|they) (?:sees?|looks? at) (?:it|them|things)"
 )
-_TOLD = Expression(rf",? ?\b(?P<said>(?P<yours>{_YOURS})|{_OTHERS})\b", re.IGNORECASE)
+_TOLD = Expression(
+    rf",? ?\b(?P<said>(?P<yours>{_YOURS}|{_SIDE})|{_OTHERS})\b", re.IGNORECASE
+)
 
 
 def without_viewpoint(instruction: str, scene: SceneState) -> str:
@@ -40,4 +43,6 @@ def without_viewpoint(instruction: str, scene: SceneState) -> str:
         if scene.forward != (1.0, 0.0):
             why = "the scene is looked at through a camera; say it as that sees it"
             raise ReferenceProblem(told["said"], why, 3)
-    return _TOLD.sub("", instruction)
+    return _TOLD.sub(
+        lambda told: f" {told['hand'].strip()} the {told['side']}" if told["hand"] else "", instruction
+    )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from operator import add
 
 from etot_cli.reasoning.language.grammar.chains import CHAIN, then_done
@@ -17,6 +18,8 @@ from etot_cli.reasoning.language.grammar.exclusions import changed, excluding
 from etot_cli.reasoning.language.grammar.modifiers import (
     CONTRASTED,
     DESCRIBED,
+    OF_ALL,
+    ONE_SUCH,
     excepting,
     quality_alone,
 )
@@ -192,6 +195,21 @@ def _chosen(np: NounPhrase, denied: bool, said: NounPhrase | Modifier) -> NounPh
     return told.told_by(*said.modifiers)
 
 
+def _so_of_things(rest: Reading, so: Modifier, *, each: bool) -> Reading | None:
+    """A request with what is said, behind the place, of ``each`` of the things or of the one that
+    goes there ("put two pens in the cup, neither of them red", "a pen in the cup, one that is red").
+    """
+
+    def told(np: NounPhrase) -> NounPhrase | None:
+        several = singular(np.head) != np.head
+        fits = several if each else not several and np.determiner in (*_CHOICE, "another")
+        return np.told_by(so) if fits and np.words else None
+
+    vessel = so.prep is Prep.QUALITY and any(word in STATES for word in so.words)
+    new = None if vessel else changed(rest[-1].clause, told)
+    return None if new is None else (*rest[:-1], replace(rest[-1], clause=new))
+
+
 _IT_IS = sequence(
     OPTIONAL_COMMA,
     "[and|but] it (must|should|has to|needs to|ought to|may|can|is to)",
@@ -229,6 +247,8 @@ TOLD_BEHIND = either(
     sequence(CHAIN, COMMA, AS_IT_IS, build=add),
     sequence(CHAIN, COMMA, noun_phrase, small_words.ANY_WILL_DO, build=any_such),
     sequence(CHAIN, OPTIONAL_COMMA, either(LEFT_OUT, CONTRASTED), build=but_not),
+    sequence(CHAIN, OF_ALL, build=partial(_so_of_things, each=True)),
+    sequence(CHAIN, ONE_SUCH, build=partial(_so_of_things, each=False)),
     sequence(CHAIN, _IT_IS, build=lambda rest, said: choosing(rest, *said)),
 )
 """A request, with what is said behind it of what it speaks of."""

@@ -36,9 +36,11 @@ from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
     CONTRASTED,
+    LEAVING_OUT,
     LEFT,
     ONLY_THOSE,
     excepting,
+    without_such,
 )
 from etot_cli.reasoning.language.grammar.moves import MOVE
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS
@@ -128,12 +130,8 @@ def _excluding_some(said: tuple[Clause, Modifier]) -> list[Clause]:
 
 
 LEFT_OUT = either(
-    sequence(
-        f"{nouns.EXCEPT}, without, any [one] but",
-        exceptions,
-        LEFT,
-        build=excepting,
-    ),
+    sequence(LEAVING_OUT, exceptions, LEFT, build=without_such),
+    sequence("without, any [one] but", exceptions, LEFT, build=excepting),
     sequence(optional("but"), ONLY_THOSE),
     sequence(
         "[but|and] leav(e|ing) [out], [but|and] keep[ing]",

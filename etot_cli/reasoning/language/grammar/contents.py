@@ -41,6 +41,12 @@ def _contents_with(having: str | Parser, denied: bool, bare: bool = False) -> Pa
     )
 
 
+_SUCH = NounPhrase("a", ("one",), text="one")
+_HAVING_NONE = either(
+    sequence(_HAVING, "none"),
+    sequence("with", "none"),
+    sequence(f"{nouns.LACKING}, without", "one, any"),
+)
 HERE_BEFORE = "before"
 """The word of a modifier that tells by what was in or on a thing before anything was moved."""
 _CAME_FROM = """
@@ -48,6 +54,19 @@ _CAME_FROM = """
     [you] (took|got|removed) (it|them) (from|out of|off)
 """
 CONTENTS = either(
+    sequence(
+        # "The cup that has none", "the cup without one"
+        _HAVING_NONE,
+        optional(one_of({Prep.CONTAINING: _INSIDE_IT, Prep.BEARING: _UPON_IT}), Prep.WITH),
+        build=lambda prep: Modifier(prep, (_SUCH,), denied=True),
+    ),
+    sequence(
+        # "The cup with one in it", "the cup that already has one"
+        _HAVING,
+        "one [already]",
+        optional(one_of({Prep.CONTAINING: _INSIDE_IT, Prep.BEARING: _UPON_IT}), Prep.WITH),
+        build=lambda prep: Modifier(prep, (_SUCH,)),
+    ),
     sequence(
         optional("that, which"),
         phrase(_CAME_FROM),

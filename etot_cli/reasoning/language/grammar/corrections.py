@@ -13,7 +13,15 @@ from dataclasses import dataclass
 from etot_cli.reasoning.language.words import places, verbs
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, word_set
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    NUMBERS,
+    SIDES,
+    SIZES,
+    basic_color,
+    is_descriptive,
+    word_set,
+)
 from etot_cli.reasoning.language.words.patterns import openings_of, words_of
 
 _BEFORE_THINGS = word_set(
@@ -103,7 +111,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         if kept and rest[:1] == (",",) and not further:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
-        new = (*said[:-1], taken[-1]) if noun else said
+        new = (*said[:-1], *_also_told(taken, said), taken[-1]) if noun else said
         new = new[:-1] if new[-1] == "instead" else new
         mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
         if new[-1] == "it" and new[0] in _BEFORE_PLACES:  # "on the tray, no, next to it"
@@ -111,6 +119,16 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
             words = " ".join((*before[:start], *tail[:first], *new, *kept, *more))
             yield TakenBack(" ".join(taken), " ".join(new), re.sub(r" (?=[,.!?;])", "", words))
+
+
+def _also_told(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
+    """What told the thing besides, behind "the red cube, I mean the little one": of another sort
+    than what is said instead.
+    """
+    sorts = (SIZES.__contains__, SIDES.__contains__, LEVELS.__contains__, basic_color)
+    new = [sort for sort in sorts if any(map(sort, said))]
+    told = [word for word in taken[:-1] if any(sort(word) for sort in sorts)]
+    return tuple(word for word in told if new and not any(sort(word) for sort in new))
 
 
 def _spans(
@@ -133,7 +151,11 @@ def _spans(
     size = len(tail)
     joints = [at for at, word in enumerate(tail) if word in _JOINTS]
     where = [at for at, word in enumerate(tail) if at and word in _BEFORE_PLACES]
-    things = [at for at, word in enumerate(tail) if word in _BEFORE_THINGS]
+    things = [
+        at
+        for at, word in enumerate(tail)
+        if word in _BEFORE_THINGS and tail[at + 1 : at + 3] != ("robot", "'s")
+    ]
     if tail and is_descriptive(tail[0]):
         things.insert(0, 0)  # "black pen in the tray"
     begin = said[0]

@@ -160,6 +160,18 @@ def _one_of_them(np: NounPhrase) -> NounPhrase:
     return replace(np, words=(*np.words, "one")) if bare else np
 
 
+_OF_THOSE = frozenset(
+    f"{some} of {those}" for some in ("one", "any") for those in ("those", "these", "the")
+)
+
+
+def _such(np: NounPhrase) -> NounPhrase:
+    """All of which one is denied: "not one of those on the tray", "but not one with a lid"."""
+    one = np.determiner in {"one", "any", *_OF_THOSE} and not np.words
+    one |= np.determiner in ("", "any", "any one") and np.words == ("one",)
+    return replace(np, determiner="all", words=("ones",)) if one and np.modifiers else np
+
+
 def _other_than(found: tuple[NounPhrase, ...]) -> Modifier | None:
     """What it is not: "not the big cup", "not the biggest" of them, "neither a cup nor a can"."""
     nps = tuple(map(_one_of_them, found))
@@ -177,6 +189,19 @@ def excepting(nps: tuple[NounPhrase, ...], *, only: bool = False) -> Modifier | 
     source = any(item.prep is Prep.FROM for np in nps for item in np.modifiers)
     fits = said == {only} and not (source or any(np.without for np in nps))
     return Modifier(Prep.EXCEPT, left_out, denied=only) if fits else None
+
+
+LEAVING_OUT = phrase(nouns.EXCEPT)
+
+
+def without_such(said: str, nps: tuple[NounPhrase, ...]) -> Modifier | None:
+    """What is left out; "not one" of some sort is all of it."""
+    if "not" not in said.split():
+        return excepting(nps)
+    such = tuple(map(_such, nps))
+    # "Not one", and "not one of those", of what?
+    none = any(np.determiner.split()[:1] == ["one"] and not np.words for np in such)
+    return None if none else excepting(such)
 
 
 _only_ahead = Parser(lambda given, at: [(at, NOTHING)] if nouns.is_only(given.ahead[at]) else [])
@@ -201,8 +226,40 @@ MODIFIER = Rule()
 MODIFIERS = some(MODIFIER, most=4)
 
 
+OF_ALL = sequence(
+    # "Two cups, neither of them red"
+    "~comma [and] (neither [one]|none|not one) of (them|which) [is|are|being]",
+    either(PLAIN_MODIFIER, CONTENTS, QUALITY),
+    either(COMMA, at_end),
+    build=_denied,
+)
+"""Behind several things, what is true of none of them."""
+ONE_SUCH = either(
+    sequence(
+        "~comma [and|but] (one|any one|one of those) [(that|which) (is|are|stands|lies|sits)]",
+        either(PLAIN_MODIFIER, CONTENTS, quality_alone),
+        either(COMMA, at_end),
+    ),
+    sequence(
+        "~comma [and|but] (one|any one)",
+        nouns.RELATIVE_NOT,
+        either(PLAIN_MODIFIER, QUALITY),
+        either(COMMA, at_end),
+        build=_denied,
+    ),
+    sequence(
+        "~comma [and|but] (one|any one) without",
+        word(lambda given, text: is_category(text) or text in given.nouns),
+        either(COMMA, at_end),
+        build=lambda noun: Modifier(Prep.WITH, (NounPhrase("any", (noun,), text=noun),), denied=True),
+    ),
+)
+"""Behind "a cup", what sort of one it is ("…, one with a lid")."""
+
+
 def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
     """What is not meant, but what a thing is told from."""
+    nps = tuple(map(_such, nps))
     told = all(np.words and (np.determiner or not is_descriptive(np.head)) for np in nps)
     return Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps))) if told else None
 
@@ -235,6 +292,10 @@ def _said_again(the: str, np: NounPhrase) -> Modifier | None:
     return Modifier(Prep.EXCEPT, (said,), denied=True) if general and single else None
 
 
+_LEVEL = sequence(
+    word(lambda given, text: text in LEVELS),
+    build=lambda level: Modifier(Prep.QUALITY, words=(level,)),
+)
 APPOSED = either(
     sequence(
         COMMA,
@@ -258,7 +319,7 @@ APPOSED = either(
         either(COMMA, at_end),
         build=_denied,
     ),
-    sequence(LIST_COMMA, "the", QUALITY, "one, ones", either(COMMA, at_end)),
+    sequence(LIST_COMMA, "the", either(QUALITY, _LEVEL), "one, ones", either(COMMA, at_end)),
 )
 _modifier = either(
     PLAIN_MODIFIER,
@@ -321,7 +382,7 @@ _modifier = either(
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),
     sequence(COMMA, CONTRASTED, COMMA),
-    sequence(COMMA, nouns.EXCEPT, exceptions, COMMA, build=excepting),
-    sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions, LEFT, build=excepting),
+    sequence(OPTIONAL_COMMA, LEAVING_OUT, exceptions, LEFT, build=without_such),
+    sequence(COMMA, LEAVING_OUT, exceptions, COMMA, build=without_such),
 )
 MODIFIER.define(_modifier)

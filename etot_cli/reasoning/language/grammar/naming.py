@@ -16,6 +16,8 @@ from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.modifiers import (
     MODIFIERS,
     NOT_BUT,
+    OF_ALL,
+    ONE_SUCH,
     PLAIN_MODIFIER,
     QUALITY,
     quality_alone,
@@ -146,6 +148,14 @@ def _pronoun(pronoun: str, modifiers: Any) -> NounPhrase | None:
     return NounPhrase(modifiers=modifiers, pronoun=pronoun)
 
 
+def _each_so(
+    determiner: str, words: tuple[str, ...], modifiers: Any, so: Modifier
+) -> NounPhrase | None:
+    """Several things with what is said of each behind them ("two cups, neither of them red")."""
+    several = singular(words[-1]) != words[-1]
+    return NounPhrase(determiner, words, (*modifiers, so)) if several else None
+
+
 def _all_of_them(words: tuple[str, ...], modifiers: Any, said: str) -> NounPhrase:
     """The plural that a quantity follows ("the cans, both of them, …")."""
     return NounPhrase("both" if said == "both" else "all the", words, modifiers)
@@ -252,6 +262,16 @@ noun_phrase.define(
                 build=lambda: NounPhrase("whichever", ("one",)),
             ),
             sequence("the, these, those", WORDS, MODIFIERS, _OF_THEM, build=_all_of_them),
+            sequence(OPTIONAL_DETERMINER, WORDS, MODIFIERS, OF_ALL, build=_each_so),
+            sequence(
+                phrase("a, an, another, any, any other, some other"),
+                WORDS,
+                MODIFIERS,
+                ONE_SUCH,
+                build=lambda det, words, modifiers, such: NounPhrase(
+                    det, words, (*modifiers, such)
+                ),
+            ),
             sequence(
                 "a, an, one, any",
                 WORDS,

@@ -63,7 +63,10 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
     if any(np.joined and not (said or np.determiner) for said, np in more):
         return None
     joined = any(said for said, _ in more)
-    apposed = any(np.head == "one" for _, np in more)
+    apposed = any(
+        np.head == "one" or (np.determiner == "one" and not np.words and np.modifiers)
+        for _, np in more
+    )
     renamed = any(
         np.determiner.startswith("any") and np.words in ((), first.words) for _, np in more
     )

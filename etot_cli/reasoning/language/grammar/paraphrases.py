@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.end_states import END_STATES
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
+from etot_cli.reasoning.language.grammar.said_again import SAID_AGAIN
 from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.expressions import Expression
@@ -84,6 +85,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     *LISTINGS,
     *WHEREABOUTS,
     *PLACEMENTS,
+    *SAID_AGAIN,
     (_WISHED, _as_asked),
     (
         r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood"

@@ -55,7 +55,7 @@ def quantity_of(determiner: str) -> Quantity:
     other = first == "another" or any(word in words for word in ("other", "remaining", "different"))
     if "same" in words:
         return Quantity(definite=True, same=True)
-    if words[1:] in (["only"], ["single"]) and first in _DEFINITE:
+    if words[1:] in (["only"], ["single"], ["lone"], ["sole"]) and first in _DEFINITE:
         return Quantity(count=1, definite=True, sole=True)
     numbers = [NUMBERS.get(word) or (int(word) if word.isdigit() else None) for word in words]
     count = next((number for number in reversed(numbers) if number is not None), None)

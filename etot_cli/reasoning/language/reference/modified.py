@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax.phrases import CLEARED, Modifier, NounPhrase
 from etot_cli.reasoning.language.reference import space
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
-from etot_cli.reasoning.language.reference.determiners import Quantity
+from etot_cli.reasoning.language.reference.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.entries import EXACT, HEAD
 from etot_cli.reasoning.language.reference.landmarks import (
     HOLDING,
@@ -84,6 +84,7 @@ def modified(
             found, more = related(
                 modifier, things, landmarks, quantity, count, scene, said, phrase.text
             )
+            found = _holding_so_many(modifier, found, landmarks, scene)
             rough = any(ROUGHLY in note for note in said)
             if rough and modifier.prep in RANKED and modifier.words[1:]:
                 continue  # "with the cup next to it" rather says where that is to be
@@ -121,6 +122,29 @@ def modified(
         things, others = found, tuple(more)
         notes += said
     return things, others
+
+
+def _holding_so_many(
+    modifier: Modifier, things: list[Thing], landmarks: list[list[Thing]], scene: SceneState
+) -> list[Thing]:
+    """Those of the things that hold as many as is said ("the bowl with two apples in it"); with
+    "one" any that holds some, if none holds but one.
+    """
+    (np, *more) = modifier.phrases or (NounPhrase(),)
+    said = quantity_of(np.determiner)
+    counted = said.count is not None and np.determiner.split()[0] not in ("a", "an", "any")
+    if modifier.prep not in HOLDING or modifier.denied or more or said.definite or not counted:
+        return things
+    marks = {mark for several in landmarks for mark in several}
+    held = {
+        thing: sum(
+            mark != thing and space.holds_at(modifier.prep, thing, [mark], scene) is True
+            for mark in marks
+        )
+        for thing in things
+    }
+    exact = [thing for thing in things if held[thing] == said.count]
+    return exact if exact or said.count != 1 else things
 
 
 def _is_atop(things: Sequence[Thing], modifier: Modifier, scene: SceneState) -> bool:

@@ -22,7 +22,13 @@ from etot_cli.reasoning.language.reference.narrowing import part_around
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.spoken_of import openable
 from etot_cli.reasoning.language.reference.states import state_holds
-from etot_cli.reasoning.language.reference.usual_form import GENERAL, chooses, is_robot, usual_form
+from etot_cli.reasoning.language.reference.usual_form import (
+    GENERAL,
+    around_itself,
+    chooses,
+    is_robot,
+    usual_form,
+)
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -45,7 +51,7 @@ class Referents(Meanings):
         """The referents of a phrase, none of ``excluded``; a plural pronoun may have several.
         ``topmost``: as for :func:`antecedents`.
         """
-        phrase = self.told_by_themes(self.resolver.as_labelled(phrase))
+        phrase = self._around_itself(self.told_by_themes(self.resolver.as_labelled(phrase)), role)
         plain_pronoun = phrase.pronoun and not phrase.modifiers
         if plain_pronoun and not chooses(phrase.determiner):
             found = antecedents(
@@ -103,6 +109,17 @@ class Referents(Meanings):
         )
         self._note_landmarks(phrase, resolved.options)
         return (index,)
+
+    def _around_itself(self, phrase: NounPhrase, role: Role) -> NounPhrase:
+        """A phrase with itself for the pronoun in "the nut out of the cup it is in", where that is
+        true of it.
+        """
+        told = around_itself(phrase)
+        if told != phrase:
+            with suppress(ReferenceProblem):
+                self.meaning(told, role)
+                return told
+        return phrase
 
     def _by_now(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means; all that is somewhere is what is there by now.

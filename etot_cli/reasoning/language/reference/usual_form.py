@@ -35,6 +35,8 @@ _OTHERS = frozenset(
 )
 """The others of what was spoken of before."""
 
+_WHERE = (Prep.FROM, Prep.IN, Prep.ON)
+_AROUND = (Prep.WITH, Prep.CONTAINING, Prep.BEARING)
 _ITS_OWNER = NounPhrase(pronoun="it", text="the contents")
 """Of "the contents" of what was spoken of."""
 
@@ -72,11 +74,7 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
             determiner = "all"  # whatever is so
         words = ("objects",) if determiner.startswith("all") else ("object",)
         return replace(phrase, determiner=determiner, words=words)
-    if (
-        last in MASS_NOUNS
-        and phrase.determiner == "the"
-        and phrase.words[0].endswith(("most", "est"))
-    ):
+    if last in MASS_NOUNS and phrase.determiner == "the" and _compares(phrase):
         return usual_form(replace(phrase, determiner="the 1"))  # "the leftmost fruit"
     if last in _OTHERS and len(phrase.words) == 1:
         of = next((m for m in phrase.modifiers if m.prep is Prep.OF and m.phrases[0].words), None)
@@ -153,6 +151,35 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         noun = (*whole.words[:-1], whole.head if last == "ones" else singular(whole.head))
         return replace(phrase, words=(*told, *noun), without=(*phrase.without, *whole.without))
     return phrase
+
+
+def around_itself(phrase: NounPhrase) -> NounPhrase:
+    """A phrase that tells where its thing is by what holds "it", with its own words for that."""
+    pronouns = ("it",) if singular(phrase.head) == phrase.head else ("they", "them")
+    itself = replace(phrase, modifiers=())
+
+    def named(np: NounPhrase) -> NounPhrase:
+        return replace(itself, text=np.text) if np.pronoun in pronouns else np
+
+    def inner(np: NounPhrase) -> NounPhrase:
+        told = (
+            replace(item, phrases=tuple(map(named, item.phrases))) if item.prep in _AROUND else item
+            for item in np.modifiers
+        )
+        return replace(np, modifiers=tuple(told))
+
+    modifiers = (
+        replace(item, phrases=tuple(map(inner, item.phrases))) if item.prep in _WHERE else item
+        for item in phrase.modifiers
+    )
+    return replace(phrase, modifiers=tuple(modifiers)) if phrase.words else phrase
+
+
+def _compares(phrase: NounPhrase) -> bool:
+    """Whether one of several things is told by comparing them ("the fruit that is larger")."""
+    told = (m.words for m in phrase.modifiers if m.prep is Prep.QUALITY and not m.denied)
+    compared = any(word in SIZES and word.endswith(("er", "est")) for said in told for word in said)
+    return compared or phrase.words[0].endswith(("most", "est"))
 
 
 def _named(phrase: NounPhrase, noun: str) -> NounPhrase:

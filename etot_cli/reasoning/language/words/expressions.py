@@ -8,7 +8,7 @@ from functools import cached_property
 
 _PIECES = re.compile(
     r"(?P<plain>[^\\[\]()|?*+{}.^$]+)|\((?:\?:|\?<?=)?(?P<choice>[^\\[\]()?*+{}.^$]+)\)"
-    r"|(?P<open>\((?:\?(?:P<\w+>|:|=|<=))?)(?P<never>\?<?!)?|(?P<close>\))|(?P<other>\|)"
+    r"|(?P<open>\((?:\?(?:[Pp]<\w+>|:|=|<=))?)(?P<never>\?<?!)?|(?P<close>\))|(?P<other>\|)"
     r"|(?P<less>[?*]|\{[^}]*\})|\\.|\[\^?\]?(?:\\.|[^\]\\])*\]|.",
     re.DOTALL,
 )

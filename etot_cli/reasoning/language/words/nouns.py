@@ -9,7 +9,7 @@ _THE = "the|these|those|my|your|its|their|our|his|her"
 THE_WORDS = frozenset({*_THE.split("|"), "this", "that"})
 DETERMINERS = f"""
     ({_THE}|this|that|a|an|another|only the),
-    (the|my|your|this|that) (other|same|single|only|remaining|{_COUNT}),
+    (the|my|your|this|that) (other|same|single|only|lone|sole|remaining|{_COUNT}),
     (the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT}),
     another one of the, a single, one single, only a,
     (any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your],

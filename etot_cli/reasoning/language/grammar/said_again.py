@@ -1,0 +1,79 @@
+"""What is said again to make sure which thing is meant ("the jar, namely the big one"), put plainly.
+
+What stands behind a thing to tell it has one plain form, an article and "one" behind a comma.
+"""
+
+from __future__ import annotations
+
+import re
+
+from etot_cli.reasoning.language.words.lexicon import LEVELS, is_descriptive
+
+_TO_BE_EXACT = r"(?:namely|viz\.?|that is to say|to be (?:precise|exact|specific)|i\.e\.),?"
+_SO_MANY = r"(?:exactly|only|just) one"
+_SHOULD = (
+    r"(?:should|must|may|can|shall|will|ought to|has to|needs to|is to|is allowed to)(?= be\b)"
+)
+_WHICH = r"the (?:(?P<told>\w+)(?: one)?|one (?P<so>(?!of )[^.,;:]+?))"
+_NOT_THERE = r"(?! (?:of|drawer|shelf|board))"
+
+
+def _without_assurance(said: re.Match[str]) -> str:
+    """What is said again, with "one" for the noun that it leaves out."""
+    again = said["again"]
+    last = again.split()[-1]
+    return f"{again} one" if is_descriptive(last) or last in LEVELS else again
+
+
+def _only_that(said: re.Match[str]) -> str:
+    """That one and no other, where it is told which one it is ("exactly one pen, the red one, …")."""
+    noun = f"{said['told']} {said['noun']}" if said["told"] else f"{said['noun']} {said['so']}"
+    if said["told"] in ("same", "other", "rest", "one"):
+        return said[0]
+    return f"{said['before']}only the {noun} {said['rest']}"
+
+
+SAID_AGAIN = (
+    (
+        rf", {_TO_BE_EXACT} (?P<again>the \w+)(?=[.,;!?]|$)",
+        lambda said: f", {_without_assurance(said)}",
+    ),
+    (rf", {_TO_BE_EXACT} (?=(?:the|a|an|one|my|in|on|into|onto|to|next)\b)", ", "),
+    (r"(?P<again>\b(?:one|an?) \w+, the \w+)(?=[.,;!?]|$)", _without_assurance),
+    (r", that is,? (?=(?:the|my) )", ", "),
+    (
+        r"(?P<again>, (?:the|my) (?:\w+ ){0,2}\w+)(?<! one)(?<! ones),? (?:that is|i mean)"
+        r"(?=[.,;!?]|$)",
+        _without_assurance,
+    ),
+    (r"(, (?:the|my) (?:\w+ ){0,2}ones?),? (?:that is|i mean)(?=[.,;!?]|$)", r"\1"),
+    (r", (?:and )?none of (?=(?:those|these)\b)", ", not one of "),
+    (
+        r", whose (door|lid|drawer) (?:you|should|must|is to)(?: be)?(?: (?:then|afterwards))? "
+        r"(close|shut|open)(?:d|ed|ned)?(?: (?:then|afterwards|again|in the end))?(?=[.,;!?]|$)",
+        r", then \2 its \1",
+    ),
+    (r", though not (?=one\b)", ", but not "),
+    (r"(?<=\w)(?<!one), that is(?=[.!?]|$)", ""),
+    (
+        rf"(?P<before>^|[.;,] )(?:{_SO_MANY}) (?P<noun>\w+(?: \w+)?), {_WHICH},? "
+        rf"(?P<rest>{_SHOULD})",
+        _only_that,
+    ),
+    (
+        rf"(?P<before>^|[.;,] )(?:{_SO_MANY}) (?P<noun>\w+(?: \w+)?) (?P<rest>{_SHOULD} [^.,;:]+)"
+        rf" ?[,:] {_WHICH}(?=[.;!?]|$)",
+        _only_that,
+    ),
+    (
+        r"\b((?:that|which) (?:is|are|stands?|lies?|sits?)) (?:up|down|over|right|already) "
+        r"(?=there\b)",
+        r"\1 ",
+    ),
+    (
+        r"\b((?:tower|stack|pile)\b[^.;]*? )at (?:its|the) (?:very )?(?:foot|base|bottom)\b"
+        rf"{_NOT_THERE}",
+        r"\1at the bottom",
+    ),
+)
+"""Rewritings, in order."""
