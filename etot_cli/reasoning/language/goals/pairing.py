@@ -105,7 +105,8 @@ def _by_color(context: Context, group: PutGroup) -> None:
         things = [found[0] for found in themes]
     else:
         indices = context.phrases.things(group.things, Role.THEME)
-        things = [thing for index in indices for thing in context.only(index, "say which ones")]
+        each = [context.only(index, "say which ones") for index in indices]
+        things = [thing for found in each for thing in _with_a_place(context, found, targets)]
     things = [thing for thing in dict.fromkeys(things) if thing not in targets]
     for thing in things:
         theme = context.single(thing, text)
@@ -140,6 +141,22 @@ def _places(context: Context, group: PutGroup, text: str) -> tuple[Toward, list[
     ]
     found = [thing for item in resolved for thing in things_in(item.options)]
     return toward, list(dict.fromkeys(found))
+
+
+def _with_a_place(
+    context: Context, things: Sequence[Thing], targets: Sequence[Thing]
+) -> Sequence[Thing]:
+    """Of several things that are told by a kind those that some place has the colour of; the others
+    stay where they are, which is said. What is named by itself has to have one.
+    """
+    colors = context.phrases.colors_of
+    there = [colors(target) for target in targets]
+    lacking = [thing for thing in things if colors(thing) and colors(thing) not in there]
+    if not lacking or len(things) == 1 or len(lacking) == len(things):
+        return things
+    names = " and ".join(thing.name for thing in lacking)
+    context.discourse.notes.append(f"nothing there has the colour of {names}: not moved")
+    return [thing for thing in things if thing not in lacking]
 
 
 def _of_color(context: Context, thing: Thing, among: Sequence[Thing], text: str) -> list[Thing]:

@@ -135,7 +135,7 @@ PLAIN_MODIFIER = either(
 )
 _matching = sequence(
     nouns.MATCHING,
-    optional("as (it|them|its own|their own)"),
+    optional("as (it|them|its own|their own|itself|themselves|theirs|they have|it has)"),
     build=lambda: Modifier(Prep.MATCHING),
 )
 QUALITY = valued(ADJECTIVES, lambda words: Modifier(Prep.QUALITY, words=words))

@@ -52,8 +52,12 @@ _PLAIN_MOVE = either(
     *(
         sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
         for verb, opens in (
-            (f"{verbs.OPEN}, pull[ing] out, slid(e|ing) out, lift[ing] [up], rais(e|ing)", True),
-            (f"{verbs.CLOSE}, (push|pushing|slide|sliding) in", False),
+            (
+                f"{verbs.OPEN}, (pull[ing]|slid(e|ing)|draw[ing]|eas(e|ing)) out, lift[ing] [up],"
+                " rais(e|ing)",
+                True,
+            ),
+            (f"{verbs.CLOSE}, (push[ing]|slid(e|ing)|eas(e|ing)|shov(e|ing)) [back] in", False),
         )
     ),
     *(
@@ -61,10 +65,12 @@ _PLAIN_MOVE = either(
             verb, THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
         )
         for verb, particle, opens in (
-            (verbs.PULL, manner.OPEN_STATE, True),
-            (verbs.PULL, manner.CLOSED_STATE, False),
-            ("pull[ing], slid(e|ing)", "[all the way|fully|completely] out", True),
-            ("push[ing], slid(e|ing)", "[back|all the way|fully|completely] in", False),
+            (verbs.PULL_OPEN, manner.OPEN_STATE, True),
+            ("swing[ing], fling[ing], throw[ing]", "wide", True),
+            (verbs.PUSH_SHUT, manner.CLOSED_STATE, False),
+            (verbs.PUSH, manner.TO, False),
+            ("pull[ing], slid(e|ing), draw[ing], eas(e|ing)", f"[{manner.FULLY}] out", True),
+            ("push[ing], slid(e|ing), eas(e|ing), shov(e|ing)", f"[back|{manner.FULLY}] in", False),
             (
                 "giv(e|ing)",
                 f"{manner.A_PUSH} [so [that] it is|until it is|till it is] (shut|closed),"

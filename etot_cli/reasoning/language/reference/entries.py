@@ -35,7 +35,9 @@ from etot_cli.reasoning.language.words.lexicon import (
     KIND_GROUPS,
     LIDDED,
     NAMED_FOR_A_SORT,
+    ONLY_SO_CALLED,
     OTHER_SORTS,
+    RACKED,
     SORTS,
     basic_color,
     is_plural_of,
@@ -271,6 +273,7 @@ def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
         fitting += [group for group in groups if PACKS & {*group}]
     if not fitting and not own & (COMMON_NOUNS | OF_A_SORT):
         fitting = list(groups[-1:] if kind in NAMED_FOR_A_SORT else groups)
+        fitting = [group for group in fitting if not ONLY_SO_CALLED & {*group}]
     if kind in own and kind not in NAMED_FOR_A_SORT:
         fitting = list(groups)
     return tuple(noun for group in fitting for noun in group)
@@ -316,14 +319,18 @@ def object_entry(info: ObjectInfo) -> Entry:
 def part_entries(info: ObjectInfo, owner: Entry) -> list[Entry]:
     """The words of an object's drawers and doors, ``owner`` being its own."""
     nouns = {part: JOINT_NOUNS.get(part.joint_type, ()) for part in info.parts}
-    lidded = any(singular(word) in LIDDED for word in owner.heads)
+    own = {*map(singular, owner.heads)}
+    lidded, racked = bool(own & LIDDED), ("rack", "shelf", "tray") if own & RACKED else ()
     return [
         # A door is no lid, unless it is all that a chest has.
         _level_entry(
             info,
             owner,
             Thing(info.name, part.name),
-            said[: 1 if part.front and not lidded else None],
+            (
+                *said[: 1 if part.front and not lidded else None],
+                *(racked if part.joint_type == "slide" else ()),
+            ),
         )
         for part, said in nouns.items()
     ]

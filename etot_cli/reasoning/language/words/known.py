@@ -37,7 +37,9 @@ VERB_WORDS = words_of(
         verbs.TIDY, verbs.CLEAR, verbs.DO_NOT, verbs.NEED_NOT,
     )
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
-    "back", "free", "places", "positions", "position", "us", "him", "her", "them",
+    "back", "free", "places", "positions", "position", "us", "him", "her", "them", "a",
+    # Things are called so, too, though none may be in the scene.
+    "jam", "plant", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff", "whisk", "dish",
     *words_of((verbs.THE_ROBOT,))}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(

@@ -35,6 +35,8 @@ KIND_GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
     "shelf": (("shelf", "rack", "bookcase", "bookshelf", "stand"),),
 }  # fmt: skip
 """Nouns that name an object by its kind, those that may stand for each other together."""
+ONLY_SO_CALLED = frozenset({"microwave", "oven", "vase"})
+"""Nouns of a kind for what is called so, and for nothing else of that kind: a safe is no oven."""
 NAMED_FOR_A_SORT = frozenset({"pen"})
 """Kinds named for but one sort of them: a marker is no pen, and what is neither is a rod."""
 KIND_NOUNS = {
@@ -166,10 +168,12 @@ BINS = word_set(
 )
 """Words of names of what things are thrown into when they are but put there."""
 JOINT_NOUNS: dict[str, tuple[str, ...]] = {
-    "slide": ("drawer", "tray", "layer", "compartment", "level", "rack", "shelf"),
+    "slide": ("drawer", "compartment", "level", "layer"),
     "hinge": ("door", "lid", "flap", "cover"),
 }
 """Nouns that name a movable part by the way it moves."""
+RACKED = word_set("dishwasher oven fridge refrigerator freezer stove cooker dryer incubator toaster")
+"""What has racks, shelves or trays that slide; a chest has drawers."""
 LIDS = word_set("lid cover cap")
 """What lies loose on what it closes."""
 LIDDED = word_set("chest box trunk case crate bin coffer cooler hamper container basket")

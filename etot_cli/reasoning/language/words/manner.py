@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-OPEN_STATE = "[still] [wide|all the way|fully|completely] open, opened"
-CLOSED_STATE = """
-    [still] [fully|completely|properly|all the way] (closed|shut) [behind (it|them)]
+_SWUNG = "pulled|pushed|slid|swung|eased|drawn|rolled|nudged"
+OPEN_STATE = f"""
+    [still] [{_SWUNG}|prised|flung|tugged] [wide|all the way|fully|completely] open, opened [up]
 """
+CLOSED_STATE = f"""
+    [still] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight] (closed|shut)
+    [behind (it|them)|tight], closed up, (pushed|slid|shoved|eased) [back] (in|to|home)
+"""
+TO = "[back] (to|home) [again]"
+"""As doors are pushed when they are closed."""
+FULLY = "all the way|fully|completely"
 A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, the rest of the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""

@@ -76,15 +76,16 @@ LACKING = """
 LACKING_ANY = """
     with no, (that|which) (has|have|holds|hold|contains|contain) no, has no
 """
-MATCHING = """
-    of (the same|its|their|its own|their own|the matching|a matching|matching) (color|colour),
-    (with|in) (the|a) (same|matching) (color|colour), (with|in) (matching|its|their) (color|colour),
-    (that|which) (matches|match) [it|them] in (color|colour), (that|which) (matches|match) them,
-    (that|which) (matches|match) (its|their|the) (color|colour|colors|colours),
-    (that|which) (matches|match) it,
-    (that|which) (has|have|is of|are of) the same (color|colour),
-    (that|which) (has|have) (its|their) (color|colour), matching (its|their) (color|colour),
-    in (its own|their own) (color|colour)
+_COLOR = "color|colour|colors|colours"
+_SAME = "same|matching|corresponding|respective"
+MATCHING = f"""
+    (of|with|in) ([the|a|an] [very] ({_SAME})|its [own]|their [own]) ({_COLOR}),
+    (that|which) (matches|match) [it|them] in ({_COLOR}), (that|which) (matches|match) (it|them),
+    (that|which) (matches|match) (its|their|the) [own] ({_COLOR}),
+    (that|which) (has|have|is of|are of) ([the|a] ({_SAME})|its|their) ({_COLOR}),
+    matching (its|their) ({_COLOR}), matching (it|them) [in ({_COLOR})],
+    whose ({_COLOR}) (matches|match|(is|are) the same as|corresponds to|correspond to)
+    [it|them|its|theirs|its own|their own|that of the (block|thing|item|object)]
 """
 SAME_COLOR = """
     (of|with|in) the same (color|colour) as,

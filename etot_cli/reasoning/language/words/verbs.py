@@ -6,8 +6,11 @@ PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
     fetch[ing], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto], seiz(e|ing),
     collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
-    pass[ing] me, retriev(e|ing), gather[ing] [up], (fetch|fetching|get|getting|grab|find|take) me,
-    hand[ing] over, let me have, offer[ing] me, snatch[ing], pluck[ing], hoist[ing], nab[bing]
+    pass[ing] [me], retriev(e|ing), gather[ing] [up], (fetch|fetching|get|getting|grab|find|take) me,
+    hand[ing] over, let me have, offer[ing] me, snatch[ing], pluck[ing], hoist[ing], nab[bing],
+    clutch[ing], clasp[ing], (catch|catching|lay|laying) hold of, (get|getting) a (grip|grasp) on,
+    scoop[ing] up, snap[ping] up, heav(e|ing) up, elevat(e|ing), reach[ing] me, procur(e|ing),
+    obtain[ing], acquir(e|ing), snag[ging], pull[ing] up
 """
 PAST = {
     "took": "take", "moved": "move", "placed": "place", "brought": "bring", "got": "get",
@@ -20,7 +23,8 @@ PAST = {
 }  # fmt: skip
 """How a wish puts what is to be done ("I'd be glad if you took it out")."""
 TO_SOMEBODY = """
-    (hand|handing|bring|bringing|give|giving|pass|passing|offer|offering) me, hand[ing] over
+    (hand|handing|bring|bringing|give|giving|pass|passing|offer|offering|reach) me, hand[ing] over,
+    pass[ing]
 """
 """They ask for more than picking up, which is all that is done."""
 HELD_UP = "it is held up, not handed over"
@@ -36,7 +40,13 @@ SET = """
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
     slot[ting], fit[ting], sling[ing], bung[ing], plonk[ing], shov(e|ing), nestl(e|ing),
     prop[ping], perch[ing], settl(e|ing), cram[ming], wedg(e|ing), haul[ing], lug[ging], dump[ing],
-    restor(e|ing), nest[ing], serv(e|ing)
+    restor(e|ing), nest[ing], serv(e|ing) [up], lodg(e|ing), plunk[ing], plant[ing], install[ing],
+    hous(e|ing), rehous(e|ing), rehom(e|ing), conceal[ing], bundl(e|ing), eas(e|ing), guid(e|ing),
+    convey[ing], transport[ing], ferry[ing], heap[ing], introduc(e|ing), jam[ming],
+    seat[ing], station[ing], situat(e|ing), post[ing], tot(e|ing), send[ing], consign[ing],
+    relegat(e|ing), banish[ing], spirit[ing] [away], shuttl(e|ing), cart[ing], heav(e|ing),
+    reposition[ing], reinstat(e|ing), tuck[ing] away, dish[ing] up,
+    (set|setting|lay|laying) out, drop[ping] off, stuff[ing], (pass[ing]|hand[ing]) on
 """
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
@@ -60,16 +70,25 @@ PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
 TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
+_EASED = """
+    draw[ing], eas(e|ing), haul[ing], heav(e|ing), coax[ing], teas(e|ing), pris(e|ing), pry[ing],
+    slid(e|ing), slip[ping]
+"""
+FREE = f"{_EASED}, free[ing], fish[ing], dig[ging], whisk[ing]"
+"""Said of what does not come out by itself; what is whisked into a bowl is an egg."""
 GET_OUT = f"""
-    {TAKE}, get[ting], fetch[ing], dig[ging], fish[ing], pluck[ing], withdraw[ing]
+    {TAKE}, get[ting], fetch[ing], dig[ging], fish[ing], pluck[ing], withdraw[ing], {_EASED}
 """
 """Said of what is taken out of something; who grabs a thing there holds it."""
 BRING = f"{GET_OUT}, grab[bing], lift[ing]"
 REMOVE = """
     remov(e|ing), withdraw[ing], clear[ing] away, bring[ing] (down|out), extract[ing],
+    whisk[ing] (away|off|out),
     tak(e|ing) (out|off|away|down),
     get[ting] (out|down), (pull|fish) out, (pulling|fishing) out, clear[ing] out, mov(e|ing) away,
-    lift[ing] (out|off)
+    lift[ing] (out|off), (dig[ging]|draw[ing]|eas(e|ing)|haul[ing]|heav(e|ing)|coax[ing]|
+    teas(e|ing)|hook[ing]|root[ing]|pris(e|ing)|pry[ing]|slip[ping]|pluck[ing]) out, unpack[ing], rescu(e|ing), recover[ing], salvag(e|ing),
+    liberat(e|ing), evict[ing], expel[ling], unearth[ing], dislodg(e|ing), evacuat(e|ing), oust[ing]
 """
 UNSTACK = "unstack[ing]"
 DISMANTLE = "dismantl(e|ing), disassembl(e|ing), break[ing] up"
@@ -87,9 +106,21 @@ MAKE_ROOM = """
     (in|on|for)
 """
 """It is made by what else is asked for."""
-OPEN = "open[ing] [up], (pull|slide|swing|pulling|sliding|swinging) open"
-CLOSE = "clos(e|ing) [up], shut[ting], (push|slide|swing|pushing|sliding|swinging) (shut|closed)"
-PULL = "pull[ing], push[ing], slid(e|ing), swing[ing], get[ting], have, make, making"
+_SWUNG = "pull[ing]|push[ing]|slid(e|ing)|swing[ing]|eas(e|ing)|draw[ing]|nudg(e|ing)|roll[ing]"
+_FORCED = "fling[ing]|throw[ing]|tug[ging]|pris(e|ing)|pry[ing]"
+"""How people open what sticks; nobody closes it so."""
+OPEN = f"""
+    open[ing] [up], ({_SWUNG}|{_FORCED}) open, reopen[ing], unclos(e|ing), unseal[ing],
+    swing[ing] wide
+"""
+CLOSE = f"""
+    clos(e|ing) [up], shut[ting], ({_SWUNG}|press[ing]|shov(e|ing)|click[ing]) (shut|closed),
+    reclos(e|ing)
+"""
+PULL = f"({_SWUNG}), get[ting], have, make, making"
+PULL_OPEN = f"{PULL}, ({_FORCED})"
+PUSH = f"({_SWUNG}), press[ing], shov(e|ing), click[ing]"
+PUSH_SHUT = f"{PULL}, {PUSH}"
 SET_TO = """
     set[ting], return[ing], bring[ing], switch[ing], restor(e|ing), chang(e|ing), mov(e|ing),
     put[ting], get[ting]
@@ -122,8 +153,11 @@ NOTHING_IS = f"""
 """Before where there is to be nothing."""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
-    carried|shifted|relocated|positioned|deposited|transported|lowered|stowed|tucked|slid|popped|
-    put away|put down|put back|set down|laid down
+    put away|put down|put back|set down|laid down|stashed|tucked [away]|slotted|popped|stuck|stowed [away]|
+    hidden|plonked|shoved|slipped|deposited|loaded|packed|slid|filed [away]|lodged|planted|installed|
+    housed|rehoused|rehomed|concealed|bundled|eased|conveyed|transported|ferried|heaped|introduced|
+    situated|relegated|banished|relocated|shifted|carried|delivered|restored|lowered|added|fitted|
+    dumped|positioned|nestled|wedged|crammed|repositioned|set out|laid out|served [up]
 """
 BROUGHT = f"{_BROUGHT}, stood, returned"
 """What was taken from one place is then, to another one."""
