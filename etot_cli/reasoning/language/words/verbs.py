@@ -36,7 +36,7 @@ SET = """
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
     slot[ting], fit[ting], sling[ing], bung[ing], plonk[ing], shov(e|ing), nestl(e|ing),
     prop[ping], perch[ing], settl(e|ing), cram[ming], wedg(e|ing), haul[ing], lug[ging], dump[ing],
-    restor(e|ing), nest[ing], serv(e|ing)
+    restor(e|ing), serv(e|ing)
 """
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
@@ -273,6 +273,8 @@ TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], ma
 TIP = "tip[ping] [over], tilt[ing], turn[ing], flip[ping], rotat(e|ing)"
 """What these do to a thing that comes to lie on its side."""
 STACK = "stack[ing] [up], pil(e|ing) [up]"
+NEST = "nest[ing]"
+"""Of several vessels they come to stand in each other, wherever that is; one goes into another."""
 BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
 A_TOWER = "(a|one) [single] (tower|stack|pile)"
 OUT_OF = f"{A_TOWER} (out of|of|from|with|using)"
