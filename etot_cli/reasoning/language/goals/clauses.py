@@ -10,7 +10,7 @@ from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Place, Put, Relat
 from etot_cli.reasoning.builtin.relations import is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.again import again
-from etot_cli.reasoning.language.goals.arrangements import swap, tower
+from etot_cli.reasoning.language.goals.arrangements import tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.grasps import grasp
 from etot_cli.reasoning.language.goals.placing import cover, reorient
@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.goals.so_in_the_end import (
     put_on_closed,
     told_by_contents,
 )
+from etot_cli.reasoning.language.goals.swapping import swap
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.putting import DOWN

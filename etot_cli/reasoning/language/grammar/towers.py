@@ -7,6 +7,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.nesting import NESTED
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -18,15 +19,14 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
     valued,
     variants,
-    word,
 )
+from etot_cli.reasoning.language.grammar.piles import PAIR_BY_PAIR, PILED
 from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.grammar.tower_bases import (
     A_TOWER,
     FIRST_TO_LAST,
     LAYERED,
-    NEXT,
     ON_A_BASE,
     ONE_ON_THE_OTHER,
     PLACED_LAYERS,
@@ -35,13 +35,12 @@ from etot_cli.reasoning.language.grammar.tower_bases import (
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
-    SIZES,
-    basic_color,
     is_descriptive,
     singular,
 )
 
 _END = one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": manner.AT_TOP})
+_UPWARDS = ("bottom", "middle", "top")
 _STAYS = "stays"
 _ENDS = separated(
     either(
@@ -106,6 +105,9 @@ def _of_its_ends(tower: Any, base: Any, ends: Any) -> TowerClause | None:
         return None
     nps = _with_nouns(named)
     full = [(np, end) for np, (_, end) in zip(nps, ends, strict=True)]
+    if all(end in _UPWARDS for _, end in full):
+        layers = sorted(full, key=lambda layer: _UPWARDS.index(layer[1]))
+        return TowerClause(Things(tuple(np for np, _ in layers)), upward=True, base=base)
     return _tower(Things(nps), None, full, base)
 
 
@@ -131,23 +133,6 @@ def _rising(lowest: Any, more: Any) -> tuple[NounPhrase, ...] | None:
     return nps[::-1] if begun == "top" else nps
 
 
-def _piled(
-    whole: Things | None, second: NounPhrase, first: NounPhrase, more: Any
-) -> TowerClause | None:
-    """Each thing on the one before ("stack red on blue, then green on red")."""
-    nps = (first, second, *(upper for upper, _ in more))
-    if any(lower not in (None, under) for under, (_, lower) in zip(nps[1:], more, strict=False)):
-        return None
-    again = tuple(lower for _, lower in more if lower is not None)
-    return TowerClause(Things(nps), upward=True, whole=whole, again=again)
-
-
-_COLOR = sequence(
-    some(word(lambda given, text: text in SIZES), most=1),
-    word(lambda given, text: basic_color(text) is not None),
-    build=lambda size, color: NounPhrase(words=(*size, color), text=" ".join((*size, color))),
-)
-"""A colour alone, perhaps with a size ("stack red on big blue")."""
 _UPWARD = sequence(
     OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
 )
@@ -201,26 +186,6 @@ _TOWER = either(
         build=lambda top, below: TowerClause(Things((top, *below)), upward=False),
     ),
     sequence(
-        verbs.STACK,
-        optional(sequence(THINGS, COMMA), None),
-        _COLOR,
-        places.ONTO,
-        _COLOR,
-        some(
-            sequence(
-                NEXT,
-                _COLOR,
-                either(
-                    sequence(places.ONTO, _COLOR),
-                    sequence(manner.ATOP, build=lambda: ()),
-                ),
-                build=lambda upper, lower: (upper, lower or None),
-            ),
-            most=4,
-        ),
-        build=_piled,
-    ),
-    sequence(
         either(
             sequence(verbs.STACK, THINGS, optional(f"{manner.UPON_EACH_OTHER}, up")),
             sequence(verbs.PUT, THINGS, manner.UPON_EACH_OTHER),
@@ -232,11 +197,26 @@ _TOWER = either(
         _TOWER_ENDS,
         build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
     ),
+    PILED,
+    NESTED,
     sequence(
-        either(verbs.STACK, verbs.PUT),
+        # "Put the blocks on the tray, stacked", "the blocks go on the tray in a stack"
+        either(sequence(verbs.PUT, THINGS), sequence(THINGS, verbs.MODAL)),
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        either(f"(stacked|piled) [up] [{manner.UPON_EACH_OTHER}]", manner.UPON_EACH_OTHER),
+        _TOWER_ENDS,
+        build=lambda things, base, ends: _tower(things, None, ends, base),
+    ),
+    sequence(
+        # "The blocks should be stacked on the tray"
         THINGS,
-        manner.INSIDE_EACH_OTHER,
-        build=lambda things: TowerClause(things, nested=True),
+        verbs.MODAL,
+        "(stacked|piled) [up]",
+        optional(manner.UPON_EACH_OTHER),
+        optional(DESTINATIONS, ()),
+        _TOWER_ENDS,
+        build=lambda things, base, ends: _tower(things, None, ends, base),
     ),
     sequence(
         f"{verbs.BUILD}, {verbs.WANT}",
@@ -319,6 +299,7 @@ def _only_layers(first: Any, more: Any) -> TowerClause | None:
 
 STACKED = either(
     PLACED_LAYERS,
+    PAIR_BY_PAIR,
     sequence(_ENDS, build=_only_ends),
     sequence(_LAYER, _MORE_LAYERS, build=_only_layers),
     sequence(

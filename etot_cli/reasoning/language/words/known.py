@@ -31,7 +31,7 @@ _FUNCTION = """
 VERB_WORDS = words_of(
     (
         verbs.PICK, verbs.PUT, verbs.PUT_DOWN, verbs.REMOVE, verbs.OPEN, verbs.CLOSE, verbs.PULL,
-        verbs.ENSURE, verbs.KEEP, verbs.REORIENT, verbs.TURN, verbs.STACK, verbs.BUILD,
+        verbs.ENSURE, verbs.KEEP, verbs.REORIENT, verbs.TURN, verbs.STACK, verbs.NEST, verbs.BUILD,
         verbs.SWAP, verbs.TOUCH, verbs.HIT, verbs.UNSTACK, verbs.REVERSE, verbs.DISMANTLE,
         verbs.DISTURB,
         verbs.TIDY, verbs.CLEAR, verbs.DO_NOT, verbs.NEED_NOT,

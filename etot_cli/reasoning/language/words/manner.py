@@ -52,6 +52,12 @@ NOT_STACKED = """
 INSIDE_EACH_OTHER = """
     (in|inside|into|within) (each other|one another), one (in|inside|into) (the other|another)
 """
+NESTED = """
+    nested,
+    [nested|stacked|put|placed|standing|sitting] (in|inside|into|within) (each other|one another),
+    [nested|stacked|put|placed|standing|sitting] one (in|inside|into) (the other|another)
+"""
+"""How vessels are that stand in each other."""
 BOTTOM_UP = """
     [from [the]] bottom to [the] top, [from [the]] bottom up, bottom first,
     starting (with|at|from) the bottom,
@@ -61,10 +67,20 @@ TOP_DOWN = """
     in (this|that) order from (top to bottom|the top down), [from the] top (first|down),
     from (the top|top) to bottom, from top to the bottom
 """
-WIDEST_BELOW = """
-    by size, [the] (biggest|largest|widest) (first|at the bottom),
-    [the] (biggest|largest|widest) first [~comma] [and] [the] (smallest|narrowest) last,
-    [in order] from [the] (biggest|largest|widest) to [the] (smallest|narrowest)
+_WIDEST, _NARROWEST = "(biggest|largest|widest)", "(smallest|narrowest)"
+_BY_SIZE = "(by size|in order of size|according to [their] size|sorted by size)"
+_LOWEST = "(first|lowest|below|(at|on) [the] [very] bottom)"
+_UPPERMOST = "(last|uppermost|highest|(at|on) [the] [very] top)"
+WIDEST_BELOW = f"""
+    {_BY_SIZE}, [the] {_WIDEST} (first|at the bottom),
+    [the] {_WIDEST} first [~comma] [and] [the] {_NARROWEST} last,
+    [in order] from [the] {_WIDEST} [at the bottom] to [the] {_NARROWEST} [at the top],
+    {_BY_SIZE} [~comma] [with] [the] {_WIDEST} [one] {_LOWEST},
+    {_BY_SIZE} [~comma] [with] [the] {_NARROWEST} [one] {_UPPERMOST},
+    {_BY_SIZE} [~comma] [with] [the] {_WIDEST} [one] {_LOWEST} [~comma] [and] [the] {_NARROWEST}
+    [one] {_UPPERMOST},
+    {_BY_SIZE} [~comma] [with] [the] {_NARROWEST} [one] {_UPPERMOST} [~comma] [and] [the] {_WIDEST}
+    [one] {_LOWEST}
 """
 """As a stack is built anyway."""
 AT_BOTTOM = (

@@ -40,7 +40,7 @@ SET = """
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
     slot[ting], fit[ting], sling[ing], bung[ing], plonk[ing], shov(e|ing), nestl(e|ing),
     prop[ping], perch[ing], settl(e|ing), cram[ming], wedg(e|ing), haul[ing], lug[ging], dump[ing],
-    restor(e|ing), nest[ing], serv(e|ing) [up], lodg(e|ing), plunk[ing], plant[ing], install[ing],
+    restor(e|ing), serv(e|ing) [up], lodg(e|ing), plunk[ing], plant[ing], install[ing],
     hous(e|ing), rehous(e|ing), rehom(e|ing), conceal[ing], bundl(e|ing), eas(e|ing), guid(e|ing),
     convey[ing], transport[ing], ferry[ing], heap[ing], introduc(e|ing), jam[ming],
     seat[ing], station[ing], situat(e|ing), post[ing], tot(e|ing), send[ing], consign[ing],
@@ -328,6 +328,8 @@ TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], ma
 TIP = "tip[ping] [over], tilt[ing], turn[ing], flip[ping], rotat(e|ing)"
 """What these do to a thing that comes to lie on its side."""
 STACK = "stack[ing] [up], pil(e|ing) [up]"
+NEST = "nest[ing]"
+"""Of several vessels they come to stand in each other, wherever that is; one goes into another."""
 BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
 A_TOWER = "(a|one) [single] (tower|stack|pile)"
 OUT_OF = f"{A_TOWER} (out of|of|from|with|using)"

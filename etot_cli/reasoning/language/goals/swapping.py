@@ -1,0 +1,57 @@
+"""Clauses about two things that take each other's place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.putting import put
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, SwapClause
+from etot_cli.reasoning.language.reference.space import carries
+
+
+def _placed(context: Context, clause: PutClause, goal: Mapping[Thing, Place], text: str) -> None:
+    """Puts two things where it is said, which is where the other one is."""
+    put(context, clause)
+    moved: dict[Thing, bool] = {}
+    for step in (step for step in context.steps if isinstance(step, Put)):
+        there = {(place.relation, *_at(context, place)) for place in step.places}
+        for thing in (t for i in step.what for t in context.only(i, "say which one")):
+            home = goal.get(thing)
+            moved[thing] = home is not None and there == {(home.relation, *_at(context, home))}
+    if moved.keys() != goal.keys() or not all(moved.values()):
+        raise ReferenceProblem(text, "that is not each where the other one is", 3)
+
+
+def _at(context: Context, place: Place) -> tuple[Thing, ...]:
+    return () if place.where is None else context.discourse.things(place.where)
+
+
+def swap(context: Context, clause: SwapClause) -> None:
+    """Each of two things to the other's place, while the first one waits on the desk."""
+    gone = context.discourse.put
+    themes = context.phrases.things(clause.things, Role.THEME)
+    things = [thing for index in themes for thing in context.only(index, "say which two")]
+    text = clause.things.text
+    if len(things) != 2:
+        raise ReferenceProblem(text, "two things can be swapped, no more and no less", 2)
+    if any(index in gone for index in themes):
+        raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
+    homes = [context.home(thing) for thing in things]
+    if clause.placed:
+        _placed(context, clause.placed, dict(zip(things, homes[::-1], strict=True)), text)
+        return
+    if carries(things[0], things[1], context.scene):
+        raise ReferenceProblem(text, "one of them is in or on the other", 2)
+    if homes[0] == homes[1]:
+        if homes[0].relation is not Relation.ON:
+            raise ReferenceProblem(text, "they are in the same place", 2)
+        homes = [context.spot(thing, place) for thing, place in zip(things, homes, strict=True)]
+    first, second = (context.single(thing, thing.name) for thing in things)
+    context.steps += [
+        Put((first,), (context.places.on_the_desk(),), aside=True),
+        Put((second,), (homes[0],)),
+        Put((first,), (homes[1],)),
+    ]
