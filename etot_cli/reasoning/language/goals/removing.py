@@ -71,7 +71,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
     except NothingThere:
         _speak_of_emptied(context, clause)
         return  # "put the pen in the cup to free the tray"
-    if clause.by_then and is_emptying(clause):
+    if clause.by_then and is_emptying(clause) and not _is_untouched(context, themes):
         _check_emptied(context, clause, themes)
         _speak_of_emptied(context, clause)
         return
@@ -92,6 +92,17 @@ def remove(context: Context, clause: RemoveClause) -> None:
     for place in discourse.last_places:
         context.mention_part(place)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
+    if clause.by_then and is_emptying(clause):
+        context.discourse.notes.append(f"{clause.things.phrases[0].text!r} is put on the desk first")
+        _speak_of_emptied(context, clause)
+
+
+def _is_untouched(context: Context, themes: Sequence[int]) -> bool:
+    """Whether nothing has been said yet of what is in or on something that is to be empty by then,
+    so that this asks for it; of what was moved in part somebody thinks it is empty.
+    """
+    discourse = context.discourse
+    return not {*discourse.things(*themes)} & {*discourse.things(*discourse.put)}
 
 
 def _check_emptied(context: Context, clause: RemoveClause, themes: Sequence[int]) -> None:

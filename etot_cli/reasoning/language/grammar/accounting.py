@@ -202,8 +202,8 @@ def _traces(node: object) -> Iterator[str]:
 def _said(node: object) -> Iterator[str]:
     """Words for what a node says by what it is."""
     match node:
-        case Spoken(order=order) if order is not Order.SAID:
-            yield _ORDER
+        case Spoken(order=order, not_before=later) if order is not Order.SAID:
+            yield from (_ORDER, *((_DENIAL, "only") if later else ()))
         case Modifier(words=words) if words == CLEARED:
             yield "empty"
         case Modifier(prep=prep, denied=denied):
@@ -215,7 +215,8 @@ def _said(node: object) -> Iterator[str]:
             yield _DENIAL
         case RemoveClause(without=without):
             yield from ("empty", *((_DENIAL,) if without else ()))
-        case AvoidClause(avoid=avoid, things=things):
+        case AvoidClause(avoid=avoid, things=things, needless=needless):
+            yield from ("open", "closed") if needless else ()
             said = things.phrases if things else ()
             all_but = any(item.prep is Prep.EXCEPT for np in said for item in np.modifiers)
             yield from ("only",) if all_but else ()

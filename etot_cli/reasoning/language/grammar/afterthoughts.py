@@ -11,7 +11,8 @@ from dataclasses import replace
 from functools import partial
 from operator import add
 
-from etot_cli.reasoning.language.grammar.chains import CHAIN, then_done
+from etot_cli.reasoning.language.grammar.chains import CHAIN
+from etot_cli.reasoning.language.grammar.past import then_done
 from etot_cli.reasoning.language.grammar.clauses import LEFT_OUT, Reading
 from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.exclusions import changed, excluding

@@ -164,6 +164,34 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"((?:the|my) (?:\w+ )?\w+ one)(?=(?:,? please)?(?:[.;!?]|$))",
         r"\1, but not \2",
     ),
+    # "Take it out and put in the pen in exchange" puts nothing in the pen
+    (
+        rf"\b(put|place|set|lay) (in|on) ({NAMED} [^.,;]*?) in (?:exchange|return)\b(?! for (?:the|my))",
+        r"\1 \3 \2 instead",
+    ),
+    (
+        r"\b((?:that|which) (?:is|are) (?:there|(?:in|on) (?:it|them))) "
+        r"(?:now|right now|already|at the moment|at present|currently)\b",
+        r"\1",
+    ),
+    # "Here or, if you prefer, there" is a free choice
+    (
+        r",? or,? if you (?:prefer|like|wish|want|would rather|would prefer|find it easier),? "
+        r"(?=(?:(?:in|on|into|onto|to|next|beside|the|my|a|an)\b))",
+        " or ",
+    ),
+    (
+        r",? (or (?:in|on|into|onto|to|next to|beside|the|my|a|an)\b[^.;,]*?),? if you "
+        r"(?:prefer|like|wish|want|would rather|would prefer)(?: that| it)?(?=[.;,!]|$)",
+        r" \1",
+    ),
+    # "The cup has to come out first and go on the tray"
+    (
+        r"(^|[.;!?] |, )((?:but )?(?:the|my|our) [^.,;:]*?) (has to|needs to|must|should) come "
+        r"(?:out|off|away)(?: of (?:it|there))? (?:first|beforehand|before that) and (?:then )?"
+        r"(go|be put|be placed) ",
+        r"\1first, \2 \3 \4 ",
+    ),
     # "The cup has to come out first and can go on the tray"
     (
         rf"(?<!and )(?<!or )\b({_ONE}) (has to|needs to|must|should) come out"

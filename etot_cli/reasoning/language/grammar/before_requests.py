@@ -20,11 +20,11 @@ from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.chains import (
     BARE_CHAIN,
     CHAIN,
+    JOINED,
     WITH_MORE_SO,
     Joined,
     chained,
     joint,
-    then_done,
 )
 from etot_cli.reasoning.language.grammar.clauses import (
     LED_CLAUSE,
@@ -46,17 +46,19 @@ from etot_cli.reasoning.language.grammar.headlines import (
     PLACED,
     taken_out,
 )
+from etot_cli.reasoning.language.grammar.if_so import IF_ANYTHING_IS_THERE
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    one_of,
     optional,
     sequence,
     silent,
     some,
     valued,
 )
-from etot_cli.reasoning.language.grammar.past import EARLIER, SO
+from etot_cli.reasoning.language.grammar.past import EARLIER, LATER, SO, then_done
 from etot_cli.reasoning.language.grammar.predicates import BOTH_ARE
 from etot_cli.reasoning.language.grammar.prohibitions import (
     OTHERS_STILL,
@@ -140,6 +142,34 @@ def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
     return None if held else (*first, *rest)
 
 
+INVERTED = sequence(
+    either(
+        # "Only after that has been done should the pen be put in the cup"
+        sequence("(should|may|can|could|must|shall|will) you", LED_CLAUSE),
+        sequence("(are|do) you [allowed|supposed|free] [to]", LED_CLAUSE),
+        plain(
+            sequence(
+                "should, may, can, could, must, shall, will, is, are, has, have, does, do",
+                ALL_THINGS,
+                f"[to] (go|come|be ({verbs.DONE_WITH_IT}))",
+                DESTINATIONS,
+                build=put_to,
+            )
+        ),
+        plain(
+            sequence(
+                "should, may, can, could, must, shall, will, is, are, has, have",
+                ALL_THINGS,
+                "[to] be",
+                one_of({True: "opened, pulled open", False: "closed, shut"}),
+                build=MoveClause,
+            )
+        ),
+    ),
+    some(JOINED, most=6),
+    build=chained,
+)
+"""What is asked for behind a condition that begins with "only" or "not"."""
 _SO_OR_EMPTY = plain(
     either(sequence(STATE, build=lambda state: EnsureClause((state,))), IS_EMPTY, NOTHING_THERE)
 )
@@ -298,7 +328,7 @@ WITH_MORE_BEFORE_IT = either(
         build=_made_so,
     ),
     sequence(
-        plain(IF_NOT_SO),
+        plain(either(IF_NOT_SO, IF_ANYTHING_IS_THERE)),
         optional(sequence(OPTIONAL_COMMA, "and, but", plain(OTHERS_STILL)), ()),
         build=add,
     ),
@@ -330,10 +360,16 @@ WITH_MORE_BEFORE_IT = either(
     sequence("while [you]", LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(manner.STARTING_WITH, noun_phrase, COMMA, CHAIN, build=_started_with),
-    sequence(EARLIER, OPTIONAL_COMMA, valued(CHAIN, then_done), build=add),
     sequence(
-        small_words.BEFORE,
-        LED_CLAUSE,
+        EARLIER,
+        OPTIONAL_COMMA,
+        optional("[and] only then, [and] not before [then|that]"),
+        OPTIONAL_COMMA,
+        valued(either(CHAIN, INVERTED), then_done),
+        build=add,
+    ),
+    sequence(
+        LATER,
         OPTIONAL_COMMA,
         CHAIN,
         build=lambda later, rest: rest + then_done(later),

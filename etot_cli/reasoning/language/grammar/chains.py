@@ -38,7 +38,8 @@ from etot_cli.reasoning.language.grammar.passives import (
     THEN_PLACED,
     goes_on,
 )
-from etot_cli.reasoning.language.grammar.past import EARLIER
+from etot_cli.reasoning.language.grammar.not_before import NOT_BEFORE
+from etot_cli.reasoning.language.grammar.past import EARLIER, LATER, then_done
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import BESIDES_SO, OPEN_OR_CLOSED, SHUT, states
@@ -56,6 +57,12 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Noun
 from etot_cli.reasoning.language.grammar.topics import sources
 from etot_cli.reasoning.language.grammar.trees import nodes
 from etot_cli.reasoning.language.grammar.verbless import VERBLESS
+from etot_cli.reasoning.language.grammar.which_clauses import (
+    WHICH_FIRST_GETS,
+    WHICH_GOES_ON,
+    WHICH_IS_MOVED,
+    named_last,
+)
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.places import Prep
@@ -91,14 +98,6 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
-def then_done(clause: Reading) -> Reading:
-    """A reading that is to be done after what was said before."""
-    first = clause[0]
-    if first.order is Order.SAID:
-        first = replace(first, order=Order.THEN)
-    return (first, *clause[1:])
-
-
 _SO = sequence(
     # "…, which should be closed afterwards": what was named last
     "which [then] (should|must|has to|needs to|is to) [then] be [left|kept]",
@@ -123,7 +122,18 @@ JOINED = either(
     joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
     joint("purpose", small_words.PURPOSE, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
-    joint("then", OPTIONAL_COMMA, small_words.BEFORE, LED_CLAUSE),
+    joint("before", OPTIONAL_COMMA, LATER),
+    joint(
+        # "… and, before you close it, put the pen in"
+        "then",
+        OPTIONAL_COMMA,
+        "and, then, and then, but",
+        OPTIONAL_COMMA,
+        sequence(
+            LATER, OPTIONAL_COMMA, LED_CLAUSE, build=lambda later, rest: rest + then_done(later)
+        ),
+    ),
+    joint("and", either(COMMA, LIST, small_words.JOINTS), NOT_BEFORE),
     joint("after", OPTIONAL_COMMA, EARLIER),
     joint(
         # "… and once they are out, close it"
@@ -166,6 +176,9 @@ JOINED = either(
     ),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(IS_EMPTY)),
     joint("and", COMMA, timed(_SO)),
+    joint("and", COMMA, WHICH_IS_MOVED),
+    joint("which", COMMA, WHICH_GOES_ON),
+    joint("after", COMMA, WHICH_FIRST_GETS),
     joint("and", COMMA, so_in_turn(phrase("which", (NounPhrase(pronoun="it", text="which"),)))),
     joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
     joint(
@@ -207,7 +220,7 @@ JOINED = either(
 )
 
 
-_LATER = frozenset({"then", "counted", "passive, then"})
+_LATER = frozenset({"then", "counted", "passive, then", "which", "before"})
 
 
 def _maybe_denied(done: Reading, clause: Reading) -> Reading:
@@ -242,6 +255,33 @@ def _is_told_of(before: Clause, joint: str, after: Clause) -> bool:
     return False
 
 
+def _is_denied(clause: Clause) -> bool:
+    """Whether a clause says what is not to be done, or not to be so."""
+    match clause:
+        case AvoidClause():
+            return clause.negated and not clause.needless
+        case EnsureClause(states=states):
+            return any(state.denied for state in states)
+    return False
+
+
+def _done_after(done: Reading, clause: Reading) -> Reading:
+    """What was asked for, after something else. That comes before all of it, but for what speaks of
+    what was done with the same things ("put the pen in and close it once the pen is in").
+    """
+    *before, last = done
+    put = clause[0].clause
+    same = isinstance(put, PutClause) and any(
+        isinstance(said.clause, PutClause)
+        and [np.words for np in said.clause.groups[0].things.phrases]
+        == [np.words for np in put.groups[0].things.phrases]
+        for said in before
+    )
+    if before and len(clause) == 1 and same:
+        return (*before, *then_done(clause), *then_done((last,)))
+    return (*clause, *then_done(done))
+
+
 def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
@@ -268,8 +308,15 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             if isinstance(further, EnsureClause) and further.far_fetched == OF_SEVERAL:
                 return None  # "the cup on the tray and the pen in it go in the box"
             done = _maybe_denied(done, clause)
+        if said == "before" and _is_denied(before):
+            return None  # "do not put it there before …" rather asks for both
+        if said == "which":
+            goes_there = named_last(before, clause[0].clause)
+            if goes_there is None:
+                return None
+            clause = (replace(clause[0], clause=goes_there),)
         if said == "after":
-            done = (*clause, *then_done(done))
+            done = _done_after(done, clause)
         else:
             done = (*done, *(then_done(clause) if said in _LATER else clause))
         if said == "counted":
@@ -280,4 +327,6 @@ def chained(first: Reading, more: Joined) -> Reading | None:
 GOES_ON = some(either(JOINED, joint("listed", LIST, HEADLINE)), most=12)
 """What may follow a clause without a verb."""
 BARE_CHAIN = sequence(HEADLINE, GOES_ON, build=chained)
-CHAIN = remembered(sequence(LED_CLAUSE, some(JOINED, most=12), build=chained))
+CHAIN = remembered(
+    sequence(either(LED_CLAUSE, NOT_BEFORE), some(JOINED, most=12), build=chained)
+)

@@ -35,6 +35,29 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"( (?:on|in|into|onto) [^:.;]*?),? in (?:this|the following) order: ([^.;]*)",
         _one_by_one,
     ),
+    # "The cup, then the pen: that is the order in which they go into the box"
+    (
+        r"(^|[.;!?] )((?:first,? )?[^.;:!?]*?\b(?:then|finally|lastly)\b[^.;:!?]*?)(?:[:,;.] | - )"
+        r"(?:that|this) is (?:the|my|our) (?:order|sequence)"
+        r"(?: in which| (?:i|we) want)? "
+        r"(?:they|these|those|them|all of (?:them|these))(?: all)? (?=\w)",
+        r"\1\2 ",
+    ),
+    (
+        r"(^|[.;!?] )((?:first,? )?[^.;:!?]*?\b(?:then|finally|lastly)\b[^.;:!?]*?)(?:[:,;.] | - )"
+        r"(?:that|this) is (?:the|my|our) (?:order|sequence) in which (?:you (?:should|must|have to"
+        r"|need to|can|are to)|to|i (?:want|would like) you to) "
+        r"(?:put|place|set|move|store|stow|pack|load|stack|insert|drop) (?:them|these|those)(?: all)? "
+        rf"(?=(?:in|on|into|onto|to)\b)",
+        r"\1\2 go ",
+    ),
+    # "One thing after another" is in turn
+    (
+        r"(?:,? by (?:picking|taking|moving|carrying|bringing)(?: out| over| up| off)?)? "
+        r"one (?!by\b|after\b)(\w+) (?:after|by) (?:another|the other|one)\b(?! \1)",
+        " one after another",
+    ),
+    (r"\bone (\w+) (?:after|by) (?:another|the other|one) \1\b", "one after another"),
     (r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b", r"build a \1"),
     (
         r"\bmake (?:the|a second|another|a new) (tower|stack) (?=(?:out of|with|from|of|on)\b)",

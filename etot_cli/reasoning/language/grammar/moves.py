@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
-from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, MoveClause
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, MoveClause, Turns
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
@@ -42,6 +42,12 @@ def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -
     if not again or moved.opens == (word == "open"):
         return None
     return MoveClause(Things(subjects), moved.opens, guarded=True)
+
+
+def _in_turn(moved: MoveClause) -> MoveClause | None:
+    """Several things that are named, in the order in which they are."""
+    nps = moved.things.phrases
+    return replace(moved, turns=Turns(all=nps)) if nps[1:] and not moved.things.either else None
 
 
 _PLAIN_MOVE = either(
@@ -141,6 +147,16 @@ MOVE = either(
         valued(TURN, lambda turn: turns_of((turn,))),
         build=lambda moved, turns: replace(moved, turns=turns),
     ),
+    sequence(_PLAIN_MOVE, OPTIONAL_COMMA, manner.IN_THIS_ORDER, build=_in_turn),
+    sequence(
+        # "Both drawers should be open, the lower one first"
+        THINGS,
+        f"{verbs.MODAL}, {verbs.TO_BE_DONE}",
+        OPEN_OR_CLOSED,
+        OPTIONAL_COMMA,
+        valued(TURN, lambda turn: turns_of((turn,))),
+        build=lambda things, word, turns: MoveClause(things, word == "open", turns=turns),
+    ),
 )
 _THEN = either(COMMA, sequence(OPTIONAL_COMMA, "then"))
 
@@ -160,17 +176,35 @@ def _if_not_there(
     return EnsureClause((State(subjects, where, kept=True),)) if alone and again else None
 
 
+_IF = "[only] if, in case"
+_SO_FAR = "already|yet|currently|still|now"
+_NOW = optional(f"({_SO_FAR}|right now|at the moment|by now)")
 IF_NOT_SO = quiet(
     either(
         sequence(
-            "if",
+            _IF,
             NP_LIST,
-            f"{verbs.BE}, 's",
+            f"{verbs.BE}, 's, should [still|already] be",
+            optional("already, still, currently"),
             OPEN_OR_CLOSED,
+            _NOW,
             _THEN,
             EMPTY_WORDS,
             _PLAIN_MOVE,
             build=_if_not_so,
+        ),
+        sequence(
+            _IF,
+            NP_LIST,
+            f"(is|are) not [{_SO_FAR}]",
+            OPEN_OR_CLOSED,
+            _NOW,
+            _THEN,
+            EMPTY_WORDS,
+            _PLAIN_MOVE,
+            build=lambda nps, word, moved: (
+                _if_not_so(nps, "closed" if word == "open" else "open", moved)
+            ),
         ),
         sequence(
             "if",

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.common import COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.emptying import emptied
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
@@ -17,9 +18,11 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     sequence,
     silent,
+    some,
     valued,
 )
 from etot_cli.reasoning.language.grammar.putting import OUT_AND_INTO, brought
+from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
@@ -29,7 +32,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     RemoveClause,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import State
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    State,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.grammar.taking import SOURCE
 from etot_cli.reasoning.language.words import manner, small_words, verbs
 
@@ -47,7 +56,8 @@ _SO_BY_THEN = either(
     sequence(
         ALL_THINGS,
         f"{verbs.BE}, (is|are) {verbs.BEING}, {verbs.LIES}, {small_words.GONE},"
-        " (is|are) out [of the way], (is|are) (up|down|back|away)",
+        " (is|are) out [of the way], (is|are) (up|down|back|away),"
+        f" (is|are|gets|get|has been|have been) ({verbs.DONE_WITH_IT}) [down|away|over]",
         DESTINATIONS,
         build=put_to,
     ),
@@ -76,7 +86,20 @@ _SO_BY_THEN = either(
     ),
     STANDS_UP,
     SO,
-    sequence(ALL_THINGS, verbs.BE, manner.EMPTIED, build=emptied),
+    sequence(ALL_THINGS, f"{verbs.BE}, (has|have) been", manner.EMPTIED, build=emptied),
+    sequence(
+        # "Once the plate has been cleared of the cup"
+        noun_phrase,
+        "(is|has been|gets) (cleared|emptied|freed|rid|relieved) of, is (free|clear|empty) of",
+        ALL_THINGS,
+        build=lambda source, things: RemoveClause(things, source),
+    ),
+    sequence(
+        noun_phrase,
+        "(holds|contains|has [got]) [now]",
+        ALL_THINGS,
+        build=lambda np, held: put_to(held, (Destination(Toward.INSIDE, (np,)),)),
+    ),
 )
 """What has been done or is so by then ("once the pear has been put into the bowl")."""
 _HAVING_DONE = either(
@@ -93,7 +116,7 @@ _HAVING_DONE = either(
             ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
         )
     ),
-    sequence(verbs.DONE, ALL_THINGS, DESTINATIONS, build=put_to),
+    sequence(f"{verbs.DONE}, {verbs.BROUGHT}", ALL_THINGS, DESTINATIONS, build=put_to),
     sequence(
         "left, kept",
         NP_LIST,
@@ -124,11 +147,49 @@ def _by_then(reading: Reading) -> Reading:
     return (replace(reading[0], clause=replace(clause, by_then=True)), *reading[1:])
 
 
+def then_done(clause: Reading) -> Reading:
+    """A reading that is to be done after what was said before."""
+    first = clause[0]
+    if first.order is Order.SAID:
+        first = replace(first, order=Order.THEN)
+    return (first, *clause[1:])
+
+
+
+def _gapped(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> PutClause:
+    return put_to(Things(nps), where)
+
+
+DONE_BY_THEN = valued(
+    either(
+        sequence(
+            optional("you have, having, you"), either(LED_CLAUSE, plain(_HAVING_DONE))
+        ),
+        plain(_SO_BY_THEN),
+    ),
+    _by_then,
+)
+"""What has been done by then, behind "until" or "before"."""
+LATER = sequence(small_words.BEFORE, either(LED_CLAUSE, plain(_SO_BY_THEN)))
+"""What comes after the rest of a sentence ("before the drawer is closed")."""
 EARLIER = valued(
     either(
         sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-        sequence("having", plain(_HAVING_DONE)),
-        sequence(small_words.BY_THEN, plain(_SO_BY_THEN)),
+        sequence("having [first|already|just|previously|beforehand]", plain(_HAVING_DONE)),
+        sequence(
+            small_words.BY_THEN,
+            plain(_SO_BY_THEN),
+            some(
+                sequence(
+                    optional(COMMA),
+                    "and [(once|when|after|as soon as)]",
+                    # "… has been put on the tray and the pen in the cup"
+                    plain(either(_SO_BY_THEN, sequence(NP_LIST, DESTINATIONS, build=_gapped))),
+                ),
+                most=3,
+            ),
+            build=lambda first, more: sum(more, first),
+        ),
     ),
     _by_then,
 )

@@ -136,6 +136,14 @@ AVOID = either(
     ),
     sequence(
         THINGS,
+        "(need not|(does|do) not (need|have) to) be",
+        one_of({Avoid.CLOSE: "closed, shut", Avoid.OPEN: "opened"}),
+        optional("again"),
+        optional(small_words.TRAILING_THEN),
+        build=lambda things, avoid: AvoidClause(avoid, things, negated=True, needless=True),
+    ),
+    sequence(
+        THINGS,
         verbs.NEED_NOT_GO,
         DESTINATIONS,
         build=partial(AvoidClause, Avoid.PUT, negated=True, needless=True),

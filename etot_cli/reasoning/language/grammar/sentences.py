@@ -61,7 +61,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     SAID,
 )
 from etot_cli.reasoning.language.grammar.trees import nodes
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words import manner, small_words
 
 
 def _verbless(
@@ -116,6 +116,15 @@ def _in_the_end(reading: Reading) -> Reading | None:
     return reading if all(isinstance(said.clause, EnsureClause) for said in reading) else None
 
 
+def _in_sequence(reading: Reading) -> Reading | None:
+    """What is to be done in the order in which it is said, which nothing else may rule over."""
+    said = [item.position for item in reading]
+    orders = {item.order for item in reading} - {Order.SAID, Order.THEN}
+    if len(reading) < 2 or orders or said != sorted(said):
+        return None
+    return (reading[0], *(replace(item, order=Order.THEN) for item in reading[1:]))
+
+
 def _by_then(reading: Reading) -> Reading | None:
     """How things are to be when somebody comes; what "goes" somewhere rather goes only then."""
     going = any(isinstance(item, State) and item.going for item in nodes(reading))
@@ -139,6 +148,7 @@ _GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANIN
 WHOLE = either(
     sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
     sequence(SENTENCE, COMMA, small_words.TRAILING_LAST, _END, build=_in_the_end),
+    sequence(SENTENCE, COMMA, manner.IN_THIS_ORDER, _END, build=_in_sequence),
     sequence(_BY_THEN, OPTIONAL_COMMA, small_words.SOMEBODY_COMES, _END),
     sequence(_GREETING, small_words.SOMEBODY_COMES, OPTIONAL_COMMA, _BY_THEN, _END),
     sequence(

@@ -28,5 +28,7 @@ class Spoken:
     order: Order = Order.SAID
     instead: bool = False
     """In place of what was taken away before, or is not to be done."""
+    not_before: bool = False
+    """It is said to be done only when something else has been."""
     far_fetched: int = 0
     """What says when ("first", "second") may rather say which ("the second drawer")."""

@@ -29,7 +29,10 @@ def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
 
 
 _FIRST_OF_THEM = either(
-    sequence(separated(noun_phrase, LIST, most=2), "first", build=_named_ones),
+    sequence(
+        separated(noun_phrase, LIST, most=2), f"first, {small_words.BEFORE_ALL}", build=_named_ones
+    ),
+    sequence("first", separated(noun_phrase, LIST, most=2), build=_named_ones),
     sequence(manner.STARTING_WITH, noun_phrase, build=lambda np: (np,)),
 )
 _LAST_OF_THEM = sequence(separated(noun_phrase, LIST, most=2), "last", build=_named_ones)

@@ -26,7 +26,7 @@ UNLESS_THERE = "unless (it is|they are) already there, unless (it is|they are) t
 UNLESS_OPEN = _UNLESS.format(so="(open|opened)", other="(closed|shut)")
 UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 """Conditions of opening and closing that the state itself fulfils."""
-EMPTIED = "empty, emptied [out], cleared [out], clear, free [again]"
+EMPTIED = "empty, emptied [out], cleared [out], clear, free [again], bare"
 STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
     loose, outside, unused, round, dark

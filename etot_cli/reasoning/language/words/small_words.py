@@ -50,7 +50,7 @@ WITHOUT_MEANING = f"""
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
     however you (like|can|want), as you (like|wish|prefer|please),
     (whichever|either|any) way (round|around) [you (like|want|prefer|please)],
-    [in] (any|whichever|whatever) order [you (like|want|prefer|please)],
+    [in] (any|whichever|whatever) order [you (like|want|prefer|please)|suits you [{_EASIER}]],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
     if possible,
@@ -162,7 +162,7 @@ _AT_END = """
 """
 _WHEN_DONE = """
     (when|once|after|by the time)
-    (you are [all] (done|finished|through)|you (finish|have finished|finished)|
+    (you are [all] (done|finished|through)|you (finish|have finished|finished|stop|have stopped)|
     (everything|all) is (said and done|done|finished)),
     (when|once) (done|finished)
 """
@@ -240,18 +240,19 @@ SAME_AGAIN = """
 """
 """Before things that what was just asked for is asked for, too."""
 ALSO = "[~comma] (too|as well|also), likewise"
-LEADING_FIRST = """
-    first, [but] before (anything|everything) else, [but] before all [of] (that|this),
+BEFORE_ALL = "before (anything|everything) else [(is|gets) done|happens]"
+LEADING_FIRST = f"""
+    first, [but] {BEFORE_ALL}, [but] before all [of] (that|this),
     firstly, first of all, to (begin|start) [off] with, for (a start|starters),
     (start|begin) [off] by,
-    [as a|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
+    [as (a|the|your)|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
 LEADING_BEFORE = """
     [but] before [doing] (that|this), [but] before (doing|you do) so, [but] beforehand
 """
 LEADING_LAST = f"""
     finally, lastly, last, last of all, last but not least, {_AT_END},
-    [as a|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
+    [as (a|the|your)|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],
     (finish|end) [up|off] by
 """
 _THAT_DONE = """
@@ -262,12 +263,12 @@ LEADING_THEN = f"""
     then, next, after [all [of]] (that|this), afterwards, afterward, after which,
     second, secondly, third, thirdly,
     after doing so,
-    [the|as a] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
+    [the|as (a|the|your)] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
     the (next|second|third|fourth) is to,
     {_THAT_DONE}, {_WHEN_DONE}, and then, subsequently, later
 """
-TRAILING_FIRST = """
-    first, before, beforehand, before that, before (anything|everything) else,
+TRAILING_FIRST = f"""
+    first, before, beforehand, before that, {BEFORE_ALL},
     before you do [so|that|this], before doing (so|that|this)
 """
 TRAILING_LAST = f"""
@@ -280,7 +281,9 @@ TRAILING_THEN = "afterwards, afterward, after, after that, next, then, later"
 IN_STEAD = "instead of, rather than"
 NOT_THERE = f"{IN_STEAD}, not"
 """Before what is not meant, or where something is not to be, ahead of what is."""
-INSTEAD = "instead, instead of (it|them|that|those)"
+INSTEAD = """
+    instead, instead of (it|them|that|those), in (exchange|return) [for (it|them|that|those)]
+"""
 """What is asked for takes the place of what is taken away, or is not to be done."""
 AND = "and [also|likewise], as well as, along with, together with, plus, +"
 OR = "or [else]"
@@ -303,7 +306,7 @@ ONWARD = "[and] then [finally], [and] after that, and finally"
 """Before the next place of what was put somewhere."""
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
-BEFORE = "before [you], prior to"
+BEFORE = "before [you], prior to, by the time [you]"
 _ONCE = "[only|right|straight|just|directly|immediately] (once|after|when|as soon as)"
 BY_THEN = f"[but] ({_ONCE}|not (before|until))"
 AFTER = f"({BY_THEN}) [you have|having|you]"

@@ -295,6 +295,8 @@ NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"
 RECEIVE = "[should|must|shall|has to|needs to|is to] [also] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
+DONE_WITH_IT = BROUGHT.replace(",", "|").strip()
+"""The same in one group."""
 DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 """What is wanted of a thing that is to go somewhere."""
 TO_BE_THERE = f"to (be|end up|go|stand|sit|lie|stay|remain), {DONE}"
