@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.remarks import PEOPLE
 from etot_cli.reasoning.language.grammar.text import COMMA
 from etot_cli.reasoning.language.grammar.where_needed import done_where_needed
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.small_words import (
@@ -21,6 +22,7 @@ from etot_cli.reasoning.language.words.small_words import (
     WITHOUT_MEANING,
 )
 
+_DOING = "|".join(sorted(VERB_WORDS))
 _WITHIN = Expression(
     r"(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
     r"|(?P<reason>because|since|now that|although|even though|even if|in case"
@@ -36,13 +38,15 @@ _WITHIN = Expression(
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
     r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
     rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
-    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA})))\b"
+    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA}| who\b| and (?:\w+ )?(?:{_DOING})\b)))\b"
 )
 """Words that a clause begins with wherever they stand."""
+_GOES_ON = Expression(r"(?P<plain>and)\b")
+"""Behind whom something is for ("get the tape for my sister and put it down")."""
 _AHEAD = Expression(
     r"(?P<reason>as(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
     r"|though)\b"
-    r"|(?P<comment>which)\b|(?P<purpose>otherwise)\b"
+    r"|(?P<comment>which|who)\b|(?P<purpose>otherwise)\b"
     r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b"
 )
 """Words that one begins with behind a comma, or as the first of a sentence."""
@@ -120,7 +124,11 @@ def _clauses(sentence: str) -> Iterator[Clause]:
         ahead = " ".join(words[at + mark :])
         begun = mark or at == 0
         found = _WITHIN.match(ahead) or (_AHEAD.match(ahead) if begun else None)
-        if found and not begun:
+        if kind == "benefit" and words[at] == "and":
+            found = _GOES_ON.match(ahead)
+        if found and found[0] == "who" and not mark:
+            found = None  # a question
+        if found and not begun and kind != "benefit":
             to_me = found[0] == "where" and words[at - 2 : at] == ["to", "me"]
             found = None if to_me or words[at - 1] in _BEFORE.get(found[0], ()) else found
         if (mark or found) and (said or joint):

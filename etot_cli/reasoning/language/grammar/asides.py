@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.aside_clauses import GRANTED, Clause, clauses_of
+from etot_cli.reasoning.language.grammar.displeasure import dislikes, in_state, is_answered
 from etot_cli.reasoning.language.grammar.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.left_open import (
     is_desk_wish,
@@ -32,9 +33,15 @@ from etot_cli.reasoning.language.grammar.remarks import (
     is_purpose,
     is_reason,
     is_remark,
+    is_told_apart_by,
     is_turning,
     is_warning,
     told_of_thing,
+)
+from etot_cli.reasoning.language.grammar.telling import (
+    exclaims,
+    goes_there,
+    tells_of_others,
 )
 from etot_cli.reasoning.language.grammar.text import (
     COLON,
@@ -45,8 +52,9 @@ from etot_cli.reasoning.language.grammar.text import (
     words_in,
 )
 from etot_cli.reasoning.language.grammar.vague_wishes import wants_such_a_thing
+from etot_cli.reasoning.language.grammar.where_needed import is_hindering
 from etot_cli.reasoning.language.words.known import all_words
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, is_descriptive, word_set
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, word_set
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
@@ -56,6 +64,13 @@ _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "
 _LEADING = re.compile(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 _LIKED = [["favourite"], ["favorite"], ["best"]]
+_IS_ONE = re.compile(r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like) an? ")
+"""Before what is no other thing ("the vase was a gift")."""
+_ASKED_ABOUT = re.compile(rf"(?:can|could|is it possible|would it be possible)\b.*{QUESTION}")
+_CONFIRMED = re.compile(
+    r"(?:(?:then|so|if (?:so|yes|it can|possible|you can)|well|ok|okay|good|please),? )*"
+    r"(?:please )?do (?:it|that|so)(?:,? (?:then|please|now|right away|for me))*"
+)
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
 _PRONOUNS = word_set("it they them that this those these he him she her")
@@ -96,7 +111,8 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         is_name: whether something in the scene is called by a word.
         is_sentence: whether the grammar reads a sentence as it stands; what it reads stays whole.
     """
-    parted = [_parted(sentence, is_name, is_sentence) for sentence in sentences_of(text)]
+    sentences = _without_confirmation(sentences_of(text))
+    parted = [_parted(sentence, is_name, is_sentence) for sentence in sentences]
     rest = [part.rest for part in parted if part.rest]
     asides = [aside for part in parted for aside in part.asides]
     cut = any(part.before or part.after for part in parted)
@@ -107,6 +123,8 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     told = [said for said in told if not (is_of_people(said) or is_turning(said))]
     topics = [told_of_thing(said, is_name) for said in told]
     if not _are_spoken_of(topics, rest):
+        return None
+    if not all(is_answered(item.said, rest) for item in asides):
         return None
     kept = (
         said
@@ -119,6 +137,17 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         tuple(_as_told(item, part) for part in parted for item in part.asides
               if item.kind == "anyway"),
     )  # fmt: skip
+
+
+def _without_confirmation(sentences: Sequence[str]) -> list[str]:
+    """Sentences without those that only say that what was asked about is to be done ("Can it be
+    closed? Then do it, please").
+    """
+    return [
+        said
+        for at, said in enumerate(sentences)
+        if not (at and _CONFIRMED.fullmatch(said) and _ASKED_ABOUT.match(sentences[at - 1]))
+    ]
 
 
 def _as_told(aside: Clause, part: _Parted) -> str:
@@ -167,7 +196,15 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or (
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
-    return told or strange or outside
+    told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
+    told = told or exclaims(aside.said, is_name) or tells_of_others(aside.said, is_name)
+    return told or strange or outside or _is_of_own_body(aside.said, is_name)
+
+
+def _is_of_own_body(said: str, is_name: IsName) -> bool:
+    """Whether a clause is about somebody's hands or the like ("my hands are full")."""
+    mine = said.startswith(("my ", "our ")) and is_of_people(said)
+    return mine and not any(map(is_name, said.split()))
 
 
 def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
@@ -219,8 +256,14 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case (("reason" | "meanwhile"), _):
             reason = is_reason(clause.said, is_name)
             return reason and (trailing or (at == 0 and clauses[1:] != []))
+        case "comment", "who":
+            of_somebody = at > 0 and clauses[at - 1].kind == "benefit"
+            return of_somebody and is_remark(f"she {clause.said}", is_name)
         case "benefit", _:
-            apart = at > 0 and (last or clauses[at + 1].comma)
+            somebody, _, does = clause.said.partition(" who ")
+            if does and not is_remark(f"she {does}", is_name):
+                return False
+            apart = at > 0 and (last or clauses[at + 1].comma or clauses[at + 1].joint == "and")
             return apart and not any(map(is_name, clause.said.split()))
         case "purpose", "before":
             named = any(map(is_name, clause.said.split()))
@@ -236,15 +279,41 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "comment", _:
             return clause.comma and is_comment(clause.said, is_name)
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
-    planned = so and (is_desk_wish(clause.said) or is_plan(clause.said, is_name))
+    planned = so and (
+        is_desk_wish(clause.said)
+        or is_plan(clause.said, is_name)
+        or goes_there(clause.said, is_name)
+    )
+    if at == 0 and exclaims(clause.said, is_name):
+        return True
+    if _is_whole(clauses, at) and tells_of_others(clause.said, is_name):
+        return True
+    if dislikes(clause.said) or is_hindering(clause.said):
+        return True
     if planned or wants_such_a_thing(clause.said, is_name):
         return True
     return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
 
 
+def _is_whole(clauses: Sequence[Clause], at: int) -> bool:
+    """Whether a clause may be a sentence rather than an item of a list ("the pens, the keys")."""
+    alone = all(item.is_polite for at_, item in enumerate(clauses) if at_ != at)
+    behind = clauses[at + 1] if at + 1 < len(clauses) else None
+    asked = behind is not None and (
+        behind.joint in ("so", "and so", "but", "that is why", "therefore", "hence")
+        or (not behind.joint and at == 0 and is_doing((behind.said.split() or [""])[0]))
+        or (behind.is_polite and at == 0)
+    )
+    return alone or asked
+
+
 def _named(asides: Sequence[Clause], is_name: IsName) -> str:
     """What asides name in the scene, as a remark."""
-    phrases = [phrase for aside in asides for phrase in _phrases(aside.said.split(), is_name)]
+    phrases = [
+        in_state(aside.said, phrase)
+        for aside in asides
+        for phrase in _phrases(aside.said.split(), is_name)
+    ]
     return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""
 
 
@@ -253,7 +322,7 @@ def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
     for at, word in enumerate(words):
         if word in BEFORE_NAMES:
             end = last = at + 1 + (words[at + 1 : at + 2] in _LIKED)
-            while end < len(words) and (is_name(words[end]) or is_descriptive(words[end])):
+            while end < len(words) and is_told_apart_by(words[end], is_name):
                 end += 1
                 last = end if is_name(words[end - 1]) else last
             if last > at + 1:
@@ -265,7 +334,7 @@ def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
 
 def _names_stranger(said: str, is_name: IsName) -> bool:
     """Whether something is named that the scene does not have, and no person."""
-    words = said.split()
+    words = _IS_ONE.sub(" ", said).split()
     return any(
         word in BEFORE_NAMES
         and words[at + 1] not in all_words()

@@ -5,7 +5,9 @@ from __future__ import annotations
 _STATES = (
     r"(?:going|on|in|inside|over|too|not|now|still|already|less|more|so|much)\b"
     r"|\w+(?:ed|en)(?: (?:up|out|off))?(?: (?:and|so)\b|[,.;:]|$)"
-    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine|dead|done|over)"
+    r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine|dead|done|over|blunt|dull"
+    r"|sharp|hot|cold|wet|dry|hungry|tired|late|early|loose|heavy|asleep|awake|ill|sick|busy|here"
+    r"|back|gone|ripe|rotten|useless|noisy|sticky|fragile|slippery)"
     r"(?: (?:and|so|but|where)\b| -|[,.;:!]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""

@@ -74,8 +74,17 @@ class TakenBack:
 def mark_in(text: str) -> re.Match[str] | None:
     """The first words of a normalized text that take something back."""
     found = _MARK.search(text, 1)
+    while found and _of_the_same(text, found):
+        found = _MARK.search(text, found.end())
     known = found and (found.end() < len(text) or _ALL_OF_IT.search(found[0]))
     return found if found and known and found.start() else None
+
+
+def _of_the_same(text: str, mark: re.Match[str]) -> bool:
+    """Whether a mark stands between the same word twice, which leaves it open ("nut or no nut")."""
+    before, after = text[: mark.start()].split()[-1:], text[mark.end() :].split()[:1]
+    alike = [word.strip(",.!?;") for word in (*before, *after)]
+    return mark[0].split() == ["or", "no"] and alike[0] == alike[-1]
 
 
 def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:

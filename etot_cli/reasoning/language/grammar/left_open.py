@@ -56,10 +56,17 @@ _OF_DOING = (
     r" (?:this|that|it|them|these|things)"
     r"|(?:this|that|it) (?:is done|happens)|(?:they|things) are (?:done|moved|put|placed)))"
 )
+_TOGETHER_OR_APART = (
+    r"(?:split|keep|leave|put|store|separate|part|divide|stay|go|have)(?: (?:them|both|the two))?"
+    r"(?: (?:up|together|apart|separately|in one(?: place)?|both|as (?:a pair|one)|side by side))*"
+)
 _LEFT_OPEN = Expression(
     rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
     rf"|(?:{_WHAT}|{_EITHER}|(?:what|which) \w+) {_NO_MATTER}"
     rf"|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
+    r"|(?:\w+ )?(?P<thing>\w+) or no (?P=thing)"
+    rf"|(?:you|they) (?:can|may|could|might) {_TOGETHER_OR_APART} or (?:else )?"
+    rf"(?:(?:you|they) (?:can|may) )?{_TOGETHER_OR_APART}"
     rf"|the (?:exact )?{_MANNER}{_OF_DOING}? {_NO_MATTER}"
     rf"|(?:any|either|both|all) {_MANNER}s?{_OF_HOLDING} (?:(?:is|are) (?:both |equally |also )?"
     r"(?:fine|ok|okay|good|all right|alright)|will do|would do|works?)"

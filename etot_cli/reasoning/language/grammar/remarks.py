@@ -31,7 +31,7 @@ IsName = Callable[[str], bool]
 _RELATIONS = (
     "kids?|children|guests?|visitors?|boss|sister|brother|mother|mom|mum|father|dad|wife|husband|"
     "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
-    "patients?|lady|ladies|gentlem[ae]n|wom[ae]n|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
+    "patients?|grand(?:ma|pa)|granny|grandad|uncle|aunt|cousin|niece|nephew|parents|toddler|grandchild(?:ren)?|lady|ladies|gentlem[ae]n|wom[ae]n|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
 )
 _OWN = "hands?|feet|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|bus|train|taxi|shift"
 """Of people, and of nothing that is in a scene."""
@@ -40,7 +40,7 @@ PEOPLE = (
     r"|grand(?:ma|pa)|granny|mum|mom|dad"
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
-    rf"(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
+    rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
 )
 _PERSON = Expression(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
@@ -82,7 +82,7 @@ _DOES = Expression(
 )
 _TIDYING = [["cleaning"], ["tidying"], ["packing"], ["moving"], ["clearing"], ["sorting"]]
 """What people are at who do not say what the robot is to do about it."""
-_PROPOSING = word_set(
+PROPOSING = word_set(
     """
     suggest recommend propose expect insist demand require request vote choose pick say says tell
     ask beg advise order urge bet mean means vote count rely trust
@@ -96,7 +96,16 @@ ASKING = word_set(
     unless when until instead except only
     """
 )
-_CHANGING = word_set(
+DECREEING = word_set(
+    """
+    forbid forbids forbidden prohibit prohibits prohibited ban bans banned bar bars barred taboo
+    reserved reserve reserves allow allows allowed permit permits permitted require requires
+    required excluded exclude excludes exempt limits bounds mandatory obligatory demands prevents
+    prevent avoid avoids deserve deserves await awaits insists expects protected
+    """
+)
+"""Words by which things are ruled out, or meant for something."""
+CHANGING = word_set(
     """
     stay stays remain remains live lives come comes join joins move moves leave leaves open opens
     close closes shut shuts swap swaps switch switches return returns replace replaces change
@@ -110,7 +119,7 @@ _DOING = {
     if VERB_WORDS & {f"{verb}ing", f"{verb[:-1]}ing", f"{verb}{verb[-1]}ing"}
 } | {"open", "shut", "empty"}
 """What the robot could be asked to do."""
-_WORK = _DOING - {"clean", "tidy"}
+WORK = _DOING - {"clean", "tidy"}
 """Those that say nothing else of a thing."""
 _ASKED = Expression(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(_DOING))})\b")
 _OUTSIDE = Expression(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
@@ -138,17 +147,23 @@ REFERRING = word_set(
 BEFORE_NAMES = word_set("the a an my your our his her their this that these those both all")
 _PREDICATE = Expression(
     r"(?:(?:is|are|was|were|has|have|had)(?: not| been| got)?|(?:does|do|did|will|can) not"
-    r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|\w+[^s]s|\w+ed)"
+    r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|broke|\w+[^s]s|\w+ed)"
     r"(?: (?:still|just|already|always|all|so|very|too|really|a bit|far|badly|quite|less|more))*"
     r"(?= |$)"
 )
+_A_BIT = Expression(r" (?:a (?:little|bit|lot)|quite a bit)(?= |$)")
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
 _NOT_STAYING = (
     r"(?:can|must|should|may) not (?:be (?:left|kept)|stay|remain)"
     r"(?: (?:like (?:this|that)|as (?:it is|they are)|that way|so))?"
 )
+_OVER_THE_EDGE = (
+    r"(?:sticking|poking|peeking|hanging|jutting|bulging|spilling|protruding|leaning)"
+    r"(?: (?:out|over|up|off|halfway))*(?: (?:of |over |at |from )?(?:the )?"
+    r"(?:top|edge|side|rim|front))?"
+)
 _NO_PLACE = Expression(
-    rf"^belongs? to {PEOPLE}$|^(?:is|are) {PEOPLE} 's$"
+    rf"^belong(?:s|ed)? to {PEOPLE}$|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
     rf"|^(?:is|are) (?:going|turning) (?:{TURNED})$"
@@ -164,7 +179,7 @@ _DONE_TO_THINGS = VERB_WORDS | words_of(
 """What a thing may need of the robot; whatever else it needs, such as chilling, is a reason."""
 _TELLING = (
     word_set("full free clear ready taken occupied") | set(STATES) | set(LEVELS) | set(SIDES)
-    | set(NUMBERS) | set(THING_NOUNS) | REFERRING
+    | set(NUMBERS) - {"a", "an"} | set(THING_NOUNS) | REFERRING
 )  # fmt: skip
 """They tell one thing from another, or say how one is to be."""
 PLACED = word_set("in on into onto at next beside near off out")
@@ -260,7 +275,7 @@ def is_reason(said: str, is_name: IsName) -> bool:
     said = _GONE_WRONG.sub(" fails", said)
     words = {*said.split()}
     if not is_of_people(said):
-        return not (ASKING | _CHANGING - {"to", "by", "than"} | _WORK) & words
+        return not (ASKING | CHANGING - {"to", "by", "than"} | WORK) & words
     wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words
     return not (wanted and PLACED & words and any(map(is_name, words)))
 
@@ -292,10 +307,10 @@ def is_remark(said: str, is_name: IsName) -> bool:
         if did[:1] in _TIDYING and not any(map(is_name, words)):
             return True
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
-        return not ((_WORK | ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
+        return not ((WORK | ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
     outside = _TOO.search(said) or (_OUTSIDE.search(said) and not any(map(is_name, words)))
     told = _TOO.sub("", said).split()  # "too close" is no "close"
-    asking = (_WORK | ASKING | REFERRING) & {*told}
+    asking = (WORK | ASKING | REFERRING) & {*told}
     return bool(_IN_GENERAL.match(said) or (outside and not asking))
 
 
@@ -309,12 +324,12 @@ def _does_nothing(did: str) -> bool:
     """Whether this is what somebody does that is nothing to the robot ("trips over it")."""
     verb, more = _DOES.match(did), {*did.split()}
     asking = ASKING - {"will", "would", "could", "may", "not"}
-    if verb is None or (_WORK - OTHER_VERBS | asking) & more:
+    if verb is None or (WORK - OTHER_VERBS | asking) & more:
         return False
     stems = {verb["verb"], verb["verb"].removesuffix("s"), verb["verb"].removesuffix("es")}
     known = any(stem in all_words() and stem not in OTHER_VERBS for stem in stems)
     doing = any(word in VERB_WORDS and word.endswith("ing") for word in more)
-    return not (known or doing or _PROPOSING & stems)
+    return not (known or doing or PROPOSING & stems)
 
 
 def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
@@ -332,17 +347,22 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
     return tuple(words[1:end]) if _is_idle(" ".join(words[end:]), is_name) else ()
 
 
+def is_told_apart_by(word: str, is_name: IsName) -> bool:
+    """Whether a word may stand in a phrase for something of the scene ("that open drawer")."""
+    return is_name(word) or is_descriptive(word) or word in STATES or word in LEVELS
+
+
 def _named_until(words: Sequence[str], is_name: IsName) -> int:
     """Where a phrase for something of the scene ends, which begins with the first word."""
     end = 1
-    while end < len(words) and (is_name(words[end]) or is_descriptive(words[end])):
+    while words[end : end + 1] and is_told_apart_by(words[end], is_name):
         end += 1
     return end
 
 
 def _is_idle(predicate: str, is_name: IsName) -> bool:
     """Whether a predicate is such a one."""
-    predicate = _TOO_SO.sub("is so", predicate)
+    predicate = _TOO_SO.sub("is so", _A_BIT.sub("", predicate))
     needed = _NEEDED.match(predicate)
     if _NO_PLACE.match(predicate) or (needed and needed["done"] not in _DONE_TO_THINGS):
         return True
@@ -352,7 +372,7 @@ def _is_idle(predicate: str, is_name: IsName) -> bool:
     verb, *_ = found[0].split()
     more = {*predicate[found.end() :].split()}
     stems = {verb, *(verb.removesuffix(ending) for ending in ("s", "es", "d", "ed"))}
-    asking = (ASKING | _CHANGING | _WORK) - {"not"}
+    asking = (ASKING | CHANGING | WORK | DECREEING) - {"not"}
     if asking & more or (asking - {"get", "keep"}) & stems or _TELLING & more:
         return False
     if any(is_name(word) or is_descriptive(word) for word in more):

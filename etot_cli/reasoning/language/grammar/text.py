@@ -74,7 +74,7 @@ def sentences_of(text: str) -> list[str]:
     parts = _paired([" ".join(part.split()).strip(" ,") for part in _SENTENCE_END.split(plain)])
     found: list[str] = []
     for part in parts:
-        if found and _is_looked_for(found[-1]):
+        if found and part and _is_looked_for(found[-1]):
             # What is looked for, and what is to be done with it.
             found[-1] = f"{found[-1].removesuffix(QUESTION).strip()}, {part}"
         elif found and _OF_A_CHOICE.fullmatch(part):

@@ -106,7 +106,7 @@ _STATED = either(
         noun_phrase,
         small_words.FOUND,
         DESCRIBED,
-        silent(optional(small_words.SO_LONG)),
+        silent(optional(f"{small_words.SO_LONG}, {small_words.BY_NOW}")),
         build=lambda np, said: Things((np.told_by(said),)),
     ),
     sequence(

@@ -82,3 +82,15 @@ def done_where_needed(said: Sequence[str]) -> int:
     if len(said) > 1 and _IF_IN_THE_WAY.fullmatch(said[0]) and _TAKE_IT_AWAY.fullmatch(said[1]):
         return 2
     return int(bool(said and _WHERE_NEEDED.fullmatch(said[0])))
+
+
+_HINDERING = Expression(
+    r"there (?:is|are) (?:still )?(?:an?|the|some|two|my) (?:\w+ ){1,3}"
+    r"(?:(?:standing |lying |sitting )?in (?:the|your|its) way|blocking it)"
+    r"(?: (?:in|on|inside|on top of) (?:the|that|my) (?:\w+ ){0,3}\w+)?"
+)
+
+
+def is_hindering(said: str) -> bool:
+    """Whether a clause tells what is in the way, which every plan sees for itself."""
+    return bool(_HINDERING.fullmatch(said))

@@ -22,6 +22,9 @@ ANY_WILL_DO = f"""
     ({_WILL_DO}) [(for|with|by) (me|us|this|now|(the|this) (demo|test|task|experiment|trial|run))]
 """
 """Behind any of several things, before what is to be done with one of them."""
+_HOLDING = """
+    (approach|grasp|grip|gripper|grasping) (direction|pose|orientation|angle|side)
+"""
 WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though,
@@ -34,7 +37,16 @@ WITHOUT_MEANING = f"""
     at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
-    [and] that is (it|all|everything),
+    [and] that is (it|all|everything)
+    [[that] (i|we) (ask [for|of you]|want|need|wish|wanted|would like|am asking [for])|
+    [that] there is [to it]],
+    ~comma (choose|pick|take|use) (whichever|whatever) [one] (you (like|want|prefer|choose|fancy)|
+    suits you [best]|is (easier|easiest|best)),
+    [just|simply] choose (whichever|whatever) [one] (you (like|want|prefer|fancy)|suits you),
+    [the] ({_HOLDING}) [is] (free|arbitrary|optional|open|unconstrained|irrelevant|up to you|
+    [of] your [own] (choice|choosing)),
+    (any|whichever) ({_HOLDING}), with (any|whichever|whatever) ({_HOLDING}),
+    ({_HOLDING}) (of your [own] (choice|choosing)|as you (like|please|wish|prefer)),
     (whichever|whatever) [one] you (like|want|prefer|choose|fancy), [it is] your choice,
     [it is|that is] up to you, you (choose|decide|pick), the choice is yours,
     wherever (you (like|want)|there is [some] (room|space)|it fits),
@@ -50,7 +62,9 @@ WITHOUT_MEANING = f"""
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
     however you (like|can|want), as you (like|wish|prefer|please),
     (whichever|either|any) way (round|around) [you (like|want|prefer|please)],
-    [in] (any|whichever|whatever) order [you (like|want|prefer|please)|suits you [{_EASIER}]],
+    [in] (any|whichever|whatever) order
+    [you (like|want|prefer|please|choose|see fit|fancy)|[that] suits you [best|{_EASIER}]|
+    is (easier|easiest|best) [for you]|seems best [to you]],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
     if possible,
@@ -93,8 +107,9 @@ TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 TASK = f"""
     {ANNOUNCED} ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
-    [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted)
-    (state|configuration|arrangement|result|situation|setup|condition|layout|picture) ~comma
+    [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted|required)
+    (state|configuration|arrangement|result|situation|setup|condition|conditions|layout|picture) ~comma,
+    [my|our|the|a] [small|little|simple|one] (request|wish|instruction) ~comma
 """
 GOAL_IS = """
     [the|our|my|your] [desired|required|intended] (goal|target|(final|end|goal|target)
@@ -104,7 +119,7 @@ GOAL_IS = """
 GREETINGS = f"""
     [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
     hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
-    ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
+    oh (dear|my), dear me, ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
     great, um, [my] dear ~comma, now then, come on,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP},
@@ -220,7 +235,7 @@ FELL = """
     (fell|rolled|slipped|slid|dropped|went|(has|have|had) (fallen|rolled|slipped|slid|gone)) [down]
 """
 """Between a thing and what it is in or on by now."""
-BY_NOW = "right now, now, at the moment, currently, still, already, just"
+BY_NOW = "right now, now, at the moment, currently, still, already, just, anyway, again, by now"
 """With how things are."""
 SOMEBODY_LEFT = f"""
     (i|we|you|they|he|she|someone|somebody|(the|my|our) ({RELATIONS})) [have|has|had] [just] left,
