@@ -107,6 +107,7 @@ _FIXED = """
     all [that] (i|we) [really|just] (need|want|would like), all that (should|must) be,
     (thing|things|one|ones|object|objects|item|items) (left|remaining),
     all [that] (i|we) (need|want) (left|remaining),
+    the right (home|place|spot) (for|of),
     (is|are) only [slightly|partly|partially|half|halfway|barely|a (bit|little|crack)]
 """
 """Phrases in which such words say something else, or nothing of their own."""

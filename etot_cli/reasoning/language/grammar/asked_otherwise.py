@@ -194,10 +194,14 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     ),
     # "The cup has to come out first and can go on the tray"
     (
-        rf"(?<!and )(?<!or )\b({_ONE}) (has to|needs to|must|should) come out"
+        rf"(?<!and )(?<!or )\b({_ONE}(?: (?:that|which) is (?:there|in there|inside))?)"
+        r"(?: (?:now|already|still))? (has to|needs to|must|should) come out"
         r"((?: of (?:it|there))? (?:first|beforehand|before that)) and "
-        r"(?=(?:can|may|could|must|should|has to|goes)\b)(?!\w+ not\b)",
-        r"\1 \2 come out\3, it ",
+        r"(?:(?=(?:can|may|could|must|should|has to|goes)\b(?! not\b))"
+        r"|(go|be put|be placed|be moved)\b)",
+        lambda said: (
+            f"{said[1]} {said[2]} come out{said[3]}, it {f'should {said[4]}' if said[4] else ''}"
+        ),
     ),
     # "The cup and the mug should not be in the same box: one in the red, one in the blue box"
     (

@@ -42,7 +42,14 @@ from etot_cli.reasoning.language.grammar.not_before import NOT_BEFORE
 from etot_cli.reasoning.language.grammar.past import EARLIER, LATER, then_done
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import BESIDES_SO, OPEN_OR_CLOSED, SHUT, states
+from etot_cli.reasoning.language.grammar.states import (
+    BESIDES_SO,
+    OPEN_OR_CLOSED,
+    SHUT,
+    ensured,
+    holding_only,
+    states,
+)
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,
@@ -64,7 +71,7 @@ from etot_cli.reasoning.language.grammar.which_clauses import (
     named_last,
 )
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
 Joined = tuple[tuple[str, Reading], ...]
@@ -112,6 +119,12 @@ WITH_MORE_SO = either(
         plain(either(sequence(NP_LIST, SHUT, build=left_so), UNTOUCHED)),
     ),
     joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
+    joint(
+        # "I want the box empty and the tray holding the pen only"
+        "and",
+        LIST,
+        plain(sequence(holding_only(verbs.HOLDING), build=ensured)),
+    ),
 )
 """How other things are to be besides ("…, with the door closed")."""
 JOINED = either(

@@ -1,4 +1,4 @@
-"""How things are to be in the end, told in another order or by other verbs, put into plain words."""
+"""How things are to be in the end, told in another order or by other verbs, put plainly."""
 
 from __future__ import annotations
 
@@ -12,30 +12,39 @@ from etot_cli.reasoning.language.words.small_words import NAMED
 _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|ought to"
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
+_ASKED = re.compile(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
 _ALL_OF = {"any": "none", "either": "neither"}
 _LATTER = Expression(
-    rf"({_SOME}) and ({_SOME})(?= |[.,;])([^!?]*)\bthe (?:former|latter)\b[^!?]*"
+    rf"({_SOME}) and ({_SOME})(?= (?:on|in|onto|into|to|both|should|must|have|need|belong|go|are)\b"
+    r"|[.,;])[^!?]*?\bthe (?:former|latter)\b[^!?]*"
 )
 """Two things, and what is said of either by which was named first."""
+_SITS = re.compile(
+    r"\b((?:former|latter)(?: one)?) (?:sits|stands|lies|rests|is) (?=(?:in|on|inside)\b)"
+)
 
 
 def _nor(said: re.Match[str]) -> str:
     """What is not to be so either."""
-    modal, quantity, them, be = said.groups()
+    modal, quantity, them, be, door = said.groups()
+    if quantity and door:
+        return f" and all of {them} {modal} be {'closed' if door == 'open' else 'open'}"
     if quantity:
         return f" and {_ALL_OF[quantity]} of {them} {modal} {be}"
-    return f" and {them} {modal} not {be}"
+    return f" and {them} {modal} not {be}{f' {door}' if door else ''}"
 
 
 def _named_again(said: re.Match[str]) -> str:
-    """The things themselves for "the former" and "the latter"; of which two is clear of a sole pair."""
+    """The things themselves for "the former" and "the latter", where but one pair was named."""
     pairs = re.findall(rf"\b{_SOME} and {NAMED}", said[0])
     if len(pairs) > 1:
         return said[0]
+    text = _SITS.sub(r"\1 should be ", said[0]) if _ASKED.search(said[0]) else said[0]
+    first, second = (re.sub("^(?:both|all) (?=the|my)", "", np) for np in said.groups())
     return re.sub(
-        r"\bthe (former|latter)(?: one)?\b(?! \w+s\b)",
-        lambda which: said[1] if which[1] == "former" else said[2],
-        said[0],
+        r"\bthe (former|latter)(?: one)?\b",
+        lambda which: first if which[1] == "former" else second,
+        text,
     )
 
 
@@ -53,15 +62,42 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "…, nor should any of them be open"
     (
-        rf",? (?:and )?nor ({_MUST}) (?:(any|either) of )?({_SOME}|it|they|them) ({_BE})\b",
+        rf",? (?:and )?nor ({_MUST}) (?:(any|either) of )?({_SOME}|it|they|them) ({_BE})"
+        r"\b(?: (open|closed|shut)\b)?",
         _nor,
     ),
+    (
+        rf"\b({_MUST}), (?:in the end|ultimately|eventually|of course|please), (?=(?:{_BE})\b)",
+        r"\1 ",
+    ),
     # "The blue one, though, should lie there"
-    (rf", (?:though|however|on the other hand|in turn|for (?:its|their) part),(?= (?:{_MUST})\b)", ""),
+    (
+        r", (?:though|however|on the other hand|in turn|for (?:its|their) part),"
+        rf"(?= (?:{_MUST})\b)",
+        "",
+    ),
     (
         r"\b(stays?|remains?|be|left|kept|leave (?:it|them)|keep (?:it|them)) "
         r"(?:exactly |just )?as (?:far |wide )?(?:open|closed|shut) as (it is|they are)\b",
         r"\1 as \2",
+    ),
+    # "With the cup still on the box, untouched"
+    (
+        rf"\bwith ({_SOME}) still ([^,.;]*), (?=(?:untouched|unmoved)(?:[.,;!]|$))",
+        r"with \1 \2 ",
+    ),
+    # Of two there are no more to be told.
+    (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),
+    # Which one it is not, said behind it
+    (
+        r"\b((?:an?|one|any) \w+(?: \w+)?), (?:but )?not one (that|which) "
+        r"(?:is|stands|lies|sits) ((?:in|on) [^.,;]*),?",
+        r"\1 \2 is not \3",
+    ),
+    (
+        r"\b((?:standing|lying|sitting|that is|which is) (?:in|on) [^.,;]*?), "
+        r"(?:and |but )?not one of (?:those|the ones)(?: that are)? (?=(?:in|on) )",
+        r"\1 and not ",
     ),
     # Places that are left open
     (
@@ -86,8 +122,8 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"\b(?:(?:i|we) (?:would )?(?:like|need|want)|put|place|get|set) ({_SOME}) "
         rf"(?:to (?:be|go|lie) )?(?:under|underneath|beneath|below) ({_SOME}),? "
-        r"(?:rather than|instead of|and not|not) (?:lying |being )?(?:on(?: top)?(?: of)?|above|over)"
-        r"(?: (?:it|them))?(?=[.,;!]|$)",
+        r"(?:rather than|instead of|and not|not) (?:lying |being )?"
+        r"(?:on(?: top)?(?: of)?|above|over)(?: (?:it|them))?(?=[.,;!]|$)",
         r"put \2 on \1",
     ),
     (

@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.states import (
     each_so,
     ensured,
     holding,
+    holding_only,
     kept_so,
     not_left,
     opposite,
@@ -120,7 +121,6 @@ OF_SEVERAL = 2
 
 
 _THERE = (Destination(Toward.HERE, word=AS_SAID),)
-
 
 
 def _none(nps: tuple[NounPhrase, ...]) -> bool:
@@ -248,7 +248,11 @@ ENSURE = either(
     ),
     sequence(
         verbs.WANTED,
-        containing("to (contain|hold|have)"),
+        either(
+            containing("to (contain|hold|have)"),
+            containing("to (carry|bear|support)", Toward.ON),
+            holding_only(verbs.HOLDING),
+        ),
         build=lambda state: EnsureClause((state,)),
     ),
     valued(
@@ -289,7 +293,7 @@ ENSURE = either(
             (0, (verbs.WANTED, _TOGETHER)),
             (1, (verbs.WANTED, NP_LIST)),
             (0, (verbs.CAN, NP_LIST, verbs.BE_PUT)),
-            (0, (verbs.THERE_BE, NP_LIST)),
+            (0, (verbs.THERE_BE, NP_LIST, silent(optional(verbs.BEING)))),
             (0, (verbs.ENSURE, verbs.THERE_IS, NP_LIST)),
             (0, (sequence(verbs.THERE_NOT_BE, noun_phrase, build=there_is_none),)),
         )

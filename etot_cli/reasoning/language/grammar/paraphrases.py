@@ -27,7 +27,8 @@ _NOTHING_ELSE = Expression(
 )
 """Behind the things it stands for what is said of them behind their place."""
 _MAY_GO = Expression(
-    r"(^|[.!?;]\s*)(?:could|can) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)(?: please)? go\b"
+    r"(^|[.!?;]\s*)(?:could|can|may|might) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)"
+    r"(?: please)? (go|come|move|return|end up|wind up|live)\b"
 )
 """A request in the words of a question."""
 _SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
@@ -134,10 +135,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
     (r"\bthe other way round\b", "the other way around"),
     (
-        r"\bneither ((?:of the )?\w+) (?:should|must|may|is to) be (moved|touched)\b",
-        lambda said: f"do not {said[2][:-1] if said[2] == 'moved' else 'touch'} either {said[1]}",
-    ),
-    (
         r"\b((?:get|take|fetch|move) [^.;]*? (?:from|out of|off) [^.;]*?and (?:please )?"
         r"(?:put|place) (?:it|them) (?:in|on|into|onto) [^.,;]*?) instead(?=[.;!?]|$)",
         r"\1",
@@ -212,7 +209,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         ", ",
     ),
     (r"\bnothing (?:more|besides)\b", "nothing else"),
-    (_MAY_GO, r"\1\2 should go"),
+    (_MAY_GO, r"\1\2 should \3"),
     (
         r", (?:say|for example|e\.g\.),? (?=(?:to|in|on|into|onto|at|next|beside|near|behind)\b)",
         ", ",

@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     sequence,
     some,
 )
-from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, not_left
+from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -59,6 +59,14 @@ def _not_wanted(things: Things) -> AvoidClause | None:
 def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
     """What is not to be used is not to hold or bear things, some or any."""
     return AvoidClause(Avoid.PUT, things or ANYTHING, (Destination(Toward.TO, nps),))
+
+
+def _none_disturbed(np: NounPhrase, avoid: Avoid) -> AvoidClause | None:
+    """What is done to none of some things is done to nothing of them."""
+    if np.determiner not in NONE:
+        return None
+    every = replace(np, determiner=NONE[np.determiner])
+    return AvoidClause(avoid, Things((every,)), negated=True)
 
 
 def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause | None:
@@ -156,6 +164,13 @@ AVOID = either(
         nouns.EXCEPT,
         either(DESTINATIONS, sequence(NP_LIST, build=lambda nps: (Destination(Toward.TO, nps),))),
         build=lambda things, where: AvoidClause(Avoid.PUT, things, where, negated=True),
+    ),
+    sequence(
+        # "None of the cups may be moved"
+        noun_phrase,
+        f"({verbs.MAY}) be",
+        one_of({Avoid.TOUCH: verbs.TOUCHED, Avoid.MOVE: verbs.DISTURBED, Avoid.HIT: verbs.WAS_HIT}),
+        build=_none_disturbed,
     ),
     sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
     sequence(

@@ -194,8 +194,13 @@ _COMES_AND_GOES = """
 
 PUT = either(
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
+    sequence("find[ing]", _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(
-        "find[ing]", _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to
+        "find[ing] [a|some|enough] (room|space|place|spot)",
+        DESTINATIONS,
+        "for",
+        THINGS,
+        build=lambda where, things: put_to(things, where),
     ),
     sequence(ALL_THINGS, _NEEDS_A_PLACE, DESTINATIONS, build=put_to),
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),

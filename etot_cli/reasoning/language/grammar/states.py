@@ -142,9 +142,32 @@ def holding(
     return None if told and held[1:] else State((*held, *more), (Destination(toward, (np,)),))
 
 
+def _holding_only(np: NounPhrase, held: NounPhrase, toward: Toward, said: str) -> State | None:
+    """What alone is in or on something ("the box should hold the pen only")."""
+    plain = held.determiner in ("the", "my", "this", "that") and not held.pronoun
+    alone = replace(held, determiner="only the")
+    return holding(np, (alone,), toward) if plain and said else None
+
+
+_AND_NO_MORE = phrase("only, alone")
+
+
+def holding_only(verb: str, toward: Toward = Toward.INSIDE) -> Parser:
+    """What alone is in or on something, as it is said behind that."""
+    return sequence(
+        noun_phrase,
+        verb,
+        noun_phrase,
+        optional(IN_OR_ON_IT, toward),
+        _AND_NO_MORE,
+        build=_holding_only,
+    )
+
+
 def containing(verb: str, toward: Toward = Toward.INSIDE) -> Parser:
     """What is in or on something, by a verb for that; ``toward``: where none is said."""
     return either(
+        holding_only(verb, toward),
         sequence(noun_phrase, verb, NP_LIST, optional(IN_OR_ON_IT, toward), build=holding),
         sequence(noun_phrase, verb, NP_LIST, IN_OR_ON_IT, _AS_WELL, build=holding),
     )
@@ -233,7 +256,7 @@ def kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> Ensu
 BESIDES_SO = either(
     sequence(
         # "…: the cup, containing the pen"
-        "containing, holding, carrying, bearing",
+        verbs.HOLDING,
         NP_LIST,
         build=lambda held: ensured(
             State(held, (Destination(Toward.INSIDE, (NounPhrase(pronoun="it", text="it"),)),))

@@ -11,7 +11,8 @@ from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, FILLED
+from etot_cli.reasoning.language.grammar.coordination import all_of
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, FILLED, WHERE
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -66,10 +67,17 @@ def _its_own(things: Things, place: NounPhrase) -> PutClause | None:
 
 WANTED = either(
     PASSIVE,
-    sequence(ALL_THINGS, verbs.TO_HAVE, noun_phrase, build=_its_own),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.TO_HAVE),
+            sequence(NP_LIST, verbs.TO_EACH_HAVE, build=lambda nps: Things(all_of(nps, "each"))),
+        ),
+        noun_phrase,
+        build=_its_own,
+    ),
     sequence(
         either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
-        DESTINATIONS,
+        WHERE,
         build=put_to,
     ),
     sequence(
@@ -79,6 +87,12 @@ WANTED = either(
         ),
         noun_phrase,
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
+    ),
+    sequence(
+        noun_phrase,
+        verbs.JOINED_BY,
+        ALL_THINGS,
+        build=lambda np, things: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
     sequence(optional("have, let, make"), ALL_THINGS, verbs.SHARE, noun_phrase, build=_shared),
     sequence(
@@ -94,8 +108,10 @@ WANTED = either(
             # "On the tray I want the cup with the pen in it"
             DESTINATIONS,
             OPTIONAL_COMMA,
-            f"{verbs.WANTED}, {verbs.STANDS_THERE}",
-            NP_LIST,
+            either(
+                sequence(f"{verbs.WANTED}, {verbs.STANDS_THERE}", NP_LIST),
+                sequence(NP_LIST, verbs.IS_THERE),
+            ),
             build=lambda where, nps: EnsureClause((State(nps, where),)),
         )
     ),
@@ -175,6 +191,7 @@ def _belonging(things: Things, where: tuple[Destination, ...]) -> EnsureClause:
     return EnsureClause((State(things.phrases, where),))
 
 
+_PLACE_FOR = "the [proper|right|correct|best|usual|natural] (home|place|spot) (for|of)"
 _ENSURED = silent(optional(verbs.ENSURE))
 _THE_ONE = "is the one [that|which]"
 _POINTED_OUT = either(
@@ -234,9 +251,11 @@ TOLD_APART = either(
         build=lambda np, things, toward: put_to(things, (Destination(toward, (np,)),)),
     ),
     sequence(
-        # "The spoon's home is the drawer"
-        ALL_THINGS,
-        "'s (home|place|spot) is",
+        # "The spoon's home is the drawer", "the best place for the spoon is the drawer"
+        either(
+            sequence(ALL_THINGS, "'s (home|place|spot) is"),
+            sequence(_PLACE_FOR, ALL_THINGS, "is, would be"),
+        ),
         either(DESTINATIONS, sequence(noun_phrase, build=_at)),
         build=_belonging,
     ),
@@ -247,7 +266,7 @@ TOLD_APART = either(
             sequence("is where", ALL_THINGS, verbs.BELONG),
             sequence("is where", verbs.WANTED, ALL_THINGS, optional("to (be|go|stand|lie)")),
             sequence(
-                "is the [proper|right|correct|best|usual|natural] (home|place|spot) (for|of)",
+                f"(is|would be) {_PLACE_FOR}",
                 ALL_THINGS,
             ),
         ),

@@ -88,7 +88,7 @@ FRONTED = quiet(
             sequence(
                 DESTINATIONS,
                 OPTIONAL_COMMA,
-                either(verbs.PUT, f"go[es], belong[s], come[s]"),
+                either(verbs.PUT, "go[es], belong[s], come[s]"),
             ),
         ),
         NP_LIST,
@@ -157,7 +157,11 @@ LISTED = quiet(
                 noun_phrase,
                 sequence(COMMA, NP_LIST, COMMA),
                 verbs.MODAL,
-                build=lambda whole, nps: (whole, nps) if _counted(whole, nps) else None,
+                build=lambda whole, nps: (
+                    (replace(whole, determiner=whole.determiner.split()[-1]), nps)
+                    if _counted(whole, nps)
+                    else None
+                ),
             ),
             sequence(verbs.WANTED, noun_phrase, _LISTED, optional("to (go|be)")),
         ),

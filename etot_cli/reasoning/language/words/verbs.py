@@ -161,7 +161,7 @@ _BROUGHT = """
 """
 BROUGHT = f"{_BROUGHT}, stood, returned"
 """What was taken from one place is then, to another one."""
-NOTHING_GOES = f"""
+NOTHING_GOES = """
     (nothing|no (thing|object|item)) (should|must|may|can|shall|is to|has to)
     (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move)
 """
@@ -183,13 +183,13 @@ MODAL = f"""
     (end|finish|wind) up [{_BEING}]|get|(go|come|move|return) [back]|land|
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
-    (can|could|may|might|will) {_SIMPLY} ((go|come|move|return) [back]|end up|be ({_BROUGHT})),
+    (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
-    move[s] [up|down|over|back], (is|are) [now|still|also] (wanted|needed|required|due)
+    move[s] [up|down|over|back], (is|are) [now|still|also] (wanted|needed|required)
 """
 _STAND_THERE = f"""
     (be|go|stand|sit|lie|rest|(be|end up) ({_BEING}|placed|put|found|kept)|end up)
@@ -197,6 +197,8 @@ _STAND_THERE = f"""
 THERE_BE = f"there ({_MUST}) {_SIMPLY} ({_STAND_THERE})"
 STANDS_THERE = f"({_MUST}) {_SIMPLY} ({_STAND_THERE}|come), {THERE_BE}"
 """Behind a place and before what is to be there."""
+IS_THERE = f"({_MUST}) {_SIMPLY} ({_STAND_THERE}|come)"
+"""Behind what is to be in a place that was said before it."""
 THERE_BE_ONLY = f"there ({_MUST}) only be, there (is|are) only to be"
 THERE_IS = "there is, there are"
 THERE_NOT_BE = "there (should|must|shall|may|can) (not|no longer) be"
@@ -270,7 +272,11 @@ HOLDS = "already (holds|contains|has), (holds|contains|has) already"
 USE = "use, using"
 CONTAIN = f"({_MUST}) (contain|hold|have|(be|end up) (containing|holding)), keep[s]"
 TO_HAVE = f"({_MUST}) (have|get|be given), gets, get, needs, need, wants"
+TO_EACH_HAVE = (
+    "(should|must|shall|have to|need to|are to) each (have|get|be given), each (get|need|have)"
+)
 """Between things and what each of them is to have of its own."""
+HOLDING = "holding, containing, carrying, bearing"
 CARRIES = "carries, carry, bears, bear, supports, support"
 TO_CARRY = f"({_MUST}) [then|finally|still] (carry|bear|support)"
 """Between a thing and what is to be on it."""
@@ -308,8 +314,9 @@ WERE = f"""
 """
 """What it would be nice if things were."""
 LET = "have, let, get"
-LET_BE = f"{DONE}, stand, lie, sit, rest, be, go"
+LET_BE = f"{DONE}, [come to] ({_TO_STAND}), be, go, come, move, return, land, (end|wind) up"
 """Between them is what is to go somewhere."""
+JOINED_BY = f"({_MUST}|can|may|could) {_SIMPLY} be joined by"
 JOIN = f"joins, [can|may|could|might|will|{_MUST}] join"
 SHARE = f"[can|may|could|might|will|{_MUST}] share[s]"
 COME_AWAY = """
@@ -382,7 +389,7 @@ DISTURBED = """
     removed, taken [away|out|off]
 """
 """Behind what must not be."""
-MAY = "may, can, could, should, must, (is|are) to, (is|are) (allowed|permitted|supposed) to"
+MAY = "may, can, could, should, must, shall, (is|are) to, (is|are) (allowed|permitted|supposed) to"
 """Before what may be done with some things alone."""
 MOVED_ONLY = "moved [around|about|away]|disturbed|lifted [up]|picked up|shifted|displaced"
 TOUCHED_ONLY = "touched"
