@@ -84,6 +84,7 @@ class Understanding:
         self.sentence += 1
         timed: dict[int, Timed] = {}
         before: int | None = None
+        placed: list[tuple[Spoken, dict[Thing, tuple[Place | None, ...]]]] = []
 
         def ahead(spoken: Spoken) -> bool:
             later = reading[reading.index(spoken) + 1 :]
@@ -97,7 +98,7 @@ class Understanding:
             )
             said = len(self.context.discourse.mentions)
             before_it = {mention.referent for mention in self.context.discourse.mentions}
-            steps = tuple(steps_of(spoken.clause, self.context))
+            steps = self._at_its_time(spoken, reading, placed)
             further = spoken is not reading[0] or spoken.order is Order.THEN
             # "Take the dish out of the oven … Put the pan in the oven instead"
             named = {*self.context.discourse.things(*before_it)}
@@ -130,6 +131,29 @@ class Understanding:
                 timed[before] = item
         check_opposites(self.context.discourse)
         self.timed += [timed[id(spoken)] for spoken in reading if id(spoken) in timed]
+
+    def _at_its_time(
+        self,
+        spoken: Spoken,
+        reading: Sequence[Spoken],
+        before: list[tuple[Spoken, dict[Thing, tuple[Place | None, ...]]]],
+    ) -> tuple[Step, ...]:
+        """A clause's steps. What was said ``before`` it but is to be done after it has not been put
+        anywhere by then ("put the pen in the cup after emptying the cup").
+        """
+        discourse, at = self.context.discourse, reading.index(spoken)
+        later = (
+            was for said, was in before if reading.index(said) > at or spoken.order is Order.FIRST
+        )
+        now, then = dict(discourse.placed), next(later, None)
+        before.append((spoken, now))
+        if then is None:
+            return tuple(steps_of(spoken.clause, self.context))
+        discourse.placed = dict(then)
+        steps = tuple(steps_of(spoken.clause, self.context))
+        done_later = {thing: at for thing, at in now.items() if then.get(thing) != at}
+        discourse.placed = {**discourse.placed, **done_later}
+        return steps
 
     def _narrowed(self, step: Step, after: Step | None) -> bool:
         """Whether the next step says more closely where things go ("carry it over to the bag and
