@@ -315,6 +315,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             if goes_there is None:
                 return None
             clause = (replace(clause[0], clause=goes_there),)
+        if said == "after" and is_emptying(before) and is_emptying(clause[0].clause):
+            return None  # "clear it; when it is empty, …" goes on with something else
         if said == "after":
             done = _done_after(done, clause)
         else:
