@@ -22,11 +22,11 @@ from etot_cli.reasoning.language.goals.placing import (
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.grammar.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, RemoveClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
 from etot_cli.reasoning.language.reference.antecedents import NothingThere
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import touches
-from etot_cli.world.state import DESK
+from etot_cli.world.state import DESK, owner_of
 
 
 def _is_left_over(context: Context, clause: RemoveClause) -> bool:
@@ -69,6 +69,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
     try:
         themes = context.phrases.things(things, Role.THEME, around)
     except NothingThere:
+        _check_holds(context, things)
         _speak_of_emptied(context, clause)
         return  # "put the pen in the cup to free the tray"
     if clause.by_then and is_emptying(clause) and not _is_untouched(context, themes):
@@ -93,7 +94,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
         context.mention_part(place)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
     if clause.by_then and is_emptying(clause):
-        context.discourse.notes.append(f"{clause.things.phrases[0].text!r} is put on the desk first")
+        text = " and ".join(np.text for np in clause.things.phrases)
+        context.discourse.notes.append(f"{text!r} goes to the desk first")
         _speak_of_emptied(context, clause)
 
 
@@ -101,8 +103,10 @@ def _is_untouched(context: Context, themes: Sequence[int]) -> bool:
     """Whether nothing has been said yet of what is in or on something that is to be empty by then,
     so that this asks for it; of what was moved in part somebody thinks it is empty.
     """
-    discourse = context.discourse
-    return not {*discourse.things(*themes)} & {*discourse.things(*discourse.put)}
+    states, things = context.scene.states, context.discourse.things
+    left = {(states[thing.name].inside, states[thing.name].on) for thing in things(*themes)}
+    moved = context.discourse.placed
+    return not any((states[t.name].inside, states[t.name].on) in left for t in moved)
 
 
 def _check_emptied(context: Context, clause: RemoveClause, themes: Sequence[int]) -> None:
@@ -117,6 +121,22 @@ def _check_emptied(context: Context, clause: RemoveClause, themes: Sequence[int]
         names = ", ".join(sorted(thing.name for thing in left))
         text = clause.things.phrases[0].text
         raise ReferenceProblem(text, f"say first where {names} goes", 3)
+
+
+def _check_holds(context: Context, things: Things) -> None:
+    """Whether "it", which nothing is in or on by now, ever held anything; else something else may
+    be meant ("put the pen in the cup after emptying it").
+
+    Raises:
+        ReferenceProblem: it did not.
+    """
+    states = context.scene.states
+    held = {owner_of(at) for state in states.values() for at in (*state.on, state.inside) if at}
+    for np in (np for said in things.phrases for m in said.modifiers for np in m.phrases):
+        if np.pronoun:
+            meant = context.discourse.things(*context.phrases.refer(np, Role.ANY))
+            if not any(thing.name in held for thing in meant):
+                raise ReferenceProblem(np.text or np.pronoun, "name what is to be empty", 3)
 
 
 def _speak_of_emptied(context: Context, clause: RemoveClause) -> None:

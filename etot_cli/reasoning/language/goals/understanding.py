@@ -84,6 +84,7 @@ class Understanding:
         self.sentence += 1
         timed: dict[int, Timed] = {}
         before: int | None = None
+        placed: list[tuple[Spoken, dict[Thing, tuple[Place | None, ...]]]] = []
 
         def ahead(spoken: Spoken) -> bool:
             later = reading[reading.index(spoken) + 1 :]
@@ -97,7 +98,7 @@ class Understanding:
             )
             said = len(self.context.discourse.mentions)
             before_it = {mention.referent for mention in self.context.discourse.mentions}
-            steps = self._steps(spoken)
+            steps = self._at_its_time(spoken, reading, placed)
             further = spoken is not reading[0] or spoken.order is Order.THEN
             # "Take the dish out of the oven … Put the pan in the oven instead"
             named = {*self.context.discourse.things(*before_it)}
@@ -131,16 +132,27 @@ class Understanding:
         check_opposites(self.context.discourse)
         self.timed += [timed[id(spoken)] for spoken in reading if id(spoken) in timed]
 
-    def _steps(self, spoken: Spoken) -> tuple[Step, ...]:
-        """The steps of a clause. What has been spoken of before is nowhere else by then where it
+    def _at_its_time(
+        self,
+        spoken: Spoken,
+        reading: Sequence[Spoken],
+        before: list[tuple[Spoken, dict[Thing, tuple[Place | None, ...]]]],
+    ) -> tuple[Step, ...]:
+        """A clause's steps. What was said ``before`` it but is to be done after it has not been put
+        anywhere by then ("put the pen in the cup after emptying the cup"), and nothing has where it
         comes first ("put the bowl on the tray; the tray has to be cleared first").
         """
-        discourse = self.context.discourse
-        if spoken.order is not Order.FIRST:
+        discourse, at = self.context.discourse, reading.index(spoken)
+        later = (was for said, was in before if reading.index(said) > at)
+        now, then = dict(discourse.placed), next(later, None)
+        then = {} if spoken.order is Order.FIRST else then
+        before.append((spoken, now))
+        if then is None:
             return tuple(steps_of(spoken.clause, self.context))
-        later, discourse.placed = discourse.placed, {}
+        discourse.placed = dict(then)
         steps = tuple(steps_of(spoken.clause, self.context))
-        discourse.placed |= later
+        done_later = {thing: at for thing, at in now.items() if then.get(thing) != at}
+        discourse.placed = {**discourse.placed, **done_later}
         return steps
 
     def _narrowed(self, step: Step, after: Step | None) -> bool:

@@ -12,7 +12,6 @@ from functools import partial
 from operator import add
 
 from etot_cli.reasoning.language.grammar.chains import CHAIN
-from etot_cli.reasoning.language.grammar.past import then_done
 from etot_cli.reasoning.language.grammar.clauses import LEFT_OUT, Reading
 from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.exclusions import changed, excluding
@@ -25,6 +24,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     quality_alone,
 )
 from etot_cli.reasoning.language.grammar.parsing import either, optional, phrase, sequence, variants
+from etot_cli.reasoning.language.grammar.past import then_done
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,

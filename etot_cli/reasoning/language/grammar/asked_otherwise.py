@@ -166,7 +166,8 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     ),
     # "Take it out and put in the pen in exchange" puts nothing in the pen
     (
-        rf"\b(put|place|set|lay) (in|on) ({NAMED} [^.,;]*?) in (?:exchange|return)\b(?! for (?:the|my))",
+        rf"\b(put|place|set|lay) (in|on) ({NAMED} [^.,;]*?) in (?:exchange|return)\b"
+        r"(?! for (?:the|my))",
         r"\1 \3 \2 instead",
     ),
     (
@@ -174,6 +175,8 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?:now|right now|already|at the moment|at present|currently)\b",
         r"\1",
     ),
+    (r"\b(that|which) (?:occupies|sits on|takes up) (?=it\b|them\b)", r"\1 is on "),
+    (r"\bwhat (?:lies|stands|sits|is lying) in there\b", "what is in it"),
     # "Here or, if you prefer, there" is a free choice
     (
         r",? or,? if you (?:prefer|like|wish|want|would rather|would prefer|find it easier),? "

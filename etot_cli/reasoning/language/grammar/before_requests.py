@@ -20,7 +20,6 @@ from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.chains import (
     BARE_CHAIN,
     CHAIN,
-    JOINED,
     WITH_MORE_SO,
     Joined,
     chained,
@@ -47,11 +46,11 @@ from etot_cli.reasoning.language.grammar.headlines import (
     taken_out,
 )
 from etot_cli.reasoning.language.grammar.if_so import IF_ANYTHING_IS_THERE
+from etot_cli.reasoning.language.grammar.inversions import INVERTED
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
-    one_of,
     optional,
     sequence,
     silent,
@@ -142,34 +141,6 @@ def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
     return None if held else (*first, *rest)
 
 
-INVERTED = sequence(
-    either(
-        # "Only after that has been done should the pen be put in the cup"
-        sequence("(should|may|can|could|must|shall|will) you", LED_CLAUSE),
-        sequence("(are|do) you [allowed|supposed|free] [to]", LED_CLAUSE),
-        plain(
-            sequence(
-                "should, may, can, could, must, shall, will, is, are, has, have, does, do",
-                ALL_THINGS,
-                f"[to] (go|come|be ({verbs.DONE_WITH_IT}))",
-                DESTINATIONS,
-                build=put_to,
-            )
-        ),
-        plain(
-            sequence(
-                "should, may, can, could, must, shall, will, is, are, has, have",
-                ALL_THINGS,
-                "[to] be",
-                one_of({True: "opened, pulled open", False: "closed, shut"}),
-                build=MoveClause,
-            )
-        ),
-    ),
-    some(JOINED, most=6),
-    build=chained,
-)
-"""What is asked for behind a condition that begins with "only" or "not"."""
 _SO_OR_EMPTY = plain(
     either(sequence(STATE, build=lambda state: EnsureClause((state,))), IS_EMPTY, NOTHING_THERE)
 )

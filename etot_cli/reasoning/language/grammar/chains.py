@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.ensuring import OF_SEVERAL
 from etot_cli.reasoning.language.grammar.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so, timed
+from etot_cli.reasoning.language.grammar.not_before import NOT_BEFORE
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, begins_like_a_verb
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
@@ -38,7 +39,6 @@ from etot_cli.reasoning.language.grammar.passives import (
     THEN_PLACED,
     goes_on,
 )
-from etot_cli.reasoning.language.grammar.not_before import NOT_BEFORE
 from etot_cli.reasoning.language.grammar.past import EARLIER, LATER, then_done
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.spoken import Order
@@ -328,6 +328,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             if goes_there is None:
                 return None
             clause = (replace(clause[0], clause=goes_there),)
+        if said == "after" and is_emptying(before) and is_emptying(clause[0].clause):
+            return None  # "clear it; when it is empty, …" goes on with something else
         if said == "after":
             done = _done_after(done, clause)
         else:
@@ -340,6 +342,4 @@ def chained(first: Reading, more: Joined) -> Reading | None:
 GOES_ON = some(either(JOINED, joint("listed", LIST, HEADLINE)), most=12)
 """What may follow a clause without a verb."""
 BARE_CHAIN = sequence(HEADLINE, GOES_ON, build=chained)
-CHAIN = remembered(
-    sequence(either(LED_CLAUSE, NOT_BEFORE), some(JOINED, most=12), build=chained)
-)
+CHAIN = remembered(sequence(either(LED_CLAUSE, NOT_BEFORE), some(JOINED, most=12), build=chained))

@@ -47,8 +47,9 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"(^|[.;!?] )((?:first,? )?[^.;:!?]*?\b(?:then|finally|lastly)\b[^.;:!?]*?)(?:[:,;.] | - )"
         r"(?:that|this) is (?:the|my|our) (?:order|sequence) in which (?:you (?:should|must|have to"
         r"|need to|can|are to)|to|i (?:want|would like) you to) "
-        r"(?:put|place|set|move|store|stow|pack|load|stack|insert|drop) (?:them|these|those)(?: all)? "
-        rf"(?=(?:in|on|into|onto|to)\b)",
+        r"(?:put|place|set|move|store|stow|pack|load|stack|insert|drop) "
+        r"(?:them|these|those)(?: all)? "
+        r"(?=(?:in|on|into|onto|to)\b)",
         r"\1\2 go ",
     ),
     # "One thing after another" is in turn

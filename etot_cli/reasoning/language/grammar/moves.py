@@ -202,8 +202,8 @@ IF_NOT_SO = quiet(
             _THEN,
             EMPTY_WORDS,
             _PLAIN_MOVE,
-            build=lambda nps, word, moved: (
-                _if_not_so(nps, "closed" if word == "open" else "open", moved)
+            build=lambda nps, word, moved: _if_not_so(
+                nps, "closed" if word == "open" else "open", moved
             ),
         ),
         sequence(

@@ -12,7 +12,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     either,
     one_of,
-    optional,
     phrase,
     quiet,
     sequence,
@@ -76,9 +75,7 @@ def _forbidden(word: str) -> Parser:
                 build=lambda things, *said: put_to(things, said[-1]),
             ),
             sequence(ALL_THINGS, be, opened, build=MoveClause),
-            sequence(
-                ALL_THINGS, be, "picked up, lifted [up], grasped, taken", build=PickClause
-            ),
+            sequence(ALL_THINGS, be, "picked up, lifted [up], grasped, taken", build=PickClause),
         )
     )
 
@@ -95,8 +92,15 @@ NOT_BEFORE = quiet(
             DONE_BY_THEN,
             build=_only_after,
         ),
-        sequence(_UNTIL, DONE_BY_THEN, OPTIONAL_COMMA, verbs.DO_NOT, not_ahead(*_LEFT), LED_CLAUSE,
-                 build=lambda earlier, later: _only_after(later, earlier)),
+        sequence(
+            _UNTIL,
+            DONE_BY_THEN,
+            OPTIONAL_COMMA,
+            verbs.DO_NOT,
+            not_ahead(*_LEFT),
+            LED_CLAUSE,
+            build=lambda earlier, later: _only_after(later, earlier),
+        ),
         sequence(_forbidden("only"), OPTIONAL_COMMA, EARLIER, build=_only_after),
     )
 )

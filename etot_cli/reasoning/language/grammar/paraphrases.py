@@ -220,7 +220,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(?<! of )(?<!between )\bthe (three|four) of (?=(?:them|these|those)\b)", r"all \1 of "),
     (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"the only \1 that is "),
     (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
-    (r"\b((?:that|which) (?:is|are) (?:in|on)) there(?: (?:now|already|at the moment|right now))?\b", r"\1 it"),
+    (
+        r"\b((?:that|which) (?:is|are) (?:in|on)) there"
+        r"(?: (?:now|already|at the moment|right now))?\b",
+        r"\1 it",
+    ),
     (
         rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {WHERE}|[,.;!?]|$)",
         r"\1 in it",

@@ -155,16 +155,13 @@ def then_done(clause: Reading) -> Reading:
     return (first, *clause[1:])
 
 
-
 def _gapped(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> PutClause:
     return put_to(Things(nps), where)
 
 
 DONE_BY_THEN = valued(
     either(
-        sequence(
-            optional("you have, having, you"), either(LED_CLAUSE, plain(_HAVING_DONE))
-        ),
+        sequence(optional("you have, having, you"), either(LED_CLAUSE, plain(_HAVING_DONE))),
         plain(_SO_BY_THEN),
     ),
     _by_then,

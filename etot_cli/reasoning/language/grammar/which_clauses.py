@@ -56,7 +56,7 @@ _OUGHT = """
 """
 _OUGHT_TO_BE = """
     (has to|needs to|must|should|ought to|can|may|will [have to|need to]|is to|
-    is (supposed|meant) to|shall) be, (has|needs) to get, gets, is
+    is (supposed|meant) to|shall) be, (has|needs) to get, gets
 """
 _MOVING = one_of({True: f"{verbs.OPEN}, pull out", False: f"{verbs.CLOSE}, push (in|to)"})
 _MOVED = one_of(
@@ -107,6 +107,13 @@ _OPENED_OR_CLOSED = either(
         _AGAIN,
         _ANY_TIME,
         build=_moved,
+    ),
+    # "which is closed" rather tells which; "which is then closed" asks for it.
+    sequence(
+        _THAT,
+        "is",
+        either(sequence(_WHEN, _MOVED, _AGAIN), sequence(_MOVED, _AGAIN, _WHEN)),
+        build=lambda np, said: _moved(np, *said),
     ),
 )
 _NEEDLESS = sequence(

@@ -283,11 +283,11 @@ LEADING_THEN = f"""
     {_THAT_DONE}, {_WHEN_DONE}, and then, subsequently, later
 """
 TRAILING_FIRST = f"""
-    first, before, beforehand, before that, {BEFORE_ALL},
+    first, before, beforehand, before that, {BEFORE_ALL}, as [the|your|a] first (thing|step|action),
     before you do [so|that|this], before doing (so|that|this)
 """
 TRAILING_LAST = f"""
-    last, {BY_THE_END}, finally, at last,
+    last, as [the|your|a] (last|final) (thing|step|action), {BY_THE_END}, finally, at last,
     (when|once) we are [all] (done|finished|through), when (that|this) is done,
     (when|once|after) (everything|all) is (in place|put away|sorted|set),
     (when|once) you have (put everything (in|away)|everything (in|away))
