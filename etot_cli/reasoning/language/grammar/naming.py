@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.common import (
     NOUN_WORD,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.comparing import ONE_COMPARED
 from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.modifiers import (
     MODIFIERS,
@@ -20,6 +21,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     ONE_SUCH,
     PLAIN_MODIFIER,
     QUALITY,
+    denied,
     quality_alone,
 )
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -224,9 +226,18 @@ noun_phrase.define(
             sequence(
                 "whichever, whatever",
                 WORDS,
-                "is",
-                either(PLAIN_MODIFIER, quality_alone),
-                build=lambda words, modifier: NounPhrase("the only", words, (modifier,)),
+                "[that] is",
+                either(
+                    PLAIN_MODIFIER,
+                    quality_alone,
+                    sequence(
+                        "not", either(PLAIN_MODIFIER, quality_alone), build=denied
+                    ),
+                ),
+                MODIFIERS,
+                build=lambda words, modifier, more: NounPhrase(
+                    "the only", words, (modifier, *more)
+                ),
             ),
             sequence(
                 "the",
@@ -338,6 +349,7 @@ noun_phrase.define(
                 build=_general,
             ),
             NOT_BUT,
+            ONE_COMPARED,
             sequence(DETERMINER, MODIFIERS, build=_nounless),
             sequence(
                 OPTIONAL_DETERMINER,

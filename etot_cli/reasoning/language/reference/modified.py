@@ -74,6 +74,9 @@ def modified(
         if modifier.prep is Prep.BETWEEN and means_the_others(modifier):
             things = between_the_others(things, phrase, scene)
             continue
+        if modifier.prep is Prep.AMONG:
+            things = _among(things, landmark_sets(modifier), phrase)
+            continue
         if modifier.prep in RANKED | HOLDING and any(thing.name == DESK for thing in things):
             raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
         if modifier.words == CLEARED:
@@ -122,6 +125,20 @@ def modified(
         things, others = found, tuple(more)
         notes += said
     return things, others
+
+
+def _among(
+    things: list[Thing], ways: list[list[list[Thing]]], phrase: NounPhrase
+) -> list[Thing]:
+    """Those of the things that are named one by one.
+
+    Raises:
+        UnclearLandmark: of one of them it is open which thing it is.
+    """
+    named = {thing for way in ways for several in way for thing in several}
+    if len(ways) != 1 or any(len(several) != 1 for several in ways[0]) or len(named) < 2:
+        raise UnclearLandmark(phrase.text, sorted(thing.name for thing in named))
+    return [thing for thing in things if thing in named]
 
 
 def _holding_so_many(

@@ -66,6 +66,7 @@ from etot_cli.world.state import SceneState
 
 BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
+_PLACES = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 _INCOMPLETE = frozenset({*THE_WORDS, "", "a", "an"})
 """Determiners that do not stand without a noun."""
 _WHATEVER = re.compile(r"\b(?:that|which|still|lying|standing|sitting)\b")
@@ -199,6 +200,9 @@ class Resolver:
         words = phrase.words or (noun or "object",)
         quantity = quantity_of(phrase.determiner)
         check_determiner(phrase, quantity)
+        if quantity.sole and role in _PLACES and phrase.text.startswith("whichever "):
+            # Where something goes, any that is so will do ("into whichever bowl is empty").
+            quantity = Quantity(count=1)
         if quantity.other and noun is None and not excluded:
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         match = matched(

@@ -257,12 +257,13 @@ def _nth_by_size(
 
 def _measure(word: str, scene: SceneState, things: list[Thing]) -> Callable[[Thing], float]:
     """What a word for size orders things by, the one that fits it best first. Of spoons that lie
-    there "the shortest" is so by its length, for they are as high as each other.
+    there "the shortest" is so by its length, as of all that is slim, or as high as each other.
     """
     quantity, sign = SIZES[word]
     sizes = [scene.infos[thing.name].size for thing in things]
     lying = all(max(size[:2]) >= ELONGATED * size[2] for size in sizes)
-    if quantity == "height" and lying and len({size[2] for size in sizes}) == 1:
+    slim = all(max(size[:2]) >= ELONGATED * min(size[:2]) for size in sizes)
+    if quantity == "height" and lying and (slim or len({size[2] for size in sizes}) == 1):
         quantity = "width"
 
     def measure(thing: Thing) -> float:

@@ -47,6 +47,8 @@ class Prep(StrEnum):
     COLORED = "of the colour of"
     CONTRAST = "rather than"
     """What is not meant, said to make sure which is."""
+    AMONG = "among"
+    """It is one of these, which are named one by one ("the shorter of the pen and the pencil")."""
     EXCEPT = "except"
     """Those that fit, without the phrases' things."""
 
