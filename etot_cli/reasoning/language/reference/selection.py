@@ -142,6 +142,12 @@ def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) 
         # Parts are listed from the top down, boards from the bottom up.
         upward = things[0].board is not None
         return list(things[::-1] if upward == (side == "top") else things)
+    if len(things) == 1 and rows.ends_stack(side, things[0], scene):
+        return list(things)  # "the green block at the bottom" of a tower
+    levels = rows.on_boards(things, scene)
+    if levels[1:] and len(levels[-1 if side == "top" else 0]) == 1:
+        upward = [thing for level in levels for thing in level]  # the upper book of a shelf
+        return upward[::-1] if side == "top" else upward
     if not rows.is_column(things, scene):
         raise ReferenceProblem(phrase, "they do not lie upon each other", 2, word=side)
     stack = rows.upon_each_other(things, scene)
