@@ -53,6 +53,7 @@ SAID_AGAIN = (
         r"(close|shut|open)(?:d|ed|ned)?(?: (?:then|afterwards|again|in the end))?(?=[.,;!?]|$)",
         r", then \2 its \1",
     ),
+    (r"(\bwhat(?:ever)? was on (?:top of )?(it|them)\b[^.,;]*? back on top)(?! of)", r"\1 of \2"),
     (r", though not (?=one\b)", ", but not "),
     (r"(?<=\w)(?<!one), that is(?=[.!?]|$)", ""),
     (

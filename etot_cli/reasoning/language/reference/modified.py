@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
@@ -217,13 +218,26 @@ def _is_one(phrase: NounPhrase) -> bool:
     return plain and phrase.determiner in THE_WORDS
 
 
+def _named_out(
+    item: NounPhrase,
+    noun: str,
+    things: Sequence[Thing],
+    landmarks: Callable[..., list[Thing]],
+) -> set[Thing]:
+    """What is not meant; "the round one" of several things is rather one of these."""
+    if item.is_elliptic and len(things) > 1:
+        with suppress(ReferenceProblem):
+            return set(landmarks(item, noun, among=things))
+    return set(landmarks(item, noun))
+
+
 def left_out(
     things: list[Thing],
     phrase: NounPhrase,
     words: tuple[str, ...],
     vocabulary: Vocabulary,
     scene: SceneState,
-    landmarks: Callable[[NounPhrase, str], list[Thing]],
+    landmarks: Callable[..., list[Thing]],
     notes: list[str],
 ) -> tuple[list[Thing], set[Thing]]:
     """The things but for those that a phrase takes out, and these; ``landmarks`` gives them;
@@ -249,7 +263,7 @@ def left_out(
                 if said.split()[0] in _SO_MANY and not none:
                     why = "say which are left out of"
                     raise AmbiguousReference(phrase.text, [t.name for t in things], why)
-                named = set(landmarks(item, words[-1]))
+                named = _named_out(item, words[-1], things, landmarks)
                 several = [thing for thing in things if thing in named]
                 if several[1:] and _is_one(item):
                     why = f"{names_of_things(several)} would be left out"

@@ -74,6 +74,18 @@ def is_column(things: Sequence[Thing], scene: SceneState) -> bool:
     return len(things) > 1 and len(upon_each_other(things, scene)) == len(things)
 
 
+def standing_in_a_row(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
+    """Those of the things that stand in a row on one thing; none where several may be meant."""
+    on: dict[str, list[Thing]] = {}
+    for thing in things:
+        state = scene.states.get(thing.name)
+        for below_it in state.on[:1] if state is not None and state.inside is None else ():
+            on.setdefault(below_it, []).append(thing)
+    together = [several for several in on.values() if len(several) > 2]
+    spread = _spread(together[0], scene) if len(together) == 1 else (1.0, 1.0)
+    return together[0] if min(spread) <= ROW * max(spread) else []
+
+
 def on_boards(things: Sequence[Thing], scene: SceneState) -> list[list[Thing]]:
     """Things that lie on boards of one piece of furniture, from the bottom up, those of one board
     together; none where some lie elsewhere.

@@ -59,6 +59,8 @@ def select(
         side = side_word(" ".join(item.words))
         at_side = _at_side(SIDES.get(side, side), things, 1, scene, phrase) if side else []
         things = [thing for thing in things if thing not in at_side]
+    if any(item.prep is Prep.SIDE and item.words[-1:] == ("row",) for item in modifiers):
+        things = _in_the_row(things, scene, phrase)
     for item in modifiers:
         if item.prep is Prep.AREA:
             things = in_area(item, things, count, scene, phrase)
@@ -116,6 +118,19 @@ def select(
     if set(ways[0]) != set(ways[1]):
         raise AmbiguousReference(phrase, [thing.name for left in ways for thing in left])
     return ways[0]
+
+
+def _in_the_row(things: list[Thing], scene: SceneState, phrase: str) -> list[Thing]:
+    """Those of the things that stand in a row.
+
+    Raises:
+        ReferenceProblem: they stand on several things, and it is open where the row is.
+    """
+    row = rows.standing_in_a_row(things, scene)
+    states = [scene.states[thing.name] for thing in things if thing.name in scene.states]
+    if not row and len({(*state.on, state.inside) for state in states}) > 1:
+        raise ReferenceProblem(phrase, "say which things stand in that row", 2, word="row")
+    return row or things
 
 
 def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) -> list[Thing]:
