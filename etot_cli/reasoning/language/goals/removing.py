@@ -107,7 +107,9 @@ def _check_no_tower(context: Context, clause: RemoveClause, themes: Sequence[int
     states = context.scene.states
     for np, index in zip(clause.things.phrases, themes, strict=False):
         on = [states[t.name].on for t in context.discourse.things(index) if t.name in states]
-        if np.head in spellings(STACK) and all(DESK in below for below in on):
+        behind = context.sentence.partition(np.text)[2].removeprefix(" down").strip(" .!?")
+        alone = not behind or behind.startswith("without ")  # nothing else is said of its blocks
+        if alone and np.head in spellings(STACK) and all(DESK in below for below in on):
             raise ReferenceProblem(np.text, "it stands on the desk; say where it is to go", 3)
 
 

@@ -251,7 +251,9 @@ ONE_SUCH = either(
         "~comma [and|but] (one|any one) without",
         word(lambda given, text: is_category(text) or text in given.nouns),
         either(COMMA, at_end),
-        build=lambda noun: Modifier(Prep.WITH, (NounPhrase("any", (noun,), text=noun),), denied=True),
+        build=lambda noun: Modifier(
+            Prep.WITH, (NounPhrase("any", (noun,), text=noun),), denied=True
+        ),
     ),
 )
 """Behind "a cup", what sort of one it is ("…, one with a lid")."""

@@ -244,9 +244,7 @@ noun_phrase.define(
                 either(
                     PLAIN_MODIFIER,
                     quality_alone,
-                    sequence(
-                        "not", either(PLAIN_MODIFIER, quality_alone), build=denied
-                    ),
+                    sequence("not", either(PLAIN_MODIFIER, quality_alone), build=denied),
                 ),
                 MODIFIERS,
                 build=lambda words, modifier, more: NounPhrase(

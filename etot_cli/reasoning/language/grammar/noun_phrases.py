@@ -15,9 +15,9 @@ from etot_cli.reasoning.language.grammar.common import (
     exceptions,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.comparing import COMPARED, WHICHEVER_IS, the_more
 from etot_cli.reasoning.language.grammar.coordination import coordinated, told_together
 from etot_cli.reasoning.language.grammar.input import Input, Result
-from etot_cli.reasoning.language.grammar.comparing import COMPARED, WHICHEVER_IS, the_more
 from etot_cli.reasoning.language.grammar.naming import DESCRIPTIVE, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -202,9 +202,7 @@ COMPARED_CHOICE = sequence(
     WHICHEVER_IS,
     COMPARED,
     either(COMMA, at_end),
-    build=lambda nps, compared: (
-        None if (np := the_more(compared, nps)) is None else Things((np,))
-    ),
+    build=lambda nps, compared: None if (np := the_more(compared, nps)) is None else Things((np,)),
 )
 """One of some things by comparing them ("the pen or the pencil, whichever is shorter")."""
 ALL_THINGS = valued(NP_LIST, Things)

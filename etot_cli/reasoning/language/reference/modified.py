@@ -128,9 +128,7 @@ def modified(
     return things, others
 
 
-def _among(
-    things: list[Thing], ways: list[list[list[Thing]]], phrase: NounPhrase
-) -> list[Thing]:
+def _among(things: list[Thing], ways: list[list[list[Thing]]], phrase: NounPhrase) -> list[Thing]:
     """Those of the things that are named one by one.
 
     Raises:

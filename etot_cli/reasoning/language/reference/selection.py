@@ -161,8 +161,8 @@ def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) 
         return list(things)  # "the green block at the bottom" of a tower
     levels = rows.on_boards(things, scene)
     if levels[1:] and len(levels[-1 if side == "top" else 0]) == 1:
-        upward = [thing for level in levels for thing in level]  # the upper book of a shelf
-        return upward[::-1] if side == "top" else upward
+        shelved = [thing for level in levels for thing in level]  # the upper book of a shelf
+        return shelved[::-1] if side == "top" else shelved
     if not rows.is_column(things, scene):
         raise ReferenceProblem(phrase, "they do not lie upon each other", 2, word=side)
     stack = rows.upon_each_other(things, scene)
