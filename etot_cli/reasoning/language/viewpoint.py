@@ -24,9 +24,7 @@ _OTHERS = (
     rf"|(?:{_SEEN} )?from where (?:i|we|he|she|they) (?:am|are|is|stand|look|sit)s?"
     r"|(?:the way|as) (?:i|we|he|she|they) (?:sees?|looks? at) (?:it|them|things)"
 )
-_TOLD = Expression(
-    rf",? ?\b(?P<said>(?P<yours>{_YOURS}|{_SIDE})|{_OTHERS})\b", re.IGNORECASE
-)
+_TOLD = Expression(rf",? ?\b(?P<said>(?P<yours>{_YOURS}|{_SIDE})|{_OTHERS})\b", re.IGNORECASE)
 
 
 def without_viewpoint(instruction: str, scene: SceneState) -> str:
@@ -44,5 +42,6 @@ def without_viewpoint(instruction: str, scene: SceneState) -> str:
             why = "the scene is looked at through a camera; say it as that sees it"
             raise ReferenceProblem(told["said"], why, 3)
     return _TOLD.sub(
-        lambda told: f" {told['hand'].strip()} the {told['side']}" if told["hand"] else "", instruction
+        lambda told: f" {told['hand'].strip()} the {told['side']}" if told["hand"] else "",
+        instruction,
     )

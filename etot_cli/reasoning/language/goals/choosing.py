@@ -311,7 +311,8 @@ def choose_stacked(context: Context, theme: int) -> list[int]:
     referent = discourse.referents[theme]
     above = [tuple(t for t in o if carriers(scene, t.name)) for o in referent.options]
     # "The blocks" are upon each other; one that lies on a tray is in no stack.
-    names = [{thing.name for thing in option} for option in referent.options]
+    spared = {thing.name for thing in discourse.left_out.get(theme, ())}  # "all but the lowest"
+    names = [spared | {thing.name for thing in option} for option in referent.options]
     upon = [
         tuple(t for t in option if carriers(scene, t.name) & own)
         for option, own in zip(above, names, strict=True)

@@ -26,6 +26,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Thin
 from etot_cli.reasoning.language.reference.antecedents import NothingThere
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.words.nouns import STACK
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import DESK, owner_of
 
 
@@ -78,6 +80,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
         return
     if clause.by_then and _is_out_already(context, themes):
         return
+    if clause.source is None and not clause.stacked:
+        _check_no_tower(context, clause, themes)
     if is_off_desk(context, things):
         discourse.swept |= {*themes}
     if clause.stacked and len(themes) > 1:
@@ -107,6 +111,21 @@ def _is_untouched(context: Context, themes: Sequence[int]) -> bool:
     left = {(states[thing.name].inside, states[thing.name].on) for thing in things(*themes)}
     moved = context.discourse.placed
     return not any((states[t.name].inside, states[t.name].on) in left for t in moved)
+
+
+def _check_no_tower(context: Context, clause: RemoveClause, themes: Sequence[int]) -> None:
+    """Whether "take down the tower" is about one that stands on something else than the desk.
+
+    Raises:
+        ReferenceProblem: it stands on the desk, so that it is taken apart rather.
+    """
+    states = context.scene.states
+    for np, index in zip(clause.things.phrases, themes, strict=False):
+        on = [states[t.name].on for t in context.discourse.things(index) if t.name in states]
+        behind = context.sentence.partition(np.text)[2].removeprefix(" down").strip(" .!?")
+        alone = not behind or behind.startswith("without ")  # nothing else is said of its blocks
+        if alone and np.head in spellings(STACK) and all(DESK in below for below in on):
+            raise ReferenceProblem(np.text, "it stands on the desk; say where it is to go", 3)
 
 
 def _check_emptied(context: Context, clause: RemoveClause, themes: Sequence[int]) -> None:

@@ -198,7 +198,7 @@ def _chosen(np: NounPhrase, denied: bool, said: NounPhrase | Modifier) -> NounPh
 
 def _so_of_things(rest: Reading, so: Modifier, *, each: bool) -> Reading | None:
     """A request with what is said, behind the place, of ``each`` of the things or of the one that
-    goes there ("put two pens in the cup, neither of them red", "a pen in the cup, one that is red").
+    goes there ("two pens in the cup, neither of them red", "a pen in the cup, one that is red").
     """
 
     def told(np: NounPhrase) -> NounPhrase | None:

@@ -144,7 +144,7 @@ _none_of = valued(
 )
 
 
-def _denied(modifier: Modifier) -> Modifier | None:
+def denied(modifier: Modifier) -> Modifier | None:
     """What is not so; "the right not of the cup" is no English, "not without a lid" is with one."""
     return None if modifier.prep is Prep.OF else replace(modifier, denied=not modifier.denied)
 
@@ -231,7 +231,7 @@ OF_ALL = sequence(
     "~comma [and] (neither [one]|none|not one) of (them|which) [is|are|being]",
     either(PLAIN_MODIFIER, CONTENTS, QUALITY),
     either(COMMA, at_end),
-    build=_denied,
+    build=denied,
 )
 """Behind several things, what is true of none of them."""
 ONE_SUCH = either(
@@ -245,13 +245,15 @@ ONE_SUCH = either(
         nouns.RELATIVE_NOT,
         either(PLAIN_MODIFIER, QUALITY),
         either(COMMA, at_end),
-        build=_denied,
+        build=denied,
     ),
     sequence(
         "~comma [and|but] (one|any one) without",
         word(lambda given, text: is_category(text) or text in given.nouns),
         either(COMMA, at_end),
-        build=lambda noun: Modifier(Prep.WITH, (NounPhrase("any", (noun,), text=noun),), denied=True),
+        build=lambda noun: Modifier(
+            Prep.WITH, (NounPhrase("any", (noun,), text=noun),), denied=True
+        ),
     ),
 )
 """Behind "a cup", what sort of one it is ("…, one with a lid")."""
@@ -317,7 +319,7 @@ APPOSED = either(
         nouns.RELATIVE_NOT,
         DESCRIBED,
         either(COMMA, at_end),
-        build=_denied,
+        build=denied,
     ),
     sequence(LIST_COMMA, "the", either(QUALITY, _LEVEL), "one, ones", either(COMMA, at_end)),
 )
@@ -361,7 +363,7 @@ _modifier = either(
         nouns.RELATIVE_NOT,
         either(DESCRIBED, _none_of),
         optional(small_words.ANY_MORE),
-        build=_denied,
+        build=denied,
     ),
     sequence(
         nouns.RELATIVE_NOT, separated(noun_phrase, "or, nor, and not", most=3), build=_other_than
@@ -378,7 +380,7 @@ _modifier = either(
             ),
             sequence(after("not", "neither"), "nor", either(PLAIN_MODIFIER, QUALITY)),
         ),
-        build=_denied,
+        build=denied,
     ),
     sequence(OPTIONAL_COMMA, CONTRASTED),
     sequence(COMMA, CONTRASTED, COMMA),

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.common import (
     NOUN_WORD,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.comparing import ONE_COMPARED
 from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.modifiers import (
     MODIFIERS,
@@ -20,6 +21,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     ONE_SUCH,
     PLAIN_MODIFIER,
     QUALITY,
+    denied,
     quality_alone,
 )
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -135,6 +137,13 @@ def _any_of(determiner: str, first: str, more: Any, rest: Any, modifiers: Any) -
     return NounPhrase(determiner, words, modifiers, joined=True) if several else None
 
 
+def _what_is(said: str, where: Modifier, more: tuple[Modifier, ...]) -> NounPhrase | None:
+    """Everything somewhere; "what was on it" was so before."""
+    if "was" in said.split() and where.phrases[:1] and where.phrases[0].pronoun == "it":
+        return None
+    return NounPhrase("all other" if "else" in said else "all", ("objects",), (where, *more))
+
+
 def _what_was(where: Modifier, before: str) -> NounPhrase | None:
     """What was somewhere before something else was put there; "what was on the tray" is so now."""
     if not (before or (where.phrases[:1] and where.phrases[0].pronoun)):
@@ -154,6 +163,13 @@ def _each_so(
     """Several things with what is said of each behind them ("two cups, neither of them red")."""
     several = singular(words[-1]) != words[-1]
     return NounPhrase(determiner, words, (*modifiers, so)) if several else None
+
+
+def _stack_of(determiner: str, count: str, noun: str, stack: str) -> NounPhrase | None:
+    """A stack with what it is of before it ("the three-block tower")."""
+    of = NounPhrase(count, (noun,), text=f"{count} {noun}".strip())
+    named = is_descriptive(noun) or singular(noun) != noun
+    return None if named else NounPhrase(determiner, (stack,), (Modifier(Prep.OF, (of,)),))
 
 
 def _all_of_them(words: tuple[str, ...], modifiers: Any, said: str) -> NounPhrase:
@@ -224,9 +240,16 @@ noun_phrase.define(
             sequence(
                 "whichever, whatever",
                 WORDS,
-                "is",
-                either(PLAIN_MODIFIER, quality_alone),
-                build=lambda words, modifier: NounPhrase("the only", words, (modifier,)),
+                "[that] is",
+                either(
+                    PLAIN_MODIFIER,
+                    quality_alone,
+                    sequence("not", either(PLAIN_MODIFIER, quality_alone), build=denied),
+                ),
+                MODIFIERS,
+                build=lambda words, modifier, more: NounPhrase(
+                    "the only", words, (modifier, *more)
+                ),
             ),
             sequence(
                 "the",
@@ -251,6 +274,14 @@ noun_phrase.define(
                     (*filter(None, (size,)), noun),
                     () if of is None else (Modifier(Prep.OF, (of,)),),
                 ),
+            ),
+            sequence(
+                # "The two-block stack"
+                phrase("the, that, this"),
+                optional(word(lambda given, text: NUMBERS.get(text, 1) > 1), ""),
+                NOUN_WORD,
+                phrase(nouns.STACK),
+                build=_stack_of,
             ),
             quiet(sequence("[the] same", WORDS, "as", noun_phrase, build=_where_it_is)),
             sequence(_FREE_CHOICE, WORDS, nouns.AS_YOU_LIKE, build=NounPhrase),
@@ -292,9 +323,7 @@ noun_phrase.define(
                 phrase(nouns.FREE_RELATIVE),
                 either(PLAIN_MODIFIER, quality_alone, sequence("inside", build=lambda: _INSIDE)),
                 MODIFIERS,
-                build=lambda said, first, more: NounPhrase(
-                    "all other" if "else" in said else "all", ("objects",), (first, *more)
-                ),
+                build=_what_is,
             ),
             sequence(
                 "(what|whatever|everything [that]) (was|were) [already]",
@@ -338,6 +367,7 @@ noun_phrase.define(
                 build=_general,
             ),
             NOT_BUT,
+            ONE_COMPARED,
             sequence(DETERMINER, MODIFIERS, build=_nounless),
             sequence(
                 OPTIONAL_DETERMINER,

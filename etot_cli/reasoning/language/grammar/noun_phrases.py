@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.common import (
     exceptions,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.comparing import COMPARED, WHICHEVER_IS, the_more
 from etot_cli.reasoning.language.grammar.coordination import coordinated, told_together
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.naming import DESCRIPTIVE, WORDS
@@ -195,10 +196,20 @@ EITHER_SIDE = sequence(
     either(COMMA, at_end),
 )
 """Behind one of some things: which they are."""
+COMPARED_CHOICE = sequence(
+    alternatives(noun_phrase, 3),
+    COMMA,
+    WHICHEVER_IS,
+    COMPARED,
+    either(COMMA, at_end),
+    build=lambda nps, compared: None if (np := the_more(compared, nps)) is None else Things((np,)),
+)
+"""One of some things by comparing them ("the pen or the pencil, whichever is shorter")."""
 ALL_THINGS = valued(NP_LIST, Things)
 """Several things, and no choice between them."""
 CHOICE = Rule(
     either(
+        COMPARED_CHOICE,
         sequence(alternatives(noun_phrase, 5), build=_one_of),
         sequence(_LIST, build=lambda nps: _one_out_of(nps) if _out_of(nps) else None),
         sequence(noun_phrase, EITHER_SIDE, build=one_so),

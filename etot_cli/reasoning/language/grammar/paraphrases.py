@@ -218,7 +218,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe) (?:please|pls|plz)(?=, |[.!;?]|$)", ""),
     (r"(?<! of )(?<!between )\bthe two of (?=(?:them|these|those)\b)", "both of "),
     (r"(?<! of )(?<!between )\bthe (three|four) of (?=(?:them|these|those)\b)", r"all \1 of "),
-    (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"the only \1 that is "),
+    (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"whichever \1 that is "),
     (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
     (
         r"\b((?:that|which) (?:is|are) (?:in|on)) there"

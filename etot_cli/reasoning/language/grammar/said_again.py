@@ -1,4 +1,4 @@
-"""What is said again to make sure which thing is meant ("the jar, namely the big one"), put plainly.
+"""What is said again to make sure which thing is meant ("the jar, namely the big one").
 
 What stands behind a thing to tell it has one plain form, an article and "one" behind a comma.
 """
@@ -26,7 +26,7 @@ def _without_assurance(said: re.Match[str]) -> str:
 
 
 def _only_that(said: re.Match[str]) -> str:
-    """That one and no other, where it is told which one it is ("exactly one pen, the red one, …")."""
+    """That one and no other, where it is told which it is ("exactly one pen, the red one, …")."""
     noun = f"{said['told']} {said['noun']}" if said["told"] else f"{said['noun']} {said['so']}"
     if said["told"] in ("same", "other", "rest", "one"):
         return said[0]
@@ -53,6 +53,7 @@ SAID_AGAIN = (
         r"(close|shut|open)(?:d|ed|ned)?(?: (?:then|afterwards|again|in the end))?(?=[.,;!?]|$)",
         r", then \2 its \1",
     ),
+    (r"(\bwhat(?:ever)? was on (?:top of )?(it|them)\b[^.,;]*? back on top)(?! of)", r"\1 of \2"),
     (r", though not (?=one\b)", ", but not "),
     (r"(?<=\w)(?<!one), that is(?=[.!?]|$)", ""),
     (

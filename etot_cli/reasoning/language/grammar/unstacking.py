@@ -57,6 +57,7 @@ def _taken_apart(things: Things) -> RemoveClause | None:
 
 
 _APART = "tak(e|ing), break[ing], pull[ing]"
+_TAKE = "tak(e|ing)"
 UNSTACK = either(
     sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
     sequence(
@@ -65,6 +66,12 @@ UNSTACK = either(
         build=lambda np: _taken_apart(Things((np,))) if _is_stack(np) else None,
     ),
     sequence(_APART, THINGS, "apart", build=_taken_apart),
+    sequence(
+        either(sequence(_TAKE, "down", noun_phrase), sequence(_TAKE, noun_phrase, "down")),
+        build=lambda np: (
+            _taken_apart(Things((np,))) if _is_stack(np) and not np.modifiers else None
+        ),
+    ),
 )
 
 

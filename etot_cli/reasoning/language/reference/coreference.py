@@ -153,6 +153,8 @@ def meant_by_it(
                     if not own & {thing.name for thing in discourse.things(index)}
                 ]
                 left = [i for i in others if {*discourse.things(i)} <= {*discourse.things(*last)}]
+                # On top of what was put on the tray, not of the box that it was taken from
+                others = left if topmost and last else others
                 rather = [i for i in left if _bears_rather(discourse, i, acted_on[0])]
                 if role is Role.SURFACE and len(rather) == len(others) == 1 and not rivals:
                     return rather[0]  # off the tray, and another thing on it

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
@@ -74,6 +75,9 @@ def modified(
         if modifier.prep is Prep.BETWEEN and means_the_others(modifier):
             things = between_the_others(things, phrase, scene)
             continue
+        if modifier.prep is Prep.AMONG:
+            things = _among(things, landmark_sets(modifier), phrase)
+            continue
         if modifier.prep in RANKED | HOLDING and any(thing.name == DESK for thing in things):
             raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
         if modifier.words == CLEARED:
@@ -122,6 +126,18 @@ def modified(
         things, others = found, tuple(more)
         notes += said
     return things, others
+
+
+def _among(things: list[Thing], ways: list[list[list[Thing]]], phrase: NounPhrase) -> list[Thing]:
+    """Those of the things that are named one by one.
+
+    Raises:
+        UnclearLandmark: of one of them it is open which thing it is.
+    """
+    named = {thing for way in ways for several in way for thing in several}
+    if len(ways) != 1 or any(len(several) != 1 for several in ways[0]) or len(named) < 2:
+        raise UnclearLandmark(phrase.text, sorted(thing.name for thing in named))
+    return [thing for thing in things if thing in named]
 
 
 def _holding_so_many(
@@ -200,13 +216,26 @@ def _is_one(phrase: NounPhrase) -> bool:
     return plain and phrase.determiner in THE_WORDS
 
 
+def _named_out(
+    item: NounPhrase,
+    noun: str,
+    things: Sequence[Thing],
+    landmarks: Callable[..., list[Thing]],
+) -> set[Thing]:
+    """What is not meant; "the round one" of several things is rather one of these."""
+    if item.is_elliptic and len(things) > 1:
+        with suppress(ReferenceProblem):
+            return set(landmarks(item, noun, among=things))
+    return set(landmarks(item, noun))
+
+
 def left_out(
     things: list[Thing],
     phrase: NounPhrase,
     words: tuple[str, ...],
     vocabulary: Vocabulary,
     scene: SceneState,
-    landmarks: Callable[[NounPhrase, str], list[Thing]],
+    landmarks: Callable[..., list[Thing]],
     notes: list[str],
 ) -> tuple[list[Thing], set[Thing]]:
     """The things but for those that a phrase takes out, and these; ``landmarks`` gives them;
@@ -232,7 +261,7 @@ def left_out(
                 if said.split()[0] in _SO_MANY and not none:
                     why = "say which are left out of"
                     raise AmbiguousReference(phrase.text, [t.name for t in things], why)
-                named = set(landmarks(item, words[-1]))
+                named = _named_out(item, words[-1], things, landmarks)
                 several = [thing for thing in things if thing in named]
                 if several[1:] and _is_one(item):
                     why = f"{names_of_things(several)} would be left out"

@@ -66,6 +66,7 @@ from etot_cli.world.state import SceneState
 
 BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
+_PLACES = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 _INCOMPLETE = frozenset({*THE_WORDS, "", "a", "an"})
 """Determiners that do not stand without a noun."""
 _WHATEVER = re.compile(r"\b(?:that|which|still|lying|standing|sitting)\b")
@@ -199,6 +200,9 @@ class Resolver:
         words = phrase.words or (noun or "object",)
         quantity = quantity_of(phrase.determiner)
         check_determiner(phrase, quantity)
+        if quantity.sole and role in _PLACES and phrase.text.startswith("whichever "):
+            # Where something goes, any that is so will do ("into whichever bowl is empty").
+            quantity = Quantity(count=1)
         if quantity.other and noun is None and not excluded:
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         match = matched(
@@ -286,7 +290,8 @@ class Resolver:
         there = tuple(m for m in phrase.modifiers if m not in of)  # "the tower on the mat"
         every = replace(inner, determiner="all", words=inner.words or ("objects",)).told_by(*there)
         things = things_in(self.resolve(replace(every, text=phrase.text), Role.ANY).options)
-        return stack_of(things, self._scene, phrase.text)
+        count = quantity_of(inner.determiner).count
+        return stack_of(things, self._scene, phrase.text, count)
 
     def _landmark_sets(
         self, phrase: NounPhrase, pronoun: Pronoun, quantity: Quantity, modifier: Modifier
@@ -334,9 +339,14 @@ class Resolver:
         return [list(way) for way in product(*ways)]
 
     def _landmarks(
-        self, pronoun: Pronoun, phrase: NounPhrase, noun: str | None = None
+        self,
+        pronoun: Pronoun,
+        phrase: NounPhrase,
+        noun: str | None = None,
+        *,
+        among: Sequence[Thing] = (),
     ) -> list[Thing]:
-        """What a phrase inside a modifier may mean."""
+        """What a phrase inside a modifier may mean, rather ``among`` some things."""
         if phrase.pronoun or quantity_of(phrase.determiner).other:
             ways = pronoun(phrase)
             if len(ways) != 1:
@@ -352,5 +362,7 @@ class Resolver:
             raise ReferenceProblem(phrase.text, why, 3, word=phrase.text)
         # "A drawer other than the open one" is none of a chest's.
         parts = noun is not None and phrase.is_elliptic
-        resolved = self.resolve(phrase, Role.ANY, pronoun=pronoun, noun=noun, parts_first=parts)
+        resolved = self.resolve(
+            phrase, Role.ANY, pronoun=pronoun, noun=noun, parts_first=parts, among=among
+        )
         return list(things_in(resolved.options))

@@ -74,6 +74,45 @@ def is_column(things: Sequence[Thing], scene: SceneState) -> bool:
     return len(things) > 1 and len(upon_each_other(things, scene)) == len(things)
 
 
+def standing_in_a_row(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
+    """Those of the things that stand in a row on one thing; none where several may be meant."""
+    on: dict[str, list[Thing]] = {}
+    for thing in things:
+        state = scene.states.get(thing.name)
+        for below_it in state.on[:1] if state is not None and state.inside is None else ():
+            on.setdefault(below_it, []).append(thing)
+    together = [several for several in on.values() if len(several) > 2]
+    spread = _spread(together[0], scene) if len(together) == 1 else (1.0, 1.0)
+    return together[0] if min(spread) <= ROW * max(spread) else []
+
+
+def on_boards(things: Sequence[Thing], scene: SceneState) -> list[list[Thing]]:
+    """Things that lie on boards of one piece of furniture, from the bottom up, those of one board
+    together; none where some lie elsewhere.
+    """
+    at: dict[str, list[Thing]] = {}
+    owners: set[str] = set()
+    for thing in things:
+        state = scene.states.get(thing.name)
+        owner, _, board = (state.on[0] if state is not None and state.on else "").partition(".")
+        if thing.part or thing.board or not board or board not in scene.infos[owner].boards:
+            return []
+        owners.add(owner)
+        at.setdefault(board, []).append(thing)
+    if len(owners) != 1:
+        return []
+    return [at[board] for board in scene.infos[owners.pop()].boards if board in at]
+
+
+def ends_stack(side: str, thing: Thing, scene: SceneState) -> bool:
+    """Whether a thing is the ``top`` or the ``bottom`` one of things that lie upon each other."""
+    loose = [Thing(name) for name, info in scene.infos.items() if info.movable and not info.parts]
+    upon = any(carries(thing, other, scene) for other in loose if other != thing)
+    under = any(other.name in below(thing, scene) for other in loose if other != thing)
+    above = any(thing.name in below(other, scene) for other in loose if other != thing)
+    return upon and (under and not above if side == "top" else above and not under)
+
+
 def is_deep(things: Sequence[Thing], scene: SceneState) -> bool:
     """Whether things stand one behind the other rather than side by side."""
     width, depth = _spread(things, scene)

@@ -59,6 +59,8 @@ def select(
         side = side_word(" ".join(item.words))
         at_side = _at_side(SIDES.get(side, side), things, 1, scene, phrase) if side else []
         things = [thing for thing in things if thing not in at_side]
+    if any(item.prep is Prep.SIDE and item.words[-1:] == ("row",) for item in modifiers):
+        things = _in_the_row(things, scene, phrase)
     for item in modifiers:
         if item.prep is Prep.AREA:
             things = in_area(item, things, count, scene, phrase)
@@ -118,6 +120,19 @@ def select(
     return ways[0]
 
 
+def _in_the_row(things: list[Thing], scene: SceneState, phrase: str) -> list[Thing]:
+    """Those of the things that stand in a row.
+
+    Raises:
+        ReferenceProblem: they stand on several things, and it is open where the row is.
+    """
+    row = rows.standing_in_a_row(things, scene)
+    states = [scene.states[thing.name] for thing in things if thing.name in scene.states]
+    if not row and len({(*state.on, state.inside) for state in states}) > 1:
+        raise ReferenceProblem(phrase, "say which things stand in that row", 2, word="row")
+    return row or things
+
+
 def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) -> list[Thing]:
     """Things in order from a side on, be it the ``top`` or the ``bottom``, or from a size on.
 
@@ -142,6 +157,12 @@ def in_line(side: str, things: Sequence[Thing], scene: SceneState, phrase: str) 
         # Parts are listed from the top down, boards from the bottom up.
         upward = things[0].board is not None
         return list(things[::-1] if upward == (side == "top") else things)
+    if len(things) == 1 and rows.ends_stack(side, things[0], scene):
+        return list(things)  # "the green block at the bottom" of a tower
+    levels = rows.on_boards(things, scene)
+    if levels[1:] and len(levels[-1 if side == "top" else 0]) == 1:
+        shelved = [thing for level in levels for thing in level]  # the upper book of a shelf
+        return shelved[::-1] if side == "top" else shelved
     if not rows.is_column(things, scene):
         raise ReferenceProblem(phrase, "they do not lie upon each other", 2, word=side)
     stack = rows.upon_each_other(things, scene)
@@ -257,12 +278,13 @@ def _nth_by_size(
 
 def _measure(word: str, scene: SceneState, things: list[Thing]) -> Callable[[Thing], float]:
     """What a word for size orders things by, the one that fits it best first. Of spoons that lie
-    there "the shortest" is so by its length, for they are as high as each other.
+    there "the shortest" is so by its length, as of all that is slim, or as high as each other.
     """
     quantity, sign = SIZES[word]
     sizes = [scene.infos[thing.name].size for thing in things]
     lying = all(max(size[:2]) >= ELONGATED * size[2] for size in sizes)
-    if quantity == "height" and lying and len({size[2] for size in sizes}) == 1:
+    slim = all(max(size[:2]) >= ELONGATED * min(size[:2]) for size in sizes)
+    if quantity == "height" and lying and (slim or len({size[2] for size in sizes}) == 1):
         quantity = "width"
 
     def measure(thing: Thing) -> float:

@@ -12,8 +12,11 @@ from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.world.state import SceneState
 
 
-def stack_of(things: Sequence[Thing], scene: SceneState, text: str) -> list[Thing]:
+def stack_of(
+    things: Sequence[Thing], scene: SceneState, text: str, count: int | None = None
+) -> list[Thing]:
     """The only stack among some things, from the bottom up; rather one of things of one noun.
+    ``count``: of how many things it is said to be.
 
     Raises:
         ReferenceProblem: there is none, or there are several.
@@ -27,6 +30,7 @@ def stack_of(things: Sequence[Thing], scene: SceneState, text: str) -> list[Thin
         while len(above := upon[stack[-1]]) == 1:
             stack += above
         found += [stack] if stack[1:] and not above else []
+    found = [stack for stack in found if count in (None, len(stack))]
     alike = [s for s in found if len({scene.infos[t.name].label.split()[-1] for t in s}) == 1]
     if len(alike or found) != 1:
         said = "say which stack" if found else "nothing lies upon each other"

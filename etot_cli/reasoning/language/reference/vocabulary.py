@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     BINS,
     DESK_NOUNS,
+    KIND_NOUNS,
     MATERIALS,
     NUMBERS,
     OPEN_VESSELS,
@@ -130,10 +131,13 @@ class Vocabulary:
         """
         word = singular(noun)
         told = [entry for entry in self.objects if entry.only_tells(noun)]
+        if word in MATERIALS:  # a tumbler of glass is a glass
+            told = [e for e in told if e.info and word in KIND_NOUNS.get(e.info.kind, ())]
+            return [replace(e, content=(*e.content, word)) for e in told]
         kind = "" if is_descriptive(before) else before  # green soda is soda, soy sauce no sauce
         packed = [e for e in told if e.is_pack_of(kind, word) or (not kind and e.is_box_of(noun))]
         packed += [e for e in told if e.is_serving_of(word) and not place]
-        said = is_descriptive(word) or word in STATES or word in MATERIALS
+        said = is_descriptive(word) or word in STATES
         if said or (word in PURPOSES and not packed):
             return []
         for_it = place and word in RUBBISH

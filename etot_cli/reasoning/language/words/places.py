@@ -47,6 +47,8 @@ class Prep(StrEnum):
     COLORED = "of the colour of"
     CONTRAST = "rather than"
     """What is not meant, said to make sure which is."""
+    AMONG = "among"
+    """It is one of these, which are named one by one ("the shorter of the pen and the pencil")."""
     EXCEPT = "except"
     """Those that fit, without the phrases' things."""
 
@@ -55,9 +57,11 @@ SOURCE = "from, off of, off, out of, away from, from (on top of|inside)"
 _DESKS = "|".join((*DESK_NOUNS, "scene"))
 SIDE = f"""
     (on|at|to|in|from) the (left|right|front|back|rear|middle|centre|center)
-    [side|end|edge|corner|hand side], in the (middle|centre|center) of the row,
+    [side|end|edge|corner|hand side], in the (middle|centre|center) of (the|that|this) row,
     (on|at|to|in|from) the [far] (left|right|front|back|rear) (side|end|edge) of the
-    ({_DESKS}|room|row),
+    ({_DESKS}|room),
+    (on|at|to|in|from) the [far] (left|right|front|back|rear) (side|end|edge) of
+    (the|that|this) row,
     (on|at) the (far|near) (side|end|edge) of the ({_DESKS}),
     (on|at) the (left|right) of the ({_DESKS}), (on|at|in) the (front|back|rear) of the ({_DESKS}),
     (on|at|to) your [far] (left|right) [side],
