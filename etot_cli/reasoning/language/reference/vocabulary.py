@@ -130,6 +130,8 @@ class Vocabulary:
         """
         word = singular(noun)
         told = [entry for entry in self.objects if entry.only_tells(noun)]
+        if word == "glass" and (glasses := [entry for entry in told if entry.is_glass()]):
+            return [replace(e, content=(*e.content, word)) for e in glasses]
         kind = "" if is_descriptive(before) else before  # green soda is soda, soy sauce no sauce
         packed = [e for e in told if e.is_pack_of(kind, word) or (not kind and e.is_box_of(noun))]
         packed += [e for e in told if e.is_serving_of(word) and not place]
