@@ -106,7 +106,9 @@ def _by_color(context: Context, group: PutGroup) -> None:
     else:
         indices = context.phrases.things(group.things, Role.THEME)
         each = [context.only(index, "say which ones") for index in indices]
-        things = [thing for found in each for thing in _with_a_place(context, found, targets)]
+        if not _leaves_out(group):
+            each = [_with_a_place(context, found, targets) for found in each]
+        things = [thing for found in each for thing in found]
     things = [thing for thing in dict.fromkeys(things) if thing not in targets]
     for thing in things:
         theme = context.single(thing, text)
@@ -143,9 +145,15 @@ def _places(context: Context, group: PutGroup, text: str) -> tuple[Toward, list[
     return toward, list(dict.fromkeys(found))
 
 
+def _leaves_out(group: PutGroup) -> bool:
+    """Whether some places are excepted, or rather some of the things ("except the red one")."""
+    marks = [m for where in group.destinations for np in where.targets for m in np.modifiers]
+    return any(mark.prep is Prep.EXCEPT for mark in marks)
+
+
 def _with_a_place(
-    context: Context, things: Sequence[Thing], targets: Sequence[Thing]
-) -> Sequence[Thing]:
+    context: Context, things: tuple[Thing, ...], targets: Sequence[Thing]
+) -> tuple[Thing, ...]:
     """Of several things that are told by a kind those that some place has the colour of; the others
     stay where they are, which is said. What is named by itself has to have one.
     """
@@ -156,7 +164,7 @@ def _with_a_place(
         return things
     names = " and ".join(thing.name for thing in lacking)
     context.discourse.notes.append(f"nothing there has the colour of {names}: not moved")
-    return [thing for thing in things if thing not in lacking]
+    return tuple(thing for thing in things if thing not in lacking)
 
 
 def _of_color(context: Context, thing: Thing, among: Sequence[Thing], text: str) -> list[Thing]:

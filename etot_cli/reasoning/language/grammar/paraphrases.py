@@ -302,6 +302,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"write with|(?:that|which) writes|(?:that is )?for writing)\b",
         "all the writing utensils",
     ),
+    (r"(\bthe|\bits|\btheir|'s) content\b(?! with)", r"\1 contents"),
+    (r"\b(the|its) foot of (?=(?:the|that|this) (?:tower|stack|pile)\b)", r"\1 bottom of "),
+    # A chest's top is where things stand on it
+    (r"('s) top surface\b", r"\1 top"),
+    (r"\b(on|onto|to) the top surface of (?!(?:the|my) (?:desk|table)\b)", r"\1 the top of "),
     # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
     (
         r"\b(off|out of) ((?:the|my|our) (?:\w+ ){0,2}?\w+?)((?: first)?(?:,? and|,)(?: then)?) "

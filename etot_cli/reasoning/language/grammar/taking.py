@@ -101,7 +101,9 @@ REMOVE = either(
     sequence(verbs.UNSTACK, THINGS, SOURCE, build=RemoveClause),
     # Without a source "unload" and "clear" are rather said of what holds them.
     sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),
-    sequence(f"{verbs.BRING}, whisk[ing]", THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause),
+    sequence(
+        f"{verbs.BRING}, whisk[ing]", THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause
+    ),
     sequence("lift[ing]", THINGS, "out, off", build=RemoveClause),
     sequence(f"{verbs.GET_OUT}, whisk[ing]", THINGS, "out of, off [of]", noun_phrase, build=_taken),
     sequence(f"{verbs.TAKE}, {verbs.FREE}", THINGS, SOURCE, build=_taken),

@@ -120,7 +120,9 @@ def check_noun(asked: Asked) -> None:
     mere = [m for m in phrase.modifiers if m.prep is Prep.WITH and not (m.denied or m.words)]
     if (asked.nameless and match.selectors) or (vague and mere):  # "the thing with the letter"
         raise asked.problem(UNCLEAR, 2)
-    if phrase.determiner.split()[:1] == ["some"]:
+    some = phrase.determiner.split()[:1] == ["some"]
+    # "In some bowl" is in any; "some bread" may be a part of it.
+    if some and (asked.role is Role.THEME or match.plural or match.loose):
         raise asked.problem("'some' is not supported: say how many", 3, "some")
 
 

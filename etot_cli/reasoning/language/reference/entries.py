@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.reference.labels import (
 from etot_cli.reasoning.language.words.categories import (
     CATEGORIES,
     GROUND,
+    LUMPS,
     OF_A_SORT,
     PACKED,
     PACKS,
@@ -174,12 +175,18 @@ class Entry:
         # A can of tomato soup is soup; a jar of peanut butter is no butter.
         plain = said[-1:] == [word] and not {*said[:-1]} & COMPOUNDS.get(word, frozenset())
         named = (plain and not before) or said[-2:] == [before, word]
-        return solid and named and pack in PACKS and word in PACKED
+        lump = pack in LUMPS and basic_color(word) is None
+        return solid and named and (lump or pack in PACKS) and word in PACKED
 
     def is_serving_of(self, word: str) -> bool:
         """Whether its label is for a vessel that this is drunk or eaten from ("water glass")."""
         (*said, vessel) = self.called[0]
         return said == [word] and vessel in SERVING and word in SERVED
+
+    def is_glass(self) -> bool:
+        """Whether it is a glass to drink from, called after what it is made of."""
+        tumblers = {*map(singular, self.heads)} & {"tumbler", "cup", "mug", "goblet"}
+        return bool(tumblers) and "glass" in self.own
 
     def is_sort_named(self, noun: str) -> bool:
         """Whether its one word is for a sort of what a noun names ("textbook")."""
@@ -200,7 +207,15 @@ class Entry:
     def counts_among(self, members: frozenset[str]) -> bool:
         """Whether it is called by one of some nouns, or is a pack of what is."""
         solid = self.info is not None and not self.info.container
-        packs = (words for words in self.called if solid and singular(words[-1]) in PACKS)
+        packs = (
+            words
+            for words in self.called
+            if solid
+            and (
+                singular(words[-1]) in PACKS
+                or (words[-1] in LUMPS and len(words) == 2 and basic_color(words[0]) is None)
+            )
+        )
         spiced = CATEGORIES["spice"] <= members
         inner = {
             singular(words[-2])

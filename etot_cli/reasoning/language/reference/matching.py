@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.reference.sifting import (
     sift,
 )
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary, is_of_parts
-from etot_cli.reasoning.language.words.categories import CATEGORIES, MASS_NOUNS, ROUND
+from etot_cli.reasoning.language.words.categories import CATEGORIES, FRUITING, MASS_NOUNS, ROUND
 from etot_cli.reasoning.language.words.lexicon import (
     COMPOUNDS,
     CONTAINER_NOUNS,
@@ -142,6 +142,10 @@ def match_words(
         )
     elif grades == {GENERIC} and singular(head) != head:
         pools.insert(0, vocabulary.of_category(head))  # plates are dishes, too, beside a bowl
+    if singular(head) == "fruit":
+        pools.append(
+            [replace(e, content=(*e.content, "fruit")) for e in vocabulary.of_category(FRUITING)]
+        )
     pools.append(vocabulary.open_vessels(adjectives, head))
     for pool in pools:
         found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)

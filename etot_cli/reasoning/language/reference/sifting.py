@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
+    MADE_OF,
     MATERIALS,
     ORDINALS,
     PURPOSES,
@@ -120,6 +121,9 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
         sifted.graded = counted  # "a soda can"
         names = names_of([entry for entry, _ in counted])
         sifted.notes.append(f"{TAKEN_FOR}{names} for {word!r}")
+    elif made := [item for item in graded if MADE_OF.get(word, frozenset()) & {*item[0].own}]:
+        sifted.graded = made
+        sifted.notes.append(f"{TAKEN_FOR}{names_of([e for e, _ in made])} for {word!r}")
     elif owned := _of_owner(word, graded):
         sifted.graded = owned
     elif word in PURPOSES or vocabulary.is_known(word) or is_general_noun(word):

@@ -132,8 +132,13 @@ class Vocabulary:
         word = singular(noun)
         told = [entry for entry in self.objects if entry.only_tells(noun)]
         if word in MATERIALS:  # a tumbler of glass is a glass
-            told = [e for e in told if e.info and word in KIND_NOUNS.get(e.info.kind, ())]
-            return [replace(e, content=(*e.content, word)) for e in told]
+            told = [
+                entry
+                for entry in told
+                if entry.info and word in KIND_NOUNS.get(entry.info.kind, ())
+                or (word == "glass" and entry.is_glass())
+            ]
+            return [replace(entry, content=(*entry.content, word)) for entry in told]
         kind = "" if is_descriptive(before) else before  # green soda is soda, soy sauce no sauce
         packed = [e for e in told if e.is_pack_of(kind, word) or (not kind and e.is_box_of(noun))]
         packed += [e for e in told if e.is_serving_of(word) and not place]

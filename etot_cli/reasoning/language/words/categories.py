@@ -144,9 +144,12 @@ _READING = word_set("book magazine newspaper comic novel dictionary atlas textbo
 
 ROUND = "round_thing"
 """What is a ball by its shape, whatever it is called."""
+FRUITING = "botanical_fruit"
+"""What is a fruit to a botanist, and where there is no other one to anybody."""
 SORTS: dict[str, frozenset[str]] = {
     ROUND: word_set("ball sphere"),
     "fruit": _FRUIT,
+    FRUITING: _FRUIT | word_set("tomato cucumber pumpkin aubergine eggplant olive"),
     "citrus": word_set("orange lemon lime grapefruit mandarin tangerine clementine satsuma"),
     "vegetable veggie veg": _VEGETABLES,
     "dairy": _DAIRY,
@@ -158,7 +161,7 @@ SORTS: dict[str, frozenset[str]] = {
     "soda soft_drink": word_set("soda cola coke pepsi sprite fanta lemonade 7up drpepper"),
     "spice seasoning": _SPICES,
     "condiment": _SPICES | _SAUCES,
-    "food": _FOOD,
+    "food edible": _FOOD | _FRUIT | _VEGETABLES,
     "grocery": _FOOD | _DRINKS,
     "tool": _TOOLS,
     "fastener": _FASTENERS,
@@ -201,6 +204,8 @@ PACKS = _OF_A_PIECE | word_set(
     "can tin carton bottle jar packet pack bag box tube pouch shaker mill grinder stick"
 )
 """Nouns for what food and drink come in, or come off in."""
+LUMPS = word_set("cube lump slice loaf wedge chunk")
+"""So much of a food as is one thing ("sugar cube"), unless it is a colour (an orange cube)."""
 GROUND = word_set("shaker mill grinder")
 """Packs of seasoning: a pepper mill is no vegetable."""
 SERVING = word_set("glass mug cup bowl teacup tumbler goblet jug pitcher carafe")

@@ -39,7 +39,8 @@ VERB_WORDS = words_of(
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
     "back", "free", "places", "positions", "position", "us", "him", "her", "them", "a",
     # Things are called so, too, though none may be in the scene.
-    "jam", "plant", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff", "whisk", "dish",
+    "jam", "plant", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff",
+    "whisk", "dish",
     *words_of((verbs.THE_ROBOT,))}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(

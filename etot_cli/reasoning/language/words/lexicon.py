@@ -76,6 +76,8 @@ TWINS: tuple[tuple[str, ...], ...] = (
 SORTS: dict[str, str] = {
     **dict.fromkeys(("textbook", "schoolbook", "storybook", "cookbook", "novel"), "book"),
     **dict.fromkeys(("hardback", "hardcover", "thriller", "dictionary", "encyclopedia"), "book"),
+    **dict.fromkeys(("notebook", "atlas"), "book"),
+    **dict.fromkeys(("walnut", "hazelnut", "chestnut", "peanut", "cashew", "pecan"), "nut"),
     **dict.fromkeys(("teaspoon", "tablespoon", "soupspoon", "dessertspoon"), "spoon"),
     **dict.fromkeys(("penknife", "pocketknife"), "knife"), "wineglass": "glass", "saucepan": "pan",
     **dict.fromkeys(("teapot", "flowerpot"), "pot"), "handbag": "bag", "paperback": "book",
@@ -127,6 +129,17 @@ MATERIALS = word_set(
     """
 )
 """What things are made of, of which a scene says nothing but by their labels."""
+MADE_OF: dict[str, frozenset[str]] = {
+    **dict.fromkeys(
+        ("metal", "metallic"),
+        word_set("steel iron copper brass aluminium aluminum tin bronze silver zinc chrome"),
+    ),
+    **dict.fromkeys(
+        ("wooden", "wood"),
+        word_set("oak pine beech birch maple ash walnut bamboo teak plywood mahogany spruce"),
+    ),
+}  # fmt: skip
+"""What material a word of a label tells of ("steel tumbler")."""
 COMMON_NOUNS = word_set(
     """
     apple orange banana lemon lime peach pear plum cherry grape berry strawberry melon mango
@@ -172,7 +185,9 @@ JOINT_NOUNS: dict[str, tuple[str, ...]] = {
     "hinge": ("door", "lid", "flap", "cover"),
 }
 """Nouns that name a movable part by the way it moves."""
-RACKED = word_set("dishwasher oven fridge refrigerator freezer stove cooker dryer incubator toaster")
+RACKED = word_set(
+    "dishwasher oven fridge refrigerator freezer stove cooker dryer incubator toaster"
+)
 """What has racks, shelves or trays that slide; a chest has drawers."""
 LIDS = word_set("lid cover cap")
 """What lies loose on what it closes."""
@@ -259,6 +274,7 @@ SIZES = {
 STATES = {
     "open": "open", "opened": "open", "ajar": "ajar", "closed": "closed", "shut": "closed",
     **dict.fromkeys(("empty", "free", "vacant", "unoccupied", "unused"), "empty"),
+    **dict.fromkeys(("available", "spare"), "empty"),
     "full": "full", "filled": "full", "toppled": "toppled", "fallen": "toppled",
     "stacked": "stacked", "loose": "loose", "outside": "loose", "round": "round", "dark": "dark",
 }  # fmt: skip

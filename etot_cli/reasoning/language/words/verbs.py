@@ -6,7 +6,8 @@ PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
     fetch[ing], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto], seiz(e|ing),
     collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
-    pass[ing] [me|over], retriev(e|ing), gather[ing] [up], (fetch|fetching|get|getting|grab|find|take) me,
+    pass[ing] [me|over], retriev(e|ing), gather[ing] [up],
+    (fetch|fetching|get|getting|grab|find|take) me,
     hand[ing] over, let me have, offer[ing] me, snatch[ing], pluck[ing], hoist[ing], nab[bing],
     clutch[ing], clasp[ing], (catch|catching|lay|laying) hold of, (get|getting) a (grip|grasp) on,
     scoop[ing] up, snap[ping] up, heav(e|ing) up, elevat(e|ing), reach[ing] me, procur(e|ing),
@@ -87,7 +88,8 @@ REMOVE = """
     tak(e|ing) (out|off|away|down),
     get[ting] (out|down), (pull|fish) out, (pulling|fishing) out, clear[ing] out, mov(e|ing) away,
     lift[ing] (out|off), (dig[ging]|draw[ing]|eas(e|ing)|haul[ing]|heav(e|ing)|coax[ing]|
-    teas(e|ing)|hook[ing]|root[ing]|pris(e|ing)|pry[ing]|slip[ping]|pluck[ing]) out, unpack[ing], rescu(e|ing), recover[ing], salvag(e|ing),
+    teas(e|ing)|hook[ing]|root[ing]|pris(e|ing)|pry[ing]|slip[ping]|pluck[ing]) out,
+    unpack[ing], rescu(e|ing), recover[ing], salvag(e|ing),
     liberat(e|ing), evict[ing], expel[ling], unearth[ing], dislodg(e|ing), evacuat(e|ing), oust[ing]
 """
 UNSTACK = "unstack[ing]"
@@ -153,9 +155,9 @@ NOTHING_IS = f"""
 """Before where there is to be nothing."""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
-    put away|put down|put back|set down|laid down|stashed|tucked [away]|slotted|popped|stuck|stowed [away]|
-    hidden|plonked|shoved|slipped|deposited|loaded|packed|slid|filed [away]|lodged|planted|installed|
-    housed|rehoused|rehomed|concealed|bundled|eased|conveyed|transported|ferried|heaped|introduced|
+    put away|put down|put back|set down|laid down|stashed|tucked [away]|slotted|
+    popped|stuck|stowed [away]|hidden|plonked|shoved|slipped|deposited|loaded|packed|slid|filed [away]|lodged|
+    planted|installed|housed|rehoused|rehomed|concealed|bundled|eased|conveyed|transported|ferried|heaped|introduced|
     situated|relegated|banished|relocated|shifted|carried|delivered|restored|lowered|added|fitted|
     dumped|positioned|nestled|wedged|crammed|repositioned|set out|laid out|served [up]
 """
