@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
     CONTRASTED,
     LEFT,
+    NONE_OF_THEM,
     ONLY_THOSE,
     excepting,
 )
@@ -135,6 +136,7 @@ LEFT_OUT = either(
         build=excepting,
     ),
     sequence(optional("but"), ONLY_THOSE),
+    NONE_OF_THEM,
     sequence(
         "[but|and] leav(e|ing) [out], [but|and] keep[ing]",
         exceptions,

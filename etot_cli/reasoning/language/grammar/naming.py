@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     some,
     spanned,
+    valued,
     word,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
@@ -318,6 +319,14 @@ noun_phrase.define(
                 build=_general,
             ),
             NOT_BUT,
+            sequence(
+                # "The finished tower"
+                phrase("the, this, that"),
+                nouns.JUST_BUILT,
+                valued(phrase(nouns.STACK), lambda noun: (noun,)),
+                MODIFIERS,
+                build=NounPhrase,
+            ),
             sequence(DETERMINER, MODIFIERS, build=_nounless),
             sequence(
                 OPTIONAL_DETERMINER,

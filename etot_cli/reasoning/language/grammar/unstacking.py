@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     separated,
     sequence,
+    silent,
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
@@ -37,7 +38,8 @@ from etot_cli.reasoning.language.words.places import Prep
 _STACKS = spellings(nouns.STACK)
 
 
-def _is_stack(np: NounPhrase) -> bool:
+def is_stack(np: NounPhrase) -> bool:
+    """Whether it is called a stack."""
     return np.head in _STACKS
 
 
@@ -50,28 +52,46 @@ def _part_of(stack: NounPhrase, determiner: str, *words: str) -> NounPhrase:
 def _taken_apart(things: Things) -> RemoveClause | None:
     """A stack, or the things that make one up; nothing else has parts that can be taken off."""
     (np, *more) = things.phrases
-    if _is_stack(np) and not more:
+    if is_stack(np) and not more:
         return RemoveClause(Things((_part_of(np, "all", "objects"),)), stacked=True)
     several = more or singular(np.head) != np.head
     return RemoveClause(things, stacked=True) if several else None
 
 
+def _separated(things: Things) -> RemoveClause | None:
+    """What lies upon each other; "the red and the blue blocks" are rather to be sorted."""
+    sorts = things.phrases[1:] and any(singular(np.head) != np.head for np in things.phrases)
+    return None if sorts else _taken_apart(things)
+
+
+def _of_a_pile(np: NounPhrase) -> RemoveClause | None:
+    return _taken_apart(Things((np,))) if is_stack(np) else None
+
+
 _APART = "tak(e|ing), break[ing], pull[ing]"
-UNSTACK = either(
-    sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
-    sequence(
-        f"{verbs.UNSTACK}, {verbs.DISMANTLE}",
-        noun_phrase,
-        build=lambda np: _taken_apart(Things((np,))) if _is_stack(np) else None,
+UNSTACK = sequence(
+    either(
+        sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
+        sequence(f"{verbs.UNSTACK}, {verbs.DISMANTLE}", noun_phrase, build=_of_a_pile),
+        sequence("tak(e|ing), break[ing]", noun_phrase, "down", build=_of_a_pile),
+        sequence(_APART, THINGS, "apart", build=_taken_apart),
+        sequence("separat(e|ing)", THINGS, optional("from each other"), build=_separated),
+        sequence(
+            "separat(e|ing)",
+            noun_phrase,
+            "from",
+            noun_phrase,
+            build=lambda *pair: _separated(Things(pair)),
+        ),
     ),
-    sequence(_APART, THINGS, "apart", build=_taken_apart),
+    silent(optional(sequence(OPTIONAL_COMMA, f"{manner.STANDS_SINGLY}, {manner.NOT_STACKED}"))),
 )
 
 
 def _spread(stack: NounPhrase, said: Any, where: tuple[Destination, ...]) -> PutClause | None:
     """All that a stack is made of goes to one place."""
     determiner, words = said
-    if not _is_stack(stack) or (words and singular(words[-1]) == words[-1]):
+    if not is_stack(stack) or (words and singular(words[-1]) == words[-1]):
         return None
     return put_to(Things((_part_of(stack, determiner, *(words or ("objects",))),)), where)
 
@@ -109,8 +129,8 @@ _ENDS = either(
     ),
     sequence(
         _PLAIN,
-        f"{verbs.BE}, {verbs.LIES}",
-        places.ONTO,
+        optional(f"{verbs.BE}, {verbs.LIES}"),
+        f"{places.ONTO}, above, over",
         _PLAIN,
         build=lambda upper, lower: ((upper, "top"), (lower, "bottom")),
     ),
@@ -118,9 +138,10 @@ _ENDS = either(
 
 
 def _turned_over(things: Things, ends: Any) -> TowerClause | None:
-    """The same stack from top to bottom."""
+    """The same stack, or what makes one up, from top to bottom."""
     named = {end: np for np, end in ends}
-    stack = len(things.phrases) == 1 and _is_stack(things.phrases[0])
+    (np, *more) = things.phrases
+    stack = not more and (is_stack(np) or singular(np.head) != np.head)
     told = stack and len(named) == len(ends)
     return TowerClause(things, reverses=True, **named) if told else None
 
@@ -131,7 +152,7 @@ REVERSED = sequence(
         sequence(
             f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)", THINGS
         ),
-        sequence(f"{verbs.WANT}, {verbs.TURN}", THINGS, manner.TURNED_OVER),
+        sequence(f"{verbs.WANT}, {verbs.TURN}, {verbs.STACK}", THINGS, manner.TURNED_OVER),
     ),
     optional(sequence(_SO, _ENDS), ()),
     build=_turned_over,

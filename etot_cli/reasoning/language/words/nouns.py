@@ -95,6 +95,8 @@ MATCHING_ADJECTIVES = (
     "matching, corresponding, same color, same colour, same colored, same coloured"
 )
 STACK = "stack, tower, pile"
+JUST_BUILT = "resulting, finished, completed, complete, entire, whole"
+"""Said of a stack, they tell it from no other one."""
 """Several things that lie upon each other."""
 CONTAINING = """
     containing, holding, contains, contain, holds, hold, has,
