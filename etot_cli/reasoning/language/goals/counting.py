@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import things_in
-from etot_cli.reasoning.builtin.roles import Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
@@ -23,6 +23,9 @@ def counted(context: Context, group: PutGroup) -> PutGroup:
             return np
         every = replace(np.as_many_as, determiner="all")
         things = dict.fromkeys(things_in(context.phrases.meaning(every, Role.ANY).options))
+        parted = any(thing.address != thing.name for thing in things)
+        if parted and len({thing.name for thing in things}) > 1:
+            raise ReferenceProblem(np.as_many_as.text, "say which of them are counted", 2)
         names = ", ".join(thing.address for thing in things)
         context.discourse.notes.append(f"{np.text!r} as there are of these: {names}")
         return replace(np, determiner=str(len(things)), as_many_as=None)

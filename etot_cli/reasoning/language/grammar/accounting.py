@@ -211,10 +211,13 @@ def _said(node: object) -> Iterator[str]:
                 yield from (_DENIAL, "other")
             if prep in (Prep.MATCHING, Prep.COLORED):
                 yield "same"
+        case NounPhrase(as_many_as=NounPhrase()):
+            yield "same"
         case NounPhrase(without=without) if without:
             yield _DENIAL
-        case RemoveClause(without=without):
+        case RemoveClause(without=without, stacked=stacked):
             yield from ("empty", *((_DENIAL,) if without else ()))
+            yield from ("another", "top") if stacked else ()
         case AvoidClause(avoid=avoid, things=things):
             said = things.phrases if things else ()
             all_but = any(item.prep is Prep.EXCEPT for np in said for item in np.modifiers)

@@ -58,6 +58,9 @@ def _taken_apart(things: Things) -> RemoveClause | None:
     return RemoveClause(things, stacked=True) if several else None
 
 
+_UPPER_ONE = "the (upper|top|topmost) (one|ones)"
+
+
 def _separated(things: Things) -> RemoveClause | None:
     """What lies upon each other; "the red and the blue blocks" are rather to be sorted."""
     sorts = things.phrases[1:] and any(singular(np.head) != np.head for np in things.phrases)
@@ -68,9 +71,35 @@ def _of_a_pile(np: NounPhrase) -> RemoveClause | None:
     return _taken_apart(Things((np,))) if is_stack(np) else None
 
 
+def _from_upon(words: tuple[str, ...], others: tuple[str, ...]) -> RemoveClause | None:
+    """All of a sort that lie on others of that sort, wherever that is so."""
+    if others not in ((), ("one",), words) or singular(words[-1]) != words[-1]:
+        return None
+    several = (*words[:-1], f"{words[-1]}s")
+    things = Things((NounPhrase("all", several, text=" ".join(several)),))
+    return RemoveClause(things, stacked=True)
+
+
+WHEREVER = sequence(
+    "wherever (there is|you (find|see)), where there is, wherever",
+    "a",
+    WORDS,
+    optional("is, lies, stands, sits, standing, lying, sitting"),
+    places.ONTO,
+    "another, another of them",
+    optional(WORDS, ()),
+    COMMA,
+    either(
+        sequence("tak(e|ing), lift[ing], remov(e|ing)", _UPPER_ONE, optional("off, down, away")),
+        sequence("tak(e|ing) (off|down), lift[ing] (off|down)", _UPPER_ONE),
+    ),
+    build=_from_upon,
+)
+"""Of all of them the upper ones are taken off."""
 _APART = "tak(e|ing), break[ing], pull[ing]"
 UNSTACK = sequence(
     either(
+        WHEREVER,
         sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
         sequence(f"{verbs.UNSTACK}, {verbs.DISMANTLE}", noun_phrase, build=_of_a_pile),
         sequence("tak(e|ing), break[ing]", noun_phrase, "down", build=_of_a_pile),

@@ -23,6 +23,7 @@ DETERMINERS = f"""
     one of the (other|remaining), [any] one of (the|these|those|my|your|),
     (any|either) one of (the|these|those|my|your) ({_COUNT}),
     any of (the|these|those|),
+    at least ({_COUNT}) [of (the|these|those|my|your) [{_COUNT}]],
     (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your) [{_COUNT}]],
     half of the, none of the, no, neither [of the],
     a couple of, a pair of, several, a few, many, most of the,
