@@ -269,7 +269,8 @@ def _spoken_of(context: Context, phrase: NounPhrase) -> list[Thing]:
     them = NounPhrase(pronoun="them", text=phrase.text)
     themes = context.phrases.things(Things((them,)), Role.THEME)
     things = [t for index in themes for t in context.only(index, "say which things go there")]
-    if phrase.modifiers or len(things) < 2:
+    gone = context.discourse.put & {*themes}  # "in the cups, one in each" says how these went
+    if gone or phrase.modifiers or len(things) < 2:
         raise ReferenceProblem(phrase.text, "say which things go there", 2)
     return things
 

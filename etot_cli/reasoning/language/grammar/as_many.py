@@ -6,7 +6,7 @@ from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, noun_phra
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.naming import WORDS
-from etot_cli.reasoning.language.grammar.parsing import either, optional, sequence
+from etot_cli.reasoning.language.grammar.parsing import either, optional, quiet, sequence
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -34,14 +34,16 @@ def _as_many(
 
 _SO_MANY = "as many, the same number of, an equal number of"
 _AS = sequence(OPTIONAL_COMMA, "as there are", noun_phrase)
-AS_MANY = either(
-    sequence(verbs.SET_DOWN, _SO_MANY, WORDS, MODIFIERS, DESTINATIONS, _AS, build=_as_many),
-    sequence(
-        either(
-            sequence(verbs.SET_DOWN, _SO_MANY, WORDS, MODIFIERS, _AS),
-            sequence(_SO_MANY, WORDS, MODIFIERS, _AS, optional(verbs.MODAL, ())),
+AS_MANY = quiet(
+    either(
+        sequence(verbs.SET_DOWN, _SO_MANY, WORDS, MODIFIERS, DESTINATIONS, _AS, build=_as_many),
+        sequence(
+            either(
+                sequence(verbs.SET_DOWN, _SO_MANY, WORDS, MODIFIERS, _AS),
+                sequence(_SO_MANY, WORDS, MODIFIERS, _AS, optional(verbs.MODAL, ())),
+            ),
+            DESTINATIONS,
+            build=lambda said, where: _as_many(said[0], said[1], where, said[2]),
         ),
-        DESTINATIONS,
-        build=lambda said, where: _as_many(said[0], said[1], where, said[2]),
-    ),
+    )
 )

@@ -5,11 +5,14 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
+    Parser,
     either,
     one_of,
     optional,
@@ -20,9 +23,9 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
+    PutGroup,
     RemoveClause,
     TowerClause,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -30,6 +33,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     Things,
 )
+from etot_cli.reasoning.language.grammar.text import COLON
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -97,6 +101,8 @@ WHEREVER = sequence(
 )
 """Of all of them the upper ones are taken off."""
 _APART = "tak(e|ing), break[ing], pull[ing]"
+_NO_MORE = Parser(lambda given, at: [] if given.ahead[at] in ("by", COLON) else [(at, NOTHING)])
+"""What comes next says where each of them goes, or how."""
 UNSTACK = sequence(
     either(
         WHEREVER,
@@ -104,12 +110,13 @@ UNSTACK = sequence(
         sequence(f"{verbs.UNSTACK}, {verbs.DISMANTLE}", noun_phrase, build=_of_a_pile),
         sequence("tak(e|ing), break[ing]", noun_phrase, "down", build=_of_a_pile),
         sequence(_APART, THINGS, "apart", build=_taken_apart),
-        sequence("separat(e|ing)", THINGS, optional("from each other"), build=_separated),
+        sequence("separat(e|ing)", THINGS, optional("from each other"), _NO_MORE, build=_separated),
         sequence(
             "separat(e|ing)",
             noun_phrase,
             "from",
             noun_phrase,
+            _NO_MORE,
             build=lambda *pair: _separated(Things(pair)),
         ),
     ),
@@ -117,12 +124,15 @@ UNSTACK = sequence(
 )
 
 
-def _spread(stack: NounPhrase, said: Any, where: tuple[Destination, ...]) -> PutClause | None:
+def _spread(
+    stack: NounPhrase, said: Any, where: tuple[Destination, ...], extras: Any
+) -> PutClause | None:
     """All that a stack is made of goes to one place."""
     determiner, words = said
     if not is_stack(stack) or (words and singular(words[-1]) == words[-1]):
         return None
-    return put_to(Things((_part_of(stack, determiner, *(words or ("objects",))),)), where)
+    parts = Things((_part_of(stack, determiner, *(words or ("objects",))),))
+    return put_of((PutGroup(parts, where),), extras)
 
 
 _COUNT, _ALL_OF_SO_MANY = (
@@ -147,6 +157,7 @@ SPREAD = sequence(
     verbs.SET_DOWN,
     _ITS_PARTS,
     DESTINATIONS,
+    EXTRAS,
     build=_spread,
 )
 """A stack is taken apart, and all of it goes to one place."""
