@@ -284,7 +284,7 @@ def _one_each(context: Context, group: PutGroup) -> None:
     if phrase is not None and _is_one(phrase):
         if phrase.words:
             resolved = context.phrases.meaning(phrase, Role.THEME)
-            fitting, noun = things_in(resolved.options), resolved.noun
+            fitting, noun = [*things_in(resolved.options)], resolved.noun
         else:
             fitting, noun = _spoken_of(context, phrase), ""
         free = [thing for thing in fitting if thing not in targets]
