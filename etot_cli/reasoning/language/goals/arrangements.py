@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, TowerC
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things
 from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.space import below, carries
+from etot_cli.reasoning.language.reference.stacks import stack_of
 from etot_cli.reasoning.language.reference.vessels import lies_on
 from etot_cli.reasoning.language.words.lexicon import head_of
 
@@ -124,6 +125,10 @@ def _reverse(context: Context, clause: TowerClause) -> None:
     if len(options) != 1 or len(options[0]) < 2:
         raise ReferenceProblem(said.text, "say which stack", 2)
     stack = options[0]
+    if not context.phrases.resolver.names_stack(said):
+        stack = tuple(stack_of(stack, context.scene, said.text))  # "the tins the other way around"
+        if {*stack} != {*options[0]}:
+            raise ReferenceProblem(said.text, "they do not make up one stack", 3)
     things = stack[::-1]
     nouns = {head_of(context.scene.infos[t.name].label.replace(" ", "_")) for t in things}
     middle = things[1] if len(things) == 3 else None

@@ -12,7 +12,12 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each
@@ -280,6 +285,21 @@ def _is_one(phrase: NounPhrase) -> bool:
     return quantity.count == 1 and not quantity.definite and not quantity.other
 
 
+def _spoken_of(context: Context, phrase: NounPhrase) -> list[Thing]:
+    """The several things that "one of them" is one of.
+
+    Raises:
+        ReferenceProblem: it is open which these are.
+    """
+    them = NounPhrase(pronoun="them", text=phrase.text)
+    themes = context.phrases.things(Things((them,)), Role.THEME)
+    things = [t for index in themes for t in context.only(index, "say which things go there")]
+    gone = context.discourse.put & {*themes}  # "in the cups, one in each" says how these went
+    if gone or phrase.modifiers or len(things) < 2:
+        raise ReferenceProblem(phrase.text, "say which things go there", 2)
+    return things
+
+
 def _one_each(context: Context, group: PutGroup) -> None:
     """Adds a step in which every place gets exactly one of the things."""
     text = group.destinations[0].targets[0].text if group.destinations[0].targets else ""
@@ -287,15 +307,16 @@ def _one_each(context: Context, group: PutGroup) -> None:
     count = len(targets)
     (phrase,) = group.things.phrases if len(group.things.phrases) == 1 else (None,)
     if phrase is not None and _is_one(phrase):
-        if not phrase.words:
-            raise ReferenceProblem(phrase.text, "say which things go there", 2)
-        resolved = context.phrases.meaning(phrase, Role.THEME)
-        fitting = things_in(resolved.options)
+        if phrase.words:
+            resolved = context.phrases.meaning(phrase, Role.THEME)
+            fitting, noun = [*things_in(resolved.options)], resolved.noun
+        else:
+            fitting, noun = _spoken_of(context, phrase), ""
         free = [thing for thing in fitting if thing not in targets]
         options = tuple(islice(combinations(free, count), MAX_OPTIONS))
         if not options:
             raise ReferenceProblem(phrase.text, f"there are {len(free)} for {count} places", 2)
-        chosen = Resolved(options, noun=resolved.noun)
+        chosen = Resolved(options, noun=noun)
         themes = [context.discourse.add(chosen, phrase.text, Role.THEME)]
     else:
         themes = context.phrases.things(group.things, Role.THEME)

@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.goals.choosing import (
 )
 from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.counting import counted
 from etot_cli.reasoning.language.goals.described import note_described
 from etot_cli.reasoning.language.goals.homes import (
     in_stead,
@@ -106,6 +107,7 @@ def put(
     if clause.turns != Turns() and len(clause.groups) > 1:
         text = clause.groups[-1].things.text
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
+    clause = replace(clause, groups=tuple(counted(context, group) for group in clause.groups))
     ruled_out = tuple(w for group in clause.groups for w in group.destinations if w.denied)
     clause = replace(clause, groups=tuple(group.not_denied for group in clause.groups))
     check_swept(context, clause)

@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, SwapClause
-from etot_cli.reasoning.language.reference.space import carries
+from etot_cli.reasoning.language.reference.space import carries, rests_on
 
 
 def _placed(context: Context, clause: PutClause, goal: Mapping[Thing, Place], text: str) -> None:
@@ -23,6 +23,25 @@ def _placed(context: Context, clause: PutClause, goal: Mapping[Thing, Place], te
             moved[thing] = home is not None and there == {(home.relation, *_at(context, home))}
     if moved.keys() != goal.keys() or not all(moved.values()):
         raise ReferenceProblem(text, "that is not each where the other one is", 3)
+
+
+def _turn_over(context: Context, placed: PutClause, upper: Thing, lower: Thing, text: str) -> None:
+    """Of two things that lie upon each other the lower one comes to lie on the other.
+
+    Raises:
+        ReferenceProblem: something else is said of where they go.
+    """
+    below = context.single(upper, upper.name)
+    context.steps.append(Put((below,), (context.home(lower),)))
+    before = len(context.steps)
+    put(context, placed)
+    for step in context.steps[before:]:
+        moved = isinstance(step, Put) and context.discourse.things(*step.what) == (lower,)
+        there = isinstance(step, Put) and [
+            (place.relation, _at(context, place)) for place in step.places
+        ]
+        if not moved or there != [(Relation.ON, (upper,))]:
+            raise ReferenceProblem(text, "that is not each where the other one is", 3)
 
 
 def _at(context: Context, place: Place) -> tuple[Thing, ...]:
@@ -40,6 +59,10 @@ def swap(context: Context, clause: SwapClause) -> None:
     if any(index in gone for index in themes):
         raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
     homes = [context.home(thing) for thing in things]
+    upper, lower = things if rests_on(things[0], things[1], context.scene) else things[::-1]
+    if clause.placed and rests_on(upper, lower, context.scene):
+        _turn_over(context, clause.placed, upper, lower, text)
+        return
     if clause.placed:
         _placed(context, clause.placed, dict(zip(things, homes[::-1], strict=True)), text)
         return

@@ -113,7 +113,7 @@ _FIXED = """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
-    f", {manner.NOT_STACKED}, {SO_LONG}"
+    f", {manner.NOT_STACKED}, {manner.STANDS_SINGLY}, {manner.ANYHOW}, {SO_LONG}"
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
 )
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
@@ -212,10 +212,13 @@ def _said(node: object) -> Iterator[str]:
                 yield from (_DENIAL, "other")
             if prep in (Prep.MATCHING, Prep.COLORED):
                 yield "same"
+        case NounPhrase(as_many_as=NounPhrase()):
+            yield "same"
         case NounPhrase(without=without) if without:
             yield _DENIAL
-        case RemoveClause(without=without):
+        case RemoveClause(without=without, stacked=stacked):
             yield from ("empty", *((_DENIAL,) if without else ()))
+            yield from ("another", "top") if stacked else ()
         case AvoidClause(avoid=avoid, things=things, needless=needless):
             yield from ("open", "closed") if needless else ()
             said = things.phrases if things else ()

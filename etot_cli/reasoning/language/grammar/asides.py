@@ -64,7 +64,9 @@ _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "
 _LEADING = re.compile(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 _LIKED = [["favourite"], ["favorite"], ["best"]]
-_IS_ONE = re.compile(r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like) an? ")
+_IS_ONE = re.compile(
+    r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like) an? "
+)
 """Before what is no other thing ("the vase was a gift")."""
 _ASKED_ABOUT = re.compile(rf"(?:can|could|is it possible|would it be possible)\b.*{QUESTION}")
 _CONFIRMED = re.compile(

@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.modifiers import (
     CONTRASTED,
     LEAVING_OUT,
     LEFT,
+    NONE_OF_THEM,
     ONLY_THOSE,
     excepting,
     without_such,
@@ -133,6 +134,7 @@ LEFT_OUT = either(
     sequence(LEAVING_OUT, exceptions, LEFT, build=without_such),
     sequence("without, any [one] but", exceptions, LEFT, build=excepting),
     sequence(optional("but"), ONLY_THOSE),
+    NONE_OF_THEM,
     sequence(
         "[but|and] leav(e|ing) [out], [but|and] keep[ing]",
         exceptions,

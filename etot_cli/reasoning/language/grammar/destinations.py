@@ -308,6 +308,13 @@ WHERE = Rule(
             separated(destination, "or, nor", most=3),
             build=lambda where, out: (*where, *denied(out)),
         ),
+        sequence(
+            # "On top of the box instead of under it"
+            DESTINATIONS,
+            OPTIONAL_COMMA,
+            "(instead of|rather than|not|and not) (under|underneath|below|beneath) [it|them]",
+            build=lambda where: where if all(item.toward is Toward.ON for item in where) else None,
+        ),
         sequence("not", INSTEAD),
         quiet(
             sequence("neither", separated(destination, "nor, or"), _BUT, DESTINATIONS, build=rather)

@@ -45,7 +45,9 @@ _LEFT_SO = Expression(
     rf"(?:{PEOPLE}|they|you) (?:(?:have|has|had|just|again|always|once) )*"
     rf"(?:left|leaves?|forgot|keeps? leaving) {_thing('e')}{_how('f')}"
 )
-_HELPING = word_set("helps lets makes needs wants asks tells gets keeps allows means matters is has")
+_HELPING = word_set(
+    "helps lets makes needs wants asks tells gets keeps allows means matters is has"
+)
 _PARTLY = word_set("half partly slightly")
 _MOVING = words_of((verbs.OPEN, verbs.CLOSE))
 _PRONOUNS = word_set("it them that this those these")

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.common import (
 )
 from etot_cli.reasoning.language.grammar.coordination import all_of, disagrees
 from etot_cli.reasoning.language.grammar.destinations import AS_SAID, DESTINATIONS
+from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_PLACES, respective
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -82,6 +83,19 @@ def _going(verb: str, clause: EnsureClause | None) -> EnsureClause | None:
         clause = replace(clause, states=going)
     odd = disagrees(clause.states[0].subjects, verb)
     return replace(clause, far_fetched=OF_SEVERAL) if odd else clause
+
+
+def _respectively(
+    said: tuple[tuple[NounPhrase, ...], str], where: tuple[Destination, ...]
+) -> EnsureClause | None:
+    """Each of several things in a place of its own."""
+    nps, verb = said
+    groups = respective(nps, where)
+    if groups is None:
+        return None
+    states = tuple(State(group.things.phrases, group.destinations) for group in groups)
+    going = bool({"go", "goes", "belong", "belongs"} & {*verb.split()})
+    return EnsureClause(tuple(replace(state, going=going) for state in states))
 
 
 def _so_wanted(cost: int, nps: tuple[NounPhrase, ...], said: Any) -> EnsureClause | None:
@@ -156,6 +170,18 @@ ENSURE = either(
         build=lambda np, held: EnsureClause(
             (State(held, (Destination(Toward.INSIDE, (np,)),)),), far_fetched=1
         ),
+    ),
+    sequence(
+        # "The cup and the pen belong on the tray and in the box, respectively"
+        either(
+            sequence(NP_LIST, phrase(verbs.MODAL)),
+            sequence(NP_LIST, phrase("go")),
+            sequence(verbs.ENSURE, NP_LIST, phrase(f"{verbs.BE}, {verbs.LIES}, go[es], belong[s]")),
+            sequence(verbs.WANTED, NP_LIST, optional(phrase(verbs.TO_BE_THERE), "")),
+            sequence(verbs.CAN, NP_LIST, phrase(verbs.BE_PUT)),
+        ),
+        RESPECTIVE_PLACES,
+        build=_respectively,
     ),
     sequence(verbs.ARRANGE, noun_phrase, small_words.SO_THAT, states, build=_arranged),
     sequence(

@@ -38,7 +38,8 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
 
     def without(np: NounPhrase) -> NounPhrase | None:
         # "Any cup, put it there, but not the red one" is said of what "it" was chosen from.
-        return None if np.pronoun == "it" or (some and _is_one(np)) else np.told_by(left_out)
+        single = (some or (left_out.prep is Prep.QUALITY and left_out.denied)) and _is_one(np)
+        return None if np.pronoun == "it" or single else np.told_by(left_out)
 
     return changed(clause, without, at)
 

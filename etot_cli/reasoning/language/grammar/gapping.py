@@ -129,7 +129,7 @@ def _is_bare(np: NounPhrase) -> bool:
     return bool(np.determiner and adjectives) and not np.modifiers
 
 
-def _respective(
+def respective(
     things: tuple[NounPhrase, ...], where: tuple[Destination, ...]
 ) -> tuple[PutGroup, ...] | None:
     """Each thing with its own place."""
@@ -178,9 +178,14 @@ _ON_BOTH_SIDES = sequence(
         Destination(Toward.BESIDE, beside=(Beside(side, (mark,), mark.text),)) for side in sides
     ),
 )
+RESPECTIVE_PLACES = either(
+    sequence(_PLACES, "[again|once again|once more] [~comma] respectively"),
+    sequence("respectively [~comma]", _PLACES),
+)
+"""As many places as things, in the order of these."""
 RESPECTIVE_GROUPS = either(
-    sequence(NP_LIST, _PLACES, "[~comma] respectively", build=_respective),
-    sequence(NP_LIST, _ON_BOTH_SIDES, optional("[~comma] respectively"), build=_respective),
+    sequence(NP_LIST, RESPECTIVE_PLACES, build=respective),
+    sequence(NP_LIST, _ON_BOTH_SIDES, optional("[~comma] respectively"), build=respective),
     variants(
         sequence(noun_phrase, "each", either(_PLACES, _ON_BOTH_SIDES), build=_one_each),
         lending_nouns,

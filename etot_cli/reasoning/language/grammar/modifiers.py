@@ -266,6 +266,12 @@ def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
     return Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps))) if told else None
 
 
+NONE_OF_THEM = sequence(
+    "[but|and] (neither|none|not one) of (them|which|these|those) [is|are|being]",
+    either(PLAIN_MODIFIER, _none_of),
+    build=_denied,
+)
+"""Behind several things, what is true of none of them."""
 CONTRASTED = quiet(
     sequence(
         either(nouns.CONTRAST, sequence(after("rather", "prefer"), "than")),

@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     some,
     spanned,
+    valued,
     word,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
@@ -368,6 +369,14 @@ noun_phrase.define(
             ),
             NOT_BUT,
             ONE_COMPARED,
+            sequence(
+                # "The finished tower"
+                phrase("the, this, that"),
+                nouns.JUST_BUILT,
+                valued(phrase(nouns.STACK), lambda noun: (noun,)),
+                MODIFIERS,
+                build=NounPhrase,
+            ),
             sequence(DETERMINER, MODIFIERS, build=_nounless),
             sequence(
                 OPTIONAL_DETERMINER,

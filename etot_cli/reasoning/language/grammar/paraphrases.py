@@ -132,6 +132,16 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         rf"\bmake ({NAMED} [^.,;]*?) (?:stand|sit|lie|rest) (?={_BESIDE}|to\b)",
         r"put \1 ",
     ),
+    (
+        r"\bat the (?:foot|base) of (?=(?:the|that) (?:tower|stack|pile)\b)",
+        "at the bottom of ",
+    ),
+    (r"\bat its (?:foot|base)(?=[.,;!?]| and\b|$)", "at its bottom"),
+    (
+        rf"\b(the|that) ({'|'.join(NUMBERS)})[{HYPHENS} ](\w+)[{HYPHENS} ](stack|tower|pile)\b"
+        r"(?! of\b)",
+        r"\1 \4 of \2 \3s",
+    ),
     (r"\bnext too (?=the|a|my|it\b)", "next to "),
     (r"\bthe other way round\b", "the other way around"),
     (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import COMMA
@@ -24,7 +25,14 @@ from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color
 def _piled(
     whole: Things | None, second: NounPhrase, first: NounPhrase, more: Any
 ) -> TowerClause | None:
-    """Each thing on the one before ("stack red on blue, then green on red")."""
+    """Each thing on the one before ("stack red on blue, then green on red"), or each on the next
+    ("red on blue and blue on green").
+    """
+    pairs = ((second, first), *more)
+    if more and all(low == up for (_, low), (up, _) in pairwise(pairs)):
+        downward = (second, *(lower for _, lower in pairs))
+        again = tuple(upper for upper, _ in more)
+        return TowerClause(Things(downward), upward=False, whole=whole, again=again)
     nps = (first, second, *(upper for upper, _ in more))
     if any(lower not in (None, under) for under, (_, lower) in zip(nps[1:], more, strict=False)):
         return None

@@ -17,12 +17,14 @@ from etot_cli.reasoning.language.grammar.instruments import (
     with_it,
 )
 from etot_cli.reasoning.language.grammar.modifiers import MODIFIER
+from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     one_of,
     optional,
     phrase,
+    separated,
     sequence,
     some,
 )
@@ -37,6 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -67,6 +70,16 @@ def _none_disturbed(np: NounPhrase, avoid: Avoid) -> AvoidClause | None:
         return None
     every = replace(np, determiner=NONE[np.determiner])
     return AvoidClause(avoid, Things((every,)), negated=True)
+
+
+def _neither(nps: tuple[NounPhrase, ...]) -> Things | None:
+    return Things(nps) if nps[1:] else None
+
+
+def _neither_of(words: tuple[str, ...]) -> Things:
+    """Both of two things."""
+    several = words if singular(words[-1]) != words[-1] else (*words[:-1], f"{words[-1]}s")
+    return Things((NounPhrase("both", several, text=f"neither {' '.join(words)}"),))
 
 
 def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause | None:
@@ -173,6 +186,15 @@ AVOID = either(
         build=_none_disturbed,
     ),
     sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
+    sequence(
+        # "Move neither the cup nor the can", "touch neither cup"
+        one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.MOVE: verbs.SHIFT}),
+        either(
+            sequence("neither", separated(noun_phrase, "nor"), build=_neither),
+            sequence("neither [of the]", WORDS, build=_neither_of),
+        ),
+        build=lambda avoid, things: AvoidClause(avoid, things, negated=True),
+    ),
     sequence(
         THINGS,
         verbs.NOT_TO_BE,

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.common import COLON, LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.common import (
+    COLON,
+    COMMA,
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.destinations import ACROSS, FILLED, STANCE, WHERE
 from etot_cli.reasoning.language.grammar.gapping import lending_nouns
+from etot_cli.reasoning.language.grammar.modifiers import NONE_OF_THEM
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -26,6 +33,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
+    Modifier,
     NounPhrase,
     Things,
     Toward,
@@ -95,9 +103,17 @@ def _tabled(things: Things, place: NounPhrase) -> PutGroup | None:
     return None if place.is_elliptic else PutGroup(things, where)
 
 
+def _none_so(things: Things, denied: Modifier) -> Things | None:
+    """Several things of which none is so."""
+    (np, *more) = things.phrases
+    several = not more and singular(np.head) != np.head
+    return replace(things, phrases=(np.told_by(denied),)) if several else None
+
+
 _PUT_GROUP = sequence(
     either(
         THINGS,
+        sequence(THINGS, COMMA, NONE_OF_THEM, COMMA, build=_none_so),
         sequence(
             THINGS,
             silent(optional("away")),

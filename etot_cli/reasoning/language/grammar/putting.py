@@ -14,7 +14,9 @@ from etot_cli.reasoning.language.grammar.additions import (
     left,
     put_of,
 )
+from etot_cli.reasoning.language.grammar.as_many import AS_MANY
 from etot_cli.reasoning.language.grammar.common import (
+    COLON,
     COMMA,
     LIST,
     LIST_COMMA,
@@ -38,6 +40,7 @@ from etot_cli.reasoning.language.grammar.flanking import (
 )
 from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.laying import LAID_DOWN, rather_laid_down
+from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, CHOICE, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -51,6 +54,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     spanned,
 )
 from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUP, PUT_GROUPS
+from etot_cli.reasoning.language.grammar.steads import TAKES_A_PLACE
 from etot_cli.reasoning.language.grammar.successions import (
     FIRST_THEN,
     FROM_FIRST_TO_LAST,
@@ -135,6 +139,18 @@ def _in_after(things: Things, said: str) -> PutClause:
     return put_to(things, (Destination(Toward.WITH, (np,), said),))
 
 
+def _changing(
+    np: NounPhrase, words: tuple[str, ...], source: NounPhrase, where: tuple[Destination, ...]
+) -> PutClause | None:
+    """From one place to another, both of which have one noun."""
+    noun = (*words[:-1], singular(words[-1]))
+    if noun == words:
+        return None
+    named = tuple(w.going_to(lambda to: to.called(*noun) if to.is_elliptic else to) for w in where)
+    at = source.called(*noun) if source.is_elliptic else source
+    return put_to(Things((np,)).taken_from(at), named)
+
+
 def _safely(things: Things) -> PutClause:
     """Out of the way: of what "the ball in front of the drawer" is said to be in front of."""
     marks = [
@@ -193,6 +209,7 @@ _COMES_AND_GOES = """
 
 
 PUT = either(
+    AS_MANY,
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
     sequence("find[ing]", _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(
@@ -223,6 +240,23 @@ PUT = either(
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
     sequence(ALL_THINGS, _COMES_AND_GOES, DESTINATIONS, build=put_to),
+    sequence(
+        optional("let, have"),
+        ALL_THINGS,
+        TAKES_A_PLACE,
+        build=lambda things, stead: put_to(things, (stead,)),
+    ),
+    sequence(
+        # "The ball should change jars: from the big one into the small one"
+        noun_phrase,
+        "[should|must|shall|has to|is to|needs to] change[s]",
+        WORDS,
+        either(COLON, OPTIONAL_COMMA),
+        "from",
+        noun_phrase,
+        DIRECTED,
+        build=_changing,
+    ),
     sequence(
         either(sequence(verbs.PUT, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
         "aside, to one side",

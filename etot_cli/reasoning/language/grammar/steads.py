@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     optional,
     phrase,
     sequence,
+    silent,
     spanned,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -21,7 +22,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     Toward,
 )
-from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words import places, verbs
 
 WITH = spanned(
     either(
@@ -54,6 +55,18 @@ STEAD = spanned(
     lambda text, np: Destination(Toward.STEAD, (np,), text),
 )
 """Where something was that goes elsewhere."""
+
+_PLACE_OF = either(
+    sequence("the (place|spot|position) of", noun_phrase),
+    sequence(noun_phrase, "'s", "[old] (place|spot|position)"),
+    phrase("its place [there]", NounPhrase(pronoun="it", text="its")),
+    phrase("their place [there], their places", NounPhrase(pronoun="them", text="their")),
+)
+TAKES_A_PLACE = spanned(
+    sequence(silent(phrase(verbs.TAKE_THE_PLACE)), _PLACE_OF),
+    lambda text, np: Destination(Toward.STEAD, (np,), text.replace("'s ", " ")),
+)
+"""The same, by a verb for that: who takes the cup's place makes it go away."""
 
 
 def told_by_it(where: Destination, around: Destination) -> Destination | None:

@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     Things,
 )
-from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
+from etot_cli.reasoning.language.grammar.unstacking import UNSTACK, is_stack
 from etot_cli.reasoning.language.words import manner, places, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -92,17 +92,28 @@ def _taken(things: Things, source: NounPhrase) -> RemoveClause | None:
     return None if source.words[-1:] in DESKS else RemoveClause(things, source)
 
 
+def _removed(verb: str, things: Things, source: NounPhrase | None) -> RemoveClause | None:
+    """What is taken from where it is; a tower that is taken down is taken apart."""
+    apart = verb in ("take down", "taking down", "break down") and source is None
+    stack = len(things.phrases) == 1 and is_stack(things.phrases[0])
+    return None if apart and stack else RemoveClause(things, source)
+
+
 _AWAY = "out, off, away, down"
 
 
 REMOVE = either(
-    sequence(verbs.REMOVE, THINGS, optional(SOURCE, None), build=RemoveClause),
+    sequence(phrase(verbs.REMOVE), THINGS, optional(SOURCE, None), build=_removed),
     UNSTACK,
     sequence(verbs.UNSTACK, THINGS, SOURCE, build=RemoveClause),
     # Without a source "unload" and "clear" are rather said of what holds them.
     sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),
     sequence(
-        f"{verbs.BRING}, whisk[ing]", THINGS, _AWAY, optional(SOURCE, None), build=RemoveClause
+        phrase(f"{verbs.BRING}, whisk[ing]"),
+        THINGS,
+        phrase(_AWAY),
+        optional(SOURCE, None),
+        build=lambda verb, things, away, source: _removed(f"{verb} {away}", things, source),
     ),
     sequence("lift[ing]", THINGS, "out, off", build=RemoveClause),
     sequence(f"{verbs.GET_OUT}, whisk[ing]", THINGS, "out of, off [of]", noun_phrase, build=_taken),

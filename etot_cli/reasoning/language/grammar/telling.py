@@ -76,8 +76,7 @@ def exclaims(said: str, is_name: IsName) -> bool:
         return said.split()[0] not in VERB_WORDS - {"tidy", "clean", "clear"}
     found = _EXCLAIMED.fullmatch(said)
     return bool(found) and not any(
-        is_name(word) or word in (_ASKING | VERB_WORDS) - BEFORE_NAMES
-        for word in said.split()[1:]
+        is_name(word) or word in (_ASKING | VERB_WORDS) - BEFORE_NAMES for word in said.split()[1:]
     )
 
 

@@ -5,23 +5,27 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.common import COMMA, LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
+    NOTHING,
+    Parser,
     either,
     one_of,
     optional,
     phrase,
     separated,
     sequence,
+    silent,
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
+    PutGroup,
     RemoveClause,
     TowerClause,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -29,6 +33,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     Things,
 )
+from etot_cli.reasoning.language.grammar.text import COLON
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -37,7 +42,8 @@ from etot_cli.reasoning.language.words.places import Prep
 _STACKS = spellings(nouns.STACK)
 
 
-def _is_stack(np: NounPhrase) -> bool:
+def is_stack(np: NounPhrase) -> bool:
+    """Whether it is called a stack."""
     return np.head in _STACKS
 
 
@@ -50,37 +56,83 @@ def _part_of(stack: NounPhrase, determiner: str, *words: str) -> NounPhrase:
 def _taken_apart(things: Things) -> RemoveClause | None:
     """A stack, or the things that make one up; nothing else has parts that can be taken off."""
     (np, *more) = things.phrases
-    if _is_stack(np) and not more:
+    if is_stack(np) and not more:
         return RemoveClause(Things((_part_of(np, "all", "objects"),)), stacked=True)
     several = more or singular(np.head) != np.head
     return RemoveClause(things, stacked=True) if several else None
 
 
-_APART = "tak(e|ing), break[ing], pull[ing]"
-_TAKE = "tak(e|ing)"
-UNSTACK = either(
-    sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
-    sequence(
-        f"{verbs.UNSTACK}, {verbs.DISMANTLE}",
-        noun_phrase,
-        build=lambda np: _taken_apart(Things((np,))) if _is_stack(np) else None,
+_UPPER_ONE = "the (upper|top|topmost) (one|ones)"
+
+
+def _separated(things: Things) -> RemoveClause | None:
+    """What lies upon each other; "the red and the blue blocks" are rather to be sorted."""
+    sorts = things.phrases[1:] and any(singular(np.head) != np.head for np in things.phrases)
+    return None if sorts else _taken_apart(things)
+
+
+def _of_a_pile(np: NounPhrase) -> RemoveClause | None:
+    return _taken_apart(Things((np,))) if is_stack(np) else None
+
+
+def _from_upon(words: tuple[str, ...], others: tuple[str, ...]) -> RemoveClause | None:
+    """All of a sort that lie on others of that sort, wherever that is so."""
+    if others not in ((), ("one",), words) or singular(words[-1]) != words[-1]:
+        return None
+    several = (*words[:-1], f"{words[-1]}s")
+    things = Things((NounPhrase("all", several, text=" ".join(several)),))
+    return RemoveClause(things, stacked=True)
+
+
+WHEREVER = sequence(
+    "wherever (there is|you (find|see)), where there is, wherever",
+    "a",
+    WORDS,
+    optional("is, lies, stands, sits, standing, lying, sitting"),
+    places.ONTO,
+    "another, another of them",
+    optional(WORDS, ()),
+    COMMA,
+    either(
+        sequence("tak(e|ing), lift[ing], remov(e|ing)", _UPPER_ONE, optional("off, down, away")),
+        sequence("tak(e|ing) (off|down), lift[ing] (off|down)", _UPPER_ONE),
     ),
-    sequence(_APART, THINGS, "apart", build=_taken_apart),
-    sequence(
-        either(sequence(_TAKE, "down", noun_phrase), sequence(_TAKE, noun_phrase, "down")),
-        build=lambda np: (
-            _taken_apart(Things((np,))) if _is_stack(np) and not np.modifiers else None
+    build=_from_upon,
+)
+"""Of all of them the upper ones are taken off."""
+_APART = "tak(e|ing), break[ing], pull[ing]"
+_NO_MORE = Parser(lambda given, at: [] if given.ahead[at] in ("by", COLON) else [(at, NOTHING)])
+"""What comes next says where each of them goes, or how."""
+UNSTACK = sequence(
+    either(
+        WHEREVER,
+        sequence(verbs.UNSTACK, THINGS, build=partial(RemoveClause, stacked=True)),
+        sequence(f"{verbs.UNSTACK}, {verbs.DISMANTLE}", noun_phrase, build=_of_a_pile),
+        sequence("tak(e|ing), break[ing]", noun_phrase, "down", build=_of_a_pile),
+        sequence(_APART, THINGS, "apart", build=_taken_apart),
+        sequence("separat(e|ing)", THINGS, optional("from each other"), _NO_MORE, build=_separated),
+        sequence(
+            "separat(e|ing)",
+            noun_phrase,
+            "from",
+            noun_phrase,
+            _NO_MORE,
+            build=lambda *pair: _separated(Things(pair)),
         ),
     ),
+    silent(optional(sequence(OPTIONAL_COMMA, f"{manner.STANDS_SINGLY}, {manner.NOT_STACKED}"))),
 )
 
 
-def _spread(stack: NounPhrase, said: Any, where: tuple[Destination, ...]) -> PutClause | None:
+def _spread(
+    stack: NounPhrase, said: Any, where: tuple[Destination, ...], extras: Any
+) -> PutClause | None:
     """All that a stack is made of goes to one place."""
     determiner, words = said
-    if not _is_stack(stack) or (words and singular(words[-1]) == words[-1]):
+    if not is_stack(stack) or (words and singular(words[-1]) == words[-1]):
         return None
-    return put_to(Things((_part_of(stack, determiner, *(words or ("objects",))),)), where)
+    parts = Things((_part_of(stack, determiner, *(words or ("objects",))),))
+    return put_of((PutGroup(parts, where),), extras)
 
 
 _COUNT, _ALL_OF_SO_MANY = (
@@ -105,6 +157,7 @@ SPREAD = sequence(
     verbs.SET_DOWN,
     _ITS_PARTS,
     DESTINATIONS,
+    EXTRAS,
     build=_spread,
 )
 """A stack is taken apart, and all of it goes to one place."""
@@ -116,8 +169,8 @@ _ENDS = either(
     ),
     sequence(
         _PLAIN,
-        f"{verbs.BE}, {verbs.LIES}",
-        places.ONTO,
+        optional(f"{verbs.BE}, {verbs.LIES}"),
+        f"{places.ONTO}, above, over",
         _PLAIN,
         build=lambda upper, lower: ((upper, "top"), (lower, "bottom")),
     ),
@@ -125,9 +178,10 @@ _ENDS = either(
 
 
 def _turned_over(things: Things, ends: Any) -> TowerClause | None:
-    """The same stack from top to bottom."""
+    """The same stack, or what makes one up, from top to bottom."""
     named = {end: np for np, end in ends}
-    stack = len(things.phrases) == 1 and _is_stack(things.phrases[0])
+    (np, *more) = things.phrases
+    stack = not more and (is_stack(np) or singular(np.head) != np.head)
     told = stack and len(named) == len(ends)
     return TowerClause(things, reverses=True, **named) if told else None
 
@@ -138,7 +192,7 @@ REVERSED = sequence(
         sequence(
             f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)", THINGS
         ),
-        sequence(f"{verbs.WANT}, {verbs.TURN}", THINGS, manner.TURNED_OVER),
+        sequence(f"{verbs.WANT}, {verbs.TURN}, {verbs.STACK}", THINGS, manner.TURNED_OVER),
     ),
     optional(sequence(_SO, _ENDS), ()),
     build=_turned_over,

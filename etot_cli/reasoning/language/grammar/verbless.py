@@ -22,7 +22,8 @@ from etot_cli.reasoning.language.grammar.destinations import (
     INTO,
     ONTO,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS
+from etot_cli.reasoning.language.grammar.gapping import RESPECTIVE_PLACES, respective
+from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     sequence,
@@ -80,5 +81,10 @@ VERBLESS = either(
     ),
     sequence(PUT_GROUPS, EXTRAS, build=_put_down),
     sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
+    sequence(
+        NP_LIST,
+        RESPECTIVE_PLACES,
+        build=lambda nps, where: None if (g := respective(nps, where)) is None else PutClause(g),
+    ),
 )
 """Places for things without a word for doing; only whole sentences are so."""

@@ -50,6 +50,8 @@ def quantity_of(determiner: str) -> Quantity:
         return Quantity(count=2)
     if unclear:
         return Quantity(unclear=unclear)
+    if words[:2] == ["at", "least"]:
+        return quantity_of(" ".join(words[2:]))  # as many will do
     if first in ("exactly", "just", "single", "only"):
         return quantity_of(" ".join(words[1:]))
     other = first == "another" or any(word in words for word in ("other", "remaining", "different"))

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.reference.space import (
     below,
     carries,
     position,
+    rests_on,
     to_the_back,
     to_the_left,
 )
@@ -67,6 +68,14 @@ def upon_each_other(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
     stacked.sort(key=lambda thing: position(thing, scene)[2])
     chain = all(low.name in below(high, scene) for low, high in pairwise(stacked))
     return stacked if chain else []
+
+
+def is_end_of_stack(side: str, thing: Thing, scene: SceneState) -> bool:
+    """Whether a thing is the top or the bottom one of some that lie on one another."""
+    loose = [Thing(name) for name, info in scene.infos.items() if info.movable]
+    under = any(rests_on(thing, other, scene) for other in loose if other != thing)
+    above = any(rests_on(other, thing, scene) for other in loose if other != thing)
+    return under != above and above == (side == "bottom")
 
 
 def is_column(things: Sequence[Thing], scene: SceneState) -> bool:

@@ -306,6 +306,8 @@ def _at_side(
         (owner,) = _at_side(side, owners, 1, scene, phrase)
         return [thing for thing in things if thing.name == owner.name]
     if side in ("top", "bottom"):
+        if len(things) == 1 and rows.is_end_of_stack(side, things[0], scene):
+            return things
         stack = rows.upon_each_other(things, scene)
         ordered = in_line(side, stack or things, scene, phrase)
         highest = max(things, key=lambda thing: space.position(thing, scene)[2])

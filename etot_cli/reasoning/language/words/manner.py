@@ -49,6 +49,20 @@ NOT_STACKED = """
     [but|and] not on [top of] (each other|one another)
 """
 """Behind where all of some things lie side by side."""
+_SINGLY = "(by (itself|themselves)|on (its|their) own|alone|separately)"
+_EACH_OF_THEM = """
+    each|each one|each of them|every one [of them]|all|all of them|they [all]|they each
+"""
+_STAND = "stands|stand|is|are|sits|sit|lies|lie|rests|rest"
+_ON_DESK = "(on|onto) the (desk|table|tabletop|table top|counter|workbench|bench)"
+STANDS_SINGLY = f"""
+    (so that|such that|until|so) ({_EACH_OF_THEM}) ({_STAND})
+    [standing|sitting|lying] [directly|right|flat] {_ON_DESK} [{_SINGLY}],
+    (so that|such that|until|so) ({_EACH_OF_THEM}) ({_STAND})
+    {_SINGLY} [{_ON_DESK}],
+    (with|leaving) ({_EACH_OF_THEM}) [standing|sitting|lying] {_ON_DESK} [{_SINGLY}]
+"""
+"""Behind what is unstacked, which all comes to stand so."""
 INSIDE_EACH_OTHER = """
     (in|inside|into|within) (each other|one another), one (in|inside|into) (the other|another)
 """
@@ -123,6 +137,8 @@ IS_LEFT = """
     (there|here|put|where (it is|they are)|as (it is|they are)) [~comma]
 """
 ANYHOW = """
+    [both|all] in (one|one of them|the same one) or [in] one [of them] in each,
+    one in each or [both|all] in (one|one of them|the same one),
     [either] [both] together or (separately|apart|individually|one by one),
     [either] (separately|apart|individually) or together, in any combination
 """
@@ -139,8 +155,8 @@ PARTED = """
 """Of things of which it is told next which goes where."""
 AS_ONE = "together, [both|all] (in|into|to|at) the same (place|spot|container)"
 ONE_EACH = """
-    one each, one (in|into|on|onto|to|for) each [of them], one (in|on) every one, one per,
-    one to each, one in each one
+    one each, one apiece, one (in|into|on|onto|to|for) each [of them], one (in|on) every one,
+    one per, one to each, one in each one
 """
 NOT_BOTH = "[but|though|and] not both [of them]"
 BY_COLOR = """

@@ -23,6 +23,7 @@ DETERMINERS = f"""
     one of the (other|remaining), [any] one of (the|these|those|my|your|),
     (any|either) one of (the|these|those|my|your) ({_COUNT}),
     any of (the|these|those|),
+    at least ({_COUNT}) [of (the|these|those|my|your) [{_COUNT}]],
     (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your) [{_COUNT}]],
     half of the, none of the, no, neither [of the],
     a couple of, a pair of, several, a few, many, most of the,
@@ -96,6 +97,8 @@ MATCHING_ADJECTIVES = (
     "matching, corresponding, same color, same colour, same colored, same coloured"
 )
 STACK = "stack, tower, pile"
+JUST_BUILT = "resulting, finished, completed, complete, entire, whole"
+"""Said of a stack, they tell it from no other one."""
 """Several things that lie upon each other."""
 CONTAINING = """
     containing, holding, contains, contain, holds, hold, has,

@@ -69,7 +69,7 @@ SIDE = f"""
     (furthest|farthest|further|farther|closest|nearest|most) (to|on|at) (the|your)
     (left|right|front|back) [side|end|edge],
     in back, at the very (left|right|front|back), in the row,
-    (at|from|on) the [very] (top|bottom), on top
+    (at|from|on) (the|its) [very] (top|bottom), on top
 """
 ON_SIDE: dict[Prep, str] = {
     Prep.LEFT: "(on|at) [the] left [hand] [side] of",

@@ -93,7 +93,9 @@ REMOVE = """
     liberat(e|ing), evict[ing], expel[ling], unearth[ing], dislodg(e|ing), evacuat(e|ing), oust[ing]
 """
 UNSTACK = "unstack[ing]"
-DISMANTLE = "dismantl(e|ing), disassembl(e|ing), break[ing] up"
+DISMANTLE = """
+    dismantl(e|ing), disassembl(e|ing), break[ing] (up|down), tak(e|ing) down, split[ting] up
+"""
 REVERSE = "revers(e|ing), invert[ing]"
 TIDY_AWAY = "tidy[ing] [up|away], clear[ing] (away|up), clean[ing] up, sort[ing]"
 TIDY = f"{TIDY_AWAY}, clear[ing]"
@@ -353,7 +355,12 @@ SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange, trad(e|ing),
     (swap|exchange|switch|trade|change) [the] (places|positions) of
 """
+TAKE_THE_PLACE = """
+    [should|must|shall|can|may|has to|have to|needs to|is to|are to] [then|now] take[s]
+"""
+"""Before the place of what goes elsewhere."""
 CHANGE_PLACES = """
+    [should|must|shall|have to|need to|are to|to] take (each other|one another) 's (place|places),
     [should|must|shall|have to|need to|are to|to] (change|swap|switch|trade|exchange)
     (places|place|positions|position|spots),
     [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]

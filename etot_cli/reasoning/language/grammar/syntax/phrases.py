@@ -49,6 +49,8 @@ class NounPhrase:
     """It follows another by "and" without an article of its own ("the yellow and white mug")."""
     among: int = 0
     """Of so many ("the left of the two bowls")."""
+    as_many_as: NounPhrase | None = None
+    """It is as many as there are of these."""
 
     @property
     def head(self) -> str:
