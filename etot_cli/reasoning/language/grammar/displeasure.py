@@ -27,7 +27,8 @@ def _thing(name: str) -> str:
 def _how(name: str) -> str:
     """How a thing is, with at least one word for it."""
     state = rf"(?P<{name}>open|closed|shut|ajar|unclosed)"
-    return rf"(?:(?: (?:is|are|stands?|being|be))?(?=(?: \w+)+$)(?: {_LYING})*(?: {state})?(?: {_SO})*)"
+    being = r"(?: (?:is|are|stands?|being|be))?"
+    return rf"(?:{being}(?=(?: \w+)+$)(?: {_LYING})*(?: {state})?(?: {_SO})*)"
 
 
 _DISLIKED = Expression(
@@ -45,7 +46,9 @@ _LEFT_SO = Expression(
     rf"(?:{PEOPLE}|they|you) (?:(?:have|has|had|just|again|always|once) )*"
     rf"(?:left|leaves?|forgot|keeps? leaving) {_thing('e')}{_how('f')}"
 )
-_HELPING = word_set("helps lets makes needs wants asks tells gets keeps allows means matters is has")
+_HELPING = word_set(
+    "helps lets makes needs wants asks tells gets keeps allows means matters is has"
+)
 _PARTLY = word_set("half partly slightly")
 _MOVING = words_of((verbs.OPEN, verbs.CLOSE))
 _PRONOUNS = word_set("it them that this those these")
@@ -86,5 +89,5 @@ def _found(said: str) -> tuple[str, str] | None:
             if told.get("does") in _HELPING:
                 return None
             thing, state = (told[name] or "" for name in list(told)[-2:])
-            return (thing, state) if found else None
+            return thing, state
     return None
