@@ -22,7 +22,7 @@ from etot_cli.reasoning.language.words.small_words import (
     WITHOUT_MEANING,
 )
 
-_DOING = "|".join(sorted(VERB_WORDS))
+_DOING = "|".join(sorted(VERB_WORDS | {"open", "close", "shut"}))
 _WITHIN = Expression(
     r"(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
     r"|(?P<reason>because|since|now that|although|even though|even if|in case"
@@ -38,7 +38,8 @@ _WITHIN = Expression(
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
     r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
     rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
-    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA}| who\b| and (?:\w+ )?(?:{_DOING})\b)))\b"
+    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA}| who\b"
+    rf"| and (?:\w+ )?(?:{_DOING})\b)))\b"
 )
 """Words that a clause begins with wherever they stand."""
 _GOES_ON = Expression(r"(?P<plain>and)\b")

@@ -199,7 +199,11 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
-    told = told or exclaims(aside.said, is_name) or tells_of_others(aside.said, is_name)
+    told = (
+        told
+        or exclaims(aside.said, is_name)
+        or tells_of_others(aside.said, is_name, before_so=True)
+    )
     return told or strange or outside or _is_of_own_body(aside.said, is_name)
 
 
@@ -262,7 +266,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             of_somebody = at > 0 and clauses[at - 1].kind == "benefit"
             return of_somebody and is_remark(f"she {clause.said}", is_name)
         case "benefit", _:
-            somebody, _, does = clause.said.partition(" who ")
+            _, _, does = clause.said.partition(" who ")
             if does and not is_remark(f"she {does}", is_name):
                 return False
             apart = at > 0 and (last or clauses[at + 1].comma or clauses[at + 1].joint == "and")
@@ -288,7 +292,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     )
     if at == 0 and exclaims(clause.said, is_name):
         return True
-    if _is_whole(clauses, at) and tells_of_others(clause.said, is_name):
+    if _is_whole(clauses, at) and tells_of_others(clause.said, is_name, before_so=so):
         return True
     if dislikes(clause.said) or is_hindering(clause.said):
         return True

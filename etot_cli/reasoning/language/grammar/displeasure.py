@@ -27,7 +27,8 @@ def _thing(name: str) -> str:
 def _how(name: str) -> str:
     """How a thing is, with at least one word for it."""
     state = rf"(?P<{name}>open|closed|shut|ajar|unclosed)"
-    return rf"(?:(?: (?:is|are|stands?|being|be))?(?=(?: \w+)+$)(?: {_LYING})*(?: {state})?(?: {_SO})*)"
+    being = r"(?: (?:is|are|stands?|being|be))?"
+    return rf"(?:{being}(?=(?: \w+)+$)(?: {_LYING})*(?: {state})?(?: {_SO})*)"
 
 
 _DISLIKED = Expression(
@@ -88,5 +89,5 @@ def _found(said: str) -> tuple[str, str] | None:
             if told.get("does") in _HELPING:
                 return None
             thing, state = (told[name] or "" for name in list(told)[-2:])
-            return (thing, state) if found else None
+            return thing, state
     return None

@@ -370,7 +370,13 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (rf"(?<!is )(?<!are )(?<!is just )(?<!are just )\b{_ABOUT}", "that are loose"),
     (_ALL_DONE, r"\1 all of that \2 \3"),
     (r", (?:all|everything) (?:but|except(?: for)?) ", ", except "),
+    (r"\b(it|them) out of there\b", r"\1 out"),
     (r"\b(out of|from|off) there\b", r"\1 it"),
+    (
+        r"\bstill (?=(?:needs?|has|have|ought) to "
+        r"(?!stay\b|remain\b|be (?!\w+ed\b|put\b|shut\b|taken\b))|must go\b|should go\b)",
+        "",
+    ),
     (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
     (r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1"),
     (

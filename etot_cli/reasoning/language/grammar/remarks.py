@@ -40,7 +40,8 @@ PEOPLE = (
     r"|grand(?:ma|pa)|granny|mum|mom|dad"
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
-    rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)|(?:my|our) (?:{_OWN}))"
+    rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)"
+    rf"|(?:my|our) (?:{_OWN}))"
 )
 _PERSON = Expression(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
@@ -147,7 +148,8 @@ REFERRING = word_set(
 BEFORE_NAMES = word_set("the a an my your our his her their this that these those both all")
 _PREDICATE = Expression(
     r"(?:(?:is|are|was|were|has|have|had)(?: not| been| got)?|(?:does|do|did|will|can) not"
-    r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|broke|\w+[^s]s|\w+ed)"
+    r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|broke"
+    r"|\w+[^s]s|\w+ed)"
     r"(?: (?:still|just|already|always|all|so|very|too|really|a bit|far|badly|quite|less|more))*"
     r"(?= |$)"
 )
@@ -163,7 +165,8 @@ _OVER_THE_EDGE = (
     r"(?:top|edge|side|rim|front))?"
 )
 _NO_PLACE = Expression(
-    rf"^belong(?:s|ed)? to {PEOPLE}$|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
+    rf"^belong(?:s|ed)? to {PEOPLE}$"
+    rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
     rf"|^(?:is|are) (?:going|turning) (?:{TURNED})$"

@@ -50,6 +50,10 @@ _NO_SUBJECT = (
     REFERRING | LINKS | VERB_WORDS | OTHER_VERBS | {*STATES, *LEVELS, *SIDES, *NUMBERS}
     | {*THING_NOUNS}
 )  # fmt: skip
+_AS_WELL = word_set("too also well likewise next please ditto instead there here then")
+"""Behind what something is asked for once more ("the spare keys too")."""
+_WHERE = word_set("in on into onto beside near off under behind between with from to for of and")
+"""They may say where something is to go ("the spare keys in a bag")."""
 _BEFORE_VERBS = word_set("just really still already always often soon almost")
 _TIME = Expression(
     r"(?:it is )?(?:(?!next\b|last\b|each\b|every\b|first\b|second\b|this\b|same\b|one\b|any\b)"
@@ -70,6 +74,15 @@ _PLACED_THERE = Expression(
 )
 
 
+_HOW_LONG = Expression(
+    r" (?:all (?:day|night|week|morning|the time)(?: long)?|every (?:day|night))"
+)
+_THERE_IS = Expression(r"there (?:is|are|was|were) (?:an?|some|so much|too much|such an?) ")
+_YONDER = Expression(r"(?: (?:in|out|over|up|down))? (?:here|there)(?= |$)")
+_NO_EXISTENCE = REFERRING | {*THING_NOUNS, *LEVELS, *SIDES, *STATES}
+"""What is there of these may be in the scene."""
+
+
 def exclaims(said: str, is_name: IsName) -> bool:
     """Whether a clause is but an exclamation or names a time ("playtime is over")."""
     if _TIME.fullmatch(said):
@@ -80,9 +93,15 @@ def exclaims(said: str, is_name: IsName) -> bool:
     )
 
 
-def tells_of_others(said: str, is_name: IsName) -> bool:
-    """Whether a whole clause is about something that is not in the scene, and asks for nothing."""
-    words = said.split()
+def tells_of_others(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
+    """Whether a whole clause is about something that is not in the scene, and asks for nothing.
+
+    Nobody goes on with "so" behind what is asked for in a clause without a verb ("the spare keys").
+    """
+    words = _HOW_LONG.sub("", said.replace(" 's ", "s ")).split()
+    if _THERE_IS.match(said):
+        words = _YONDER.sub("", said).split()
+        return not (any(map(is_name, words)) or (_ASKING | _NO_EXISTENCE) & {*words[2:]})
     if any(map(is_name, words)) or _ASKING & {*words} or re.match(rf"{PEOPLE}\b", said):
         return False
     first = int(words[:1] != [] and words[0] in BEFORE_NAMES)
@@ -93,8 +112,10 @@ def tells_of_others(said: str, is_name: IsName) -> bool:
         if is_descriptive(subject[-1]):
             continue
         told = _may_be_verb(words[at], subject[-1]) if first else words[at] in _SEEMING
-        if told and not REFERRING & {*words[at + 1 :]}:
-            return bool(first or words[at + 1 :])
+        more = words[at + 1 :]
+        if told and not (REFERRING | _AS_WELL) & {*more}:
+            sure = words[at] in _IRREGULAR or words[at].endswith("ed")
+            return sure or (bool(more or before_so) and not _WHERE & {*more})
     return False
 
 
@@ -104,7 +125,6 @@ def _may_be_verb(word: str, subject: str) -> bool:
         return True
     if word.endswith("ed"):
         return len(word) > len("need") and not is_descriptive(word)
-    # "the spare keys" is no clause, but nobody goes on with "so" behind it, or ends there.
     several = subject.endswith("s") and not subject.endswith("ss")
     return word.endswith("s") and not word.endswith(("ss", "us", "is")) and not several
 

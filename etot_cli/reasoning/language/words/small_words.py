@@ -108,8 +108,11 @@ TASK = f"""
     {ANNOUNCED} ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
     [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted|required)
-    (state|configuration|arrangement|result|situation|setup|condition|conditions|layout|picture) ~comma,
-    [my|our|the|a] [small|little|simple|one] (request|wish|instruction) ~comma
+    (state|configuration|arrangement|result|situation|setup|condition|conditions|layout|
+    picture) ~comma,
+    [my|our|the|a] [small|little|simple|one] (request|wish|instruction) ~comma,
+    [my|our|the|your] (goal|task|job|request|wish|(end|final|goal) state) is
+    [very|really|quite] (simple|easy|clear|this|as follows|the following) ~comma
 """
 GOAL_IS = """
     [the|our|my|your] [desired|required|intended] (goal|target|(final|end|goal|target)
@@ -119,7 +122,12 @@ GOAL_IS = """
 GREETINGS = f"""
     [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
     hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
-    oh (dear|my), dear me, ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
+    oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),
+    sorry to (bother|trouble|disturb|interrupt) you [again],
+    for (safety|hygiene|security) reasons, for (heaven|pete|goodness|god) 's sake,
+    believe it or not, you will not believe (it|this),
+    thanks for (your|the) help [(yesterday|today|earlier|last time)],
+    ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
     great, um, [my] dear ~comma, now then, come on,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP},
