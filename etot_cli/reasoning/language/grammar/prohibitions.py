@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial, reduce
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.arrangements import HELD_MEANWHILE
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.emptying import ANYTHING, stays_empty
@@ -27,7 +28,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.states import OPEN_OR_CLOSED, not_left
-from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, EnsureClause
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
+    AvoidClause,
+    EnsureClause,
+    ReorientClause,
+)
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Modifier,
@@ -38,6 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
 
 
 def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
@@ -56,6 +63,25 @@ def _not_wanted(things: Things) -> AvoidClause | None:
     return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
 
 
+def _unharmed(things: Things) -> AvoidClause:
+    """What is not to come to harm; whatever "it" may be, nothing is to."""
+    again = all(np.pronoun for np in things.phrases)
+    return AvoidClause(Avoid.HARM, None if again else things)
+
+
+def _not_dropped(things: Things) -> AvoidClause | None:
+    """What is not to be let fall; "do not drop the cup on the tray" says where not."""
+    return None if any(np.modifiers for np in things.phrases) else _unharmed(things)
+
+
+def _not_toppled(things: Things, said: str) -> AvoidClause | ReorientClause:
+    """What is not to fall: nothing knocks it over, and "it", which is put somewhere, stands."""
+    if not all(np.pronoun for np in things.phrases):
+        return AvoidClause(Avoid.HIT, things)
+    over = {"over", "topple"} & {*said.split()}
+    return ReorientClause(things, Nearby.UPRIGHT, meanwhile=True) if over else _unharmed(things)
+
+
 def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
     """What is not to be used is not to hold or bear things, some or any."""
     return AvoidClause(Avoid.PUT, things or ANYTHING, (Destination(Toward.TO, nps),))
@@ -69,6 +95,17 @@ def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause |
     return None if np.pronoun else _avoid(Avoid.MOVE, replace(things, phrases=(np,)))
 
 
+_NOTHING_HARMED = AvoidClause(Avoid.HARM, None)
+_WILL_NOT = "(does|do|will|can|may|should|must|shall) not"
+_UNHARMED = either(
+    sequence(THINGS, f"{_WILL_NOT} ({verbs.TO_THE_FLOOR})", build=_unharmed),
+    sequence(THINGS, phrase(f"{_WILL_NOT} ({verbs.TOPPLE.replace(',', '|')})"), build=_not_toppled),
+    phrase(
+        f"nothing ({verbs.FALLS_DOWN}), nothing (should|must|may|shall) ({verbs.FALL_DOWN})",
+        _NOTHING_HARMED,
+    ),
+)
+"""What is not to happen to things on the way."""
 _FORBIDDEN = either(
     sequence(
         one_of(
@@ -96,6 +133,12 @@ _FORBIDDEN = either(
         build=with_it,
     ),
     LET_MEET,
+    sequence("drop[ping]", THINGS, build=_not_dropped),
+    sequence("let[ting]", THINGS, verbs.TO_THE_FLOOR, build=_unharmed),
+    sequence("let[ting]", "anything", verbs.FALL_DOWN, build=lambda: _NOTHING_HARMED),
+    sequence(
+        "drop[ping], spill[ing], break[ing], knock[ing] over", "anything", build=lambda: _NOTHING_HARMED
+    ),
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
     sequence("let[ting]", THINGS, verbs.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
@@ -116,7 +159,13 @@ _FORBIDDEN = either(
 _AVOIDED = sequence("avoid, [while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH))
 AVOID = either(
     _AVOIDED,
-    sequence(optional(verbs.ENSURE), NOT_MET),
+    sequence(optional(verbs.ENSURE), either(NOT_MET, _UNHARMED)),
+    sequence("hands off, paws off", THINGS, build=partial(AvoidClause, Avoid.TOUCH)),
+    sequence(
+        THINGS,
+        "(is|are|remains|remain|stays|stay) (off limits|out of bounds|taboo|untouchable|tabu)",
+        build=partial(AvoidClause, Avoid.TOUCH),
+    ),
     sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
     sequence(
         verbs.NEED_NOT,
@@ -215,7 +264,8 @@ WITHOUT = sequence(
             ),
         ),
         sequence(verbs.WITHOUT, MEETING),
-        sequence(small_words.SO_THAT, NOT_MET),
+        sequence(small_words.SO_THAT, either(NOT_MET, _UNHARMED)),
+        HELD_MEANWHILE,
         sequence(verbs.WITHOUT, THINGS, verbs.TOPPLING, build=partial(AvoidClause, Avoid.HIT)),
         sequence(verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
         sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),

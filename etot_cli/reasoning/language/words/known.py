@@ -38,6 +38,8 @@ VERB_WORDS = words_of(
     )
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
     "back", "free", "places", "positions", "position", "us", "him", "her", "them",
+    "a", "finger", "so", "much", "as", "even", "past", "anywhere", "brush", "watch", "look",
+    "out", "careful", "mindful", "go", "going",
     *words_of((verbs.THE_ROBOT,))}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(
