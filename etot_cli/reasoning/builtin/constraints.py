@@ -115,7 +115,9 @@ def _is_touched(name: str, record: RolloutRecord) -> bool:
     part, or taken out of it, may: it is not to be touched any more than that needs.
     """
     touching = {*ROBOT}
-    for held in {record.before.holding, record.after.holding} - {None}:
+    for held in (record.before.holding, record.after.holding):
+        if held is None:
+            continue
         around = (scene.states[held] for scene in (record.before, record.after))
         there = any(name == state.inside or name in state.on for state in around)
         touching |= set() if "." in name and there else {held}

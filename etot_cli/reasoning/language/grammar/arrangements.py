@@ -170,9 +170,7 @@ REORIENT = either(
         f"back {manner.UPRIGHT}, {manner.UPRIGHT}, {manner.TURNED_UP}",
         build=_stood_up,
     ),
-    sequence(
-        verbs.KEEP, THINGS, f"{manner.UPRIGHT}, {manner.TURNED_UP}", build=_kept_upright
-    ),
+    sequence(verbs.KEEP, THINGS, f"{manner.UPRIGHT}, {manner.TURNED_UP}", build=_kept_upright),
     sequence(
         f"{verbs.LAY}, {verbs.TIP}",
         THINGS,
@@ -199,9 +197,7 @@ REORIENT = either(
 )
 STANDS_UP = either(
     sequence(ALL_THINGS, optional(f"{verbs.BE}, {verbs.LIES}"), manner.ERECT, build=_stood_up),
-    sequence(
-        ALL_THINGS, optional("is, are, (has|have) been"), TURNED, build=turned
-    ),
+    sequence(ALL_THINGS, optional("is, are, (has|have) been"), TURNED, build=turned),
 )
 HAVING_TURNED = either(
     sequence(
@@ -210,7 +206,9 @@ HAVING_TURNED = either(
         _HOW,
         build=turned,
     ),
-    sequence("a (turn|rotation|reorientation|re orientation|flip) of", THINGS, build=ReorientClause),
+    sequence(
+        "a (turn|rotation|reorientation|re orientation|flip) of", THINGS, build=ReorientClause
+    ),
 )
 """What has been turned by then ("having turned it, …", "after a rotation of the pen, …")."""
 """What stands by then ("once it is upright, …")."""

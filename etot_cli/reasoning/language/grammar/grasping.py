@@ -155,7 +155,11 @@ _AT_WORST = either(
         _POSE,
         OPTIONAL_COMMA,
         either(
-            sequence(optional("or"), OPTIONAL_COMMA, f"if (that|this|it) ({_IMPOSSIBLE.replace(',', '|')})"),
+            sequence(
+                optional("or"),
+                OPTIONAL_COMMA,
+                f"if (that|this|it) ({_IMPOSSIBLE.replace(',', '|')})",
+            ),
             sequence(
                 "if (possible|you can|feasible), preferably, ideally",
                 OPTIONAL_COMMA,

@@ -126,5 +126,7 @@ ALSO_DONE = sequence(
 def goes_on(before: Any, clause: Any) -> bool:
     """Whether a clause without its verb goes on what is asked for in the passive."""
     unsaid = isinstance(clause, PutClause | ReorientClause) and UNSAID in pronouns(clause)
-    taken = isinstance(before, PickClause | RemoveClause | ReorientClause) and not is_emptying(before)
+    taken = isinstance(before, PickClause | RemoveClause | ReorientClause) and not is_emptying(
+        before
+    )
     return taken or not unsaid

@@ -103,7 +103,7 @@ _HAVING_DONE = either(
     sequence(verbs.PICKED_UP, THINGS, build=PickClause),
     HAVING_TURNED,
     sequence(
-        "(taken|took|lifted|pulled|got) (out|off|away), removed, extracted, withdrawn, cleared away",
+        "(taken|took|lifted|pulled|got) (out|off|away),removed, extracted, withdrawn, cleared away",
         ALL_THINGS,
         optional(SOURCE, None),
         build=RemoveClause,

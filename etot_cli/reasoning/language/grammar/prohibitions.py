@@ -137,7 +137,9 @@ _FORBIDDEN = either(
     sequence("let[ting]", THINGS, verbs.TO_THE_FLOOR, build=_unharmed),
     sequence("let[ting]", "anything", verbs.FALL_DOWN, build=lambda: _NOTHING_HARMED),
     sequence(
-        "drop[ping], spill[ing], break[ing], knock[ing] over", "anything", build=lambda: _NOTHING_HARMED
+        "drop[ping], spill[ing], break[ing], knock[ing] over",
+        "anything",
+        build=lambda: _NOTHING_HARMED,
     ),
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
     sequence("let[ting]", THINGS, verbs.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),

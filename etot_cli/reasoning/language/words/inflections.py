@@ -30,7 +30,9 @@ def _inflected(patterns: str) -> Iterator[tuple[str, str, str]]:
     for found in _VERB.finditer(patterns):
         stem, doubled, e = found["stem"], found["doubled"] or "", found["e"] or ""
         soft = stem.endswith("y") and stem[-2:-1] not in (*"aeiou",)
-        regular = f"{stem[:-1]}ied" if soft else f"{stem}{doubled}{'d' if stem[-1] == 'e' else 'ed'}"
+        regular = (
+            f"{stem[:-1]}ied" if soft else f"{stem}{doubled}{'d' if stem[-1] == 'e' else 'ed'}"
+        )
         yield (stem + e, *_IRREGULAR.get(stem + e, (regular, regular)))
 
 

@@ -194,7 +194,7 @@ ON_THE_WAY = """
 """Behind how something is kept while it is moved."""
 LEVEL = f"{UPRIGHT}, level, straight [up], steady, standing [up|upright]"
 """How a thing is kept that must not be tilted."""
-FITTING = f"""
+FITTING = """
     so [that] (it|they) (fits|fit) [in|inside] [there|it], to fit [in|inside] [there|it],
     in such a way that (it|they) (fits|fit), so as to fit [in|inside] [there|it]
 """

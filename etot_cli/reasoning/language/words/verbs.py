@@ -6,8 +6,8 @@ from etot_cli.reasoning.language.words.inflections import participles, past_tens
 
 PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
-    fetch[ing] [up], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto], seiz(e|ing),
-    collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
+    fetch[ing] [up], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto],
+    seiz(e|ing), collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
     pass[ing] me, retriev(e|ing), gather[ing] [up], (fetch|fetching|get|getting|grab|find|take) me,
     hand[ing] over, let me have, offer[ing] me, snatch[ing], pluck[ing], hoist[ing], nab[bing]
 """
@@ -370,7 +370,7 @@ MEETS = f"{TOUCH}, {HIT}"
 MET = "hit, touched, struck, bumped [into], knocked [into|over], pushed [over|away|aside]"
 HARM = "damag(e|ing), harm[ing], crush[ing], squash[ing], break[ing], spill[ing]"
 """What no plan may do to anything."""
-TO_THE_FLOOR = f"""
+TO_THE_FLOOR = """
     (fall|drop|roll|slip|tumble|land|end up|hit|go|crash) [down] [(on|onto|to)] the (floor|ground)
 """
 """What no plan may let happen to anything, either."""
