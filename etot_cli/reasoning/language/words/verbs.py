@@ -7,7 +7,8 @@ from etot_cli.reasoning.language.words.inflections import participles, past_tens
 PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
     fetch[ing] [up], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto],
-    seiz(e|ing), collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
+    seiz(e|ing), collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me,
+    giv(e|ing) me,
     pass[ing] me, retriev(e|ing), gather[ing] [up], (fetch|fetching|get|getting|grab|find|take) me,
     hand[ing] over, let me have, offer[ing] me, snatch[ing], pluck[ing], hoist[ing], nab[bing]
 """
