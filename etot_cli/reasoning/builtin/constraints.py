@@ -60,9 +60,8 @@ def _does(action: Action, held: str | None, constraint: Constraint, scene: Scene
     names = constraint.names
     match constraint.keep:
         case Keep.UNTOUCHED | Keep.UNMOVED:
-            return owner_of(action.target) in names and (
-                action.verb in (Verb.PICK_UP, Verb.OPEN, Verb.CLOSE)
-            )
+            meant = owner_of(action.target) in names or action.target in names
+            return meant and action.verb in (Verb.PICK_UP, Verb.OPEN, Verb.CLOSE)
         case Keep.CLOSED | Keep.OPEN:
             verb = Verb.OPEN if constraint.keep is Keep.CLOSED else Verb.CLOSE
             part = scene.part(action.target)
@@ -86,11 +85,9 @@ def _breach(name: str, constraint: Constraint, record: RolloutRecord, far: float
         return None
     match constraint.keep:
         case Keep.UNTOUCHED:
-            for contact in record.contacts:
-                pair = (owner_of(contact.first), owner_of(contact.second))
-                if owner in pair and (set(pair) & {*ROBOT, before.holding, after.holding}):
-                    return f"{owner} was touched, which it must not be"
-            if displacement(owner, record) > far:
+            if _is_touched(name, record):
+                return f"{name} was touched, which it must not be"
+            if name == owner and displacement(owner, record) > far:
                 return f"{owner} was moved, and it must stay untouched"
         case Keep.UNMOVED:
             if displacement(owner, record) > far:
@@ -111,6 +108,24 @@ def _breach(name: str, constraint: Constraint, record: RolloutRecord, far: float
                 if meant and kept(before, part) and not kept(after, part):
                     return f"{part.address} did not stay {constraint.keep.value}"
     return None
+
+
+def _is_touched(name: str, record: RolloutRecord) -> bool:
+    """Whether the hand, or what it holds, came against an object or a part. What is put into a
+    part, or taken out of it, may: it is not to be touched any more than that needs.
+    """
+    touching = {*ROBOT}
+    for held in (record.before.holding, record.after.holding):
+        if held is None:
+            continue
+        around = (scene.states[held] for scene in (record.before, record.after))
+        there = any(name == state.inside or name in state.on for state in around)
+        touching |= set() if "." in name and there else {held}
+    for contact in record.contacts:
+        for one, other in ((contact.first, contact.second), (contact.second, contact.first)):
+            if name in (one, owner_of(one)) and owner_of(other) in touching:
+                return True
+    return False
 
 
 def _wish(constraint: Constraint) -> str:

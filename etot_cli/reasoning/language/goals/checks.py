@@ -53,7 +53,13 @@ def check_held(said: Sequence[Timed], goal: Goal, scene: SceneState) -> None:
 def check_kept(goal: Goal, scene: SceneState) -> None:
     """Whether anything is to be moved and to stay where it is, by itself or with what it is on."""
     still = (Keep.UNTOUCHED, Keep.UNMOVED)
-    kept = {name for item in goal.constraints if item.keep in still for name in item.names}
+    kept = {
+        name
+        for item in goal.constraints
+        if item.keep in still
+        for name in item.names
+        if name in scene.states  # parts go nowhere
+    }
     for index in _moved(goal):
         referent = goal.referents[index]
         always = set.intersection(*({t.name for t in option} for option in referent.options))

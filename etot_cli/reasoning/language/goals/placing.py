@@ -6,7 +6,16 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.goal import (
+    Grouping,
+    Near,
+    Pick,
+    Place,
+    Put,
+    Relation,
+    Thing,
+    things_in,
+)
 from etot_cli.reasoning.builtin.relations import can_topple, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -197,10 +206,19 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             if clause.remark != ASIDE:  # that is told anyway
                 context.discourse.notes.append(f"not checked: {clause.remark}")
         return
-    themes = context.phrases.things(clause.things, Role.THEME)
+    again = clause.meanwhile and all(np.pronoun for np in clause.things.phrases)
+    step = context.done[-1] if again and context.done else None
+    themes: Sequence[int]
+    if isinstance(step, Put):  # "put it in the holder, rotating it as needed": what goes there
+        themes = step.what if clause.stance else ()
+    else:
+        themes = context.phrases.things(clause.things, Role.THEME)
     for index in themes:
         lying = clause.stance is Nearby.LYING
         if clause.stance is None or not (lying or _can_stand(context, index)):
+            if clause.meanwhile and clause.stance and not _is_rod(context, index):
+                text = context.discourse.referents[index].text
+                context.discourse.notes.append(f"not checked: {text} is kept level on the way")
             context.turned.append(index)
             continue
         if lying:
@@ -208,6 +226,13 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         if index in context.discourse.put:
             context.steps.append(_being_there(context, index, clause.stance))
             continue
+        if clause.meanwhile:
+            text = context.discourse.referents[index].text
+            if _is_carried_so(context, index):
+                context.discourse.notes.append(f"{text} is lifted as it stands")
+                continue
+            if not again:  # how it is put is told where it is put
+                raise ReferenceProblem(text, "say behind where it is put how it is kept", 4)
         near, state = Near(clause.stance), "lies" if lying else "stands upright"
         for thing in context.only(index, "say which one"):
             if lying and thing in context.discourse.things(*context.discourse.put):
@@ -233,6 +258,19 @@ def _being_there(context: Context, index: int, stance: Nearby) -> Put:
     how = "lie" if stance is Nearby.LYING else "stand"
     word = "upright" if stance is Nearby.UPRIGHT else ""
     raise ReferenceProblem(text, f"say that it is to {how} where it is put", 2, word=word)
+
+
+def _is_rod(context: Context, index: int) -> bool:
+    """Whether things stand as what holds them lets them."""
+    things = context.discourse.things(index)
+    return all(context.scene.infos[thing.name].elongated for thing in things)
+
+
+def _is_carried_so(context: Context, index: int) -> bool:
+    """Whether what is to be kept upright on the way is picked up, by which it does not tilt."""
+    things = {*context.discourse.things(index)}
+    picks = (step for step in context.done if isinstance(step, Pick))
+    return any(things <= {*context.discourse.things(step.what)} for step in picks)
 
 
 def with_stance(

@@ -64,6 +64,9 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         last = clause.things.phrases[-1].text if clause.things else "anything else"
         why = "'not' may be said of what follows by 'and', too; say that in a sentence of its own"
         raise ReferenceProblem(last, why, 4)
+    if clause.things is None and clause.avoid is Avoid.HARM:
+        context.discourse.notes.append("no plan may harm anything")
+        return
     if clause.things is None:
         _avoid_others(context, clause)
         return
@@ -150,6 +153,9 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         for part, way in zip(parts, ways, strict=True):
             keep = Keep.OPEN if way is True else Keep.CLOSED
             context.constraints.append(Constraint(keep, (f"{part.owner}.{part.name}",)))
+        if clause.avoid is Avoid.TOUCH:
+            touched = tuple(f"{part.owner}.{part.name}" for part in parts)
+            context.constraints.append(Constraint(Keep.UNTOUCHED, touched))
         return
     names += _what_is_there(context, names) if clause.as_it_is else ()
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))

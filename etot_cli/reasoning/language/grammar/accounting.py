@@ -106,7 +106,8 @@ _FIXED = """
     (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on),
     all [that] (i|we) [really|just] (need|want|would like), all that (should|must) be,
     (thing|things|one|ones|object|objects|item|items) (left|remaining),
-    all [that] (i|we) (need|want) (left|remaining),
+    all [that] (i|we) (need|want) (left|remaining), the right (way|side) up, right (way|side) up,
+    all (the (way|time)|along), not (possible|feasible|doable), (does|do|will) not work,
     the right (home|place|spot) (for|of),
     (is|are) only [slightly|partly|partially|half|halfway|barely|a (bit|little|crack)]
 """
@@ -236,6 +237,9 @@ def _said(node: object) -> Iterator[str]:
             yield "bottom" if side is Nearby.AT_FRONT else "top"
         case PutGroup(stance=stance) | ReorientClause(stance=stance) if stance is not None:
             yield _SAID_OF_STANCE[stance]
+            yield from (_DENIAL,) if isinstance(node, ReorientClause) else ()  # "not tilted"
+        case ReorientClause(meanwhile=True):  # "after rotating it"
+            yield _ORDER
         case State(denied=True):
             yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects, destinations=where, always=always):

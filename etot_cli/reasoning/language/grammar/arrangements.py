@@ -28,33 +28,149 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.world.spatial import Nearby
 
 _stood_up = partial(ReorientClause, stance=Nearby.UPRIGHT)
 _laid_down = partial(ReorientClause, stance=Nearby.LYING)
+_IT = Things((NounPhrase(pronoun="it", text="it"),))
+_THEM = Things((NounPhrase(pronoun="them", text="them"),))
+_HOW = sequence(
+    optional("around, round"),
+    optional(
+        either(
+            phrase(f"{manner.UPRIGHT}, {manner.TURNED_UP}", (Nearby.UPRIGHT, False)),
+            phrase(manner.FITTING, (None, True)),
+        ),
+        (None, False),
+    ),
+    optional(phrase(manner.IF_NEEDED, True), False),
+    build=lambda how, needed: (how[0], how[1] or needed),
+)
+"""Behind what is turned: to stand, or just so that it fits."""
+TURNED = either(
+    sequence(verbs.REORIENTED, _HOW),
+    sequence(
+        "tipped, stood, set",
+        f"back {manner.UPRIGHT}, {manner.UPRIGHT}, {manner.TURNED_UP}",
+        build=lambda: (Nearby.UPRIGHT, False),
+    ),
+)
+"""What is done with a thing that is turned, in the passive."""
+_INTO = "in, into, inside, down into, to"
+
+
+def _into_it(things: Things, np: NounPhrase) -> PutClause:
+    """What is turned "so that it points into" what it is put "in" then."""
+    return put_to(things, (Destination(Toward.INSIDE, (np,)),))
+
+
+TURNED_INTO = sequence(
+    verbs.REORIENT,
+    THINGS,
+    manner.FITS_INTO,
+    _INTO,
+    noun_phrase,
+    OPTIONAL_COMMA,
+    "and then, and, then, ~comma",
+    verbs.PLACE,
+    "(it|them) (in|inside|into it) [there|it]",
+    build=_into_it,
+)
+_upright_meanwhile = partial(ReorientClause, stance=Nearby.UPRIGHT, meanwhile=True)
+HELD_MEANWHILE = either(
+    sequence(
+        "[always|while|by] (keeping|holding)",
+        THINGS,
+        manner.LEVEL,
+        silent(optional(manner.ON_THE_WAY)),
+        build=_upright_meanwhile,
+    ),
+    sequence(
+        verbs.WITHOUT,
+        either(sequence(verbs.TILT, THINGS), sequence("letting", THINGS, verbs.TILTS)),
+        silent(optional(manner.ON_THE_WAY)),
+        build=_upright_meanwhile,
+    ),
+    sequence(verbs.WITHOUT, THINGS, verbs.TILTING, build=_upright_meanwhile),
+    phrase(manner.TURNED_AS_NEEDED, ReorientClause(_IT, meanwhile=True)),
+)
+"""Behind what is put somewhere: how it is turned, or kept, meanwhile."""
+KEPT_UPRIGHT = either(
+    sequence(
+        "[always] (keep|hold|keeping|holding)",
+        THINGS,
+        manner.LEVEL,
+        silent(phrase(manner.ON_THE_WAY)),
+        build=_upright_meanwhile,
+    ),
+    sequence("[always] (keep|hold|keeping|holding)", THINGS, "level", build=_upright_meanwhile),
+    sequence(
+        verbs.DO_NOT,
+        either(sequence(verbs.TILT, THINGS), sequence("let", THINGS, verbs.TILTS)),
+        silent(optional(manner.ON_THE_WAY)),
+        build=_upright_meanwhile,
+    ),
+    sequence(
+        silent(optional(f"{verbs.ENSURE}, {small_words.SO_THAT}")),
+        ALL_THINGS,
+        f"(does|do|must|should|may|can|is to|are to|will) not ({verbs.TILTS}|be tilted)",
+        build=_upright_meanwhile,
+    ),
+)
+"""The same in a clause of its own."""
+
+
+def _kept_upright(things: Things) -> ReorientClause:
+    """What is to stay upright; "it" is what is put somewhere meanwhile."""
+    again = all(np.pronoun for np in things.phrases)
+    return ReorientClause(things, Nearby.UPRIGHT, meanwhile=again)
+
+
+def turned(things: Things, how: tuple[Nearby | None, bool]) -> ReorientClause:
+    """Things that are turned, to stand or as they have to be."""
+    stance, to_fit = how
+    return ReorientClause(things, stance, meanwhile=to_fit)
+
+
 REORIENT = either(
     sequence(
         phrase(verbs.REORIENT),
         THINGS,
-        optional("around, round"),
-        optional(
-            either(
-                phrase(f"{manner.UPRIGHT}, {manner.TURNED_UP}", Nearby.UPRIGHT),
-                phrase(manner.FITTING, None),
-            ),
-            None,
-        ),
-        build=lambda verb, things, stance: ReorientClause(
-            things, Nearby.UPRIGHT if verb == "upright" else stance
+        _HOW,
+        build=lambda verb, things, how: turned(
+            things, (Nearby.UPRIGHT, how[1]) if verb == "upright" else how
         ),
     ),
     sequence(
-        f"{verbs.TURN}, {verbs.KEEP}",
+        verbs.ORIENTATION,
+        either(phrase("its (orientation|pose)", _IT), phrase("their orientation[s]", _THEM)),
+        optional(phrase(manner.IF_NEEDED, True), False),
+        build=lambda things, needed: ReorientClause(things, meanwhile=needed),
+    ),
+    sequence(verbs.ORIENTATION, "the (orientation|pose) of", THINGS, build=ReorientClause),
+    sequence(verbs.TURNING_OF, THINGS, build=ReorientClause),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.TO_BE_DONE),
+            sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+            sequence("have, having, get, getting", ALL_THINGS),
+            sequence(verbs.CAN, ALL_THINGS, "[please] be"),
+            sequence(small_words.WISH_IF, ALL_THINGS, verbs.WERE_DONE),
+        ),
+        TURNED,
+        build=turned,
+    ),
+    sequence(ALL_THINGS, "need[s]", verbs.REORIENT, _HOW, build=turned),
+    TURNED_INTO,
+    KEPT_UPRIGHT,
+    sequence(
+        verbs.TURN,
         THINGS,
         f"back {manner.UPRIGHT}, {manner.UPRIGHT}, {manner.TURNED_UP}",
         build=_stood_up,
     ),
+    sequence(verbs.KEEP, THINGS, f"{manner.UPRIGHT}, {manner.TURNED_UP}", build=_kept_upright),
     sequence(
         f"{verbs.LAY}, {verbs.TIP}",
         THINGS,
@@ -65,10 +181,11 @@ REORIENT = either(
     sequence(
         either(
             sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.STAY}"),
-            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}"),
+            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}, {verbs.STAY}"),
             sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to (be|stand), {verbs.DONE}"))),
         ),
         either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
+        silent(optional(manner.ON_THE_WAY)),
         build=ReorientClause,
     ),
     sequence(
@@ -78,9 +195,22 @@ REORIENT = either(
         build=_laid_down,
     ),
 )
-STANDS_UP = sequence(
-    ALL_THINGS, optional(f"{verbs.BE}, {verbs.LIES}"), manner.ERECT, build=_stood_up
+STANDS_UP = either(
+    sequence(ALL_THINGS, optional(f"{verbs.BE}, {verbs.LIES}"), manner.ERECT, build=_stood_up),
+    sequence(ALL_THINGS, optional("is, are, (has|have) been"), TURNED, build=turned),
 )
+HAVING_TURNED = either(
+    sequence(
+        verbs.REORIENTED,
+        THINGS,
+        _HOW,
+        build=turned,
+    ),
+    sequence(
+        "a (turn|rotation|reorientation|re orientation|flip) of", THINGS, build=ReorientClause
+    ),
+)
+"""What has been turned by then ("having turned it, …", "after a rotation of the pen, …")."""
 """What stands by then ("once it is upright, …")."""
 _IN_ITS_PLACE = sequence(
     noun_phrase,

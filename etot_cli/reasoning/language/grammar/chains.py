@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.passives import (
     ALSO_DONE,
     BEFORE_PLACED,
     THEN_PLACED,
+    THEN_TURNED,
     goes_on,
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER, LATER, then_done
@@ -159,7 +160,7 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     joint("emptied", LIST, PLACED),
-    joint("passive", timed(THEN_PLACED, ALSO_DONE)),
+    joint("passive", timed(THEN_PLACED, THEN_TURNED, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
     joint(
         # "…, but first the cup on the tray"

@@ -86,7 +86,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import HAND_OVER, PICK, REMOVE
+from etot_cli.reasoning.language.grammar.taking import HAND_OVER, NEEDED, PERFORMED, PICK, REMOVE
 from etot_cli.reasoning.language.grammar.togetherness import IN_ONE_PLACE
 from etot_cli.reasoning.language.grammar.towers import TOWER
 from etot_cli.reasoning.language.grammar.unstacking import REVERSED, SPREAD
@@ -166,7 +166,19 @@ def _making_room(clause: PutClause, where: tuple[Destination, ...]) -> PutClause
 _ASKED = Rule(
     either(
         *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
-        *(KEEP_STILL, KEEP_OUT, AGAIN, FILL, HAND_OVER, HOLD, WISHED, TOLD_APART, BOTH_SO),
+        *(
+            KEEP_STILL,
+            KEEP_OUT,
+            AGAIN,
+            FILL,
+            HAND_OVER,
+            PERFORMED,
+            NEEDED,
+            HOLD,
+            WISHED,
+            TOLD_APART,
+            BOTH_SO,
+        ),
         *(SPREAD, REVERSED, ONLY_THESE_MAY, GRASP, REACHED, IN_ONE_PLACE),
     )
 )

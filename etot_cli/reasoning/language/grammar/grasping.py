@@ -87,7 +87,7 @@ _OR_BOTH = either(
     POSES,
     sequence("both", _POSE, "and", _POSE, build=lambda one, other: (one, other)),
 )
-_GRASPS = word_set("grasp grip pick approach")
+_GRASPS = word_set("grasp grip pick approach grasps grips picks approaches")
 _SAID = _GRASPS | {"from", "by", "down"}
 
 
@@ -135,6 +135,45 @@ _NOT_WITH = sequence(
     ),
     build=lambda pose: (_other(pose),),
 )
+_GRIPPING = "(grasping|gripping|holding|picking|lifting|taking|approaching)"
+_IMPOSSIBLE = """
+    (is|are) (not (possible|feasible|doable)|impossible), (does|do|will) not work, (is|are) no good,
+    fails, can not be done
+"""
+_AT_WORST = either(
+    # "vertically if gripping it horizontally is not possible"
+    sequence(
+        _POSE,
+        OPTIONAL_COMMA,
+        f"(if|when|where|in case) [{_GRIPPING} [(it|them)] [up]]",
+        _POSE,
+        _IMPOSSIBLE,
+        build=lambda worse, better: (better, worse),
+    ),
+    # "from the side, or if that is not possible from above", "from the side if possible, else …"
+    sequence(
+        _POSE,
+        OPTIONAL_COMMA,
+        either(
+            sequence(
+                optional("or"),
+                OPTIONAL_COMMA,
+                f"if (that|this|it) ({_IMPOSSIBLE.replace(',', '|')})",
+            ),
+            sequence(
+                "if (possible|you can|feasible), preferably, ideally",
+                OPTIONAL_COMMA,
+                "else, otherwise, or else, or, if not",
+            ),
+            "failing (that|this|which), [or|and] otherwise, or else",
+        ),
+        OPTIONAL_COMMA,
+        _POSE,
+        build=lambda better, worse: (better, worse),
+    ),
+)
+"""One way to grasp, and another where that is not possible: either, the better one first."""
+_ONE_OR_WORSE = valued(_AT_WORST, lambda poses: poses if poses[0] is not poses[1] else None)
 GRASPED = sequence(
     OPTIONAL_COMMA,
     either(
@@ -144,7 +183,7 @@ GRASPED = sequence(
                 "[while|by] (grasping|gripping|holding|approaching) (it|them),"
                 "(grasp|grip) [~comma]"
             ),
-            POSES,
+            either(POSES, _ONE_OR_WORSE),
         ),
         _NOT_WITH,
         phrase(f"with {manner.HAND_EITHER_WAY}", _BOTH),
@@ -200,6 +239,7 @@ def _anyhow(things: Things) -> GraspClause:
 
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 _BY_THE_HAND = "grasped, gripped, held, grabbed"
+_COME_AT = "approach|(come|go) (at|for)|reach for"
 _HOW = sequence(
     "how, in (what|which) way",
     either(
@@ -207,13 +247,13 @@ _HOW = sequence(
             ALL_THINGS,
             "(is|are|gets|get) [to be] (grasped|gripped|held|grabbed|picked up|taken|lifted)",
         ),
-        sequence("you [are to|should]", verbs.PICK, THINGS, optional("up")),
+        sequence("you [are to|should]", f"{verbs.PICK}, {_COME_AT}", THINGS, optional("up")),
     ),
 )
 _WHETHER = sequence(
     "whether, if",
     either(
-        sequence(f"you [are to|should] ({verbs.PICK}|approach)", THINGS, optional("up")),
+        sequence(f"you [are to|should] ({verbs.PICK}|{_COME_AT})", THINGS, optional("up")),
         sequence(
             f"(it|{verbs.THE_ROBOT}) (grasps|grips|grabs|holds|takes|lifts|picks up|approaches)",
             THINGS,
@@ -231,9 +271,9 @@ GRASP = quiet(
         either(
             # "Use a side grasp on the holder"
             sequence(
-                "us(e|ing), try[ing]",
+                f"us(e|ing), try[ing], {verbs.PERFORM}",
                 _told(POSES),
-                "on, for, with",
+                "on, for, with, of, at",
                 ALL_THINGS,
                 build=lambda poses, things: _asked(things, poses),
             ),
@@ -293,6 +333,8 @@ GRASP = quiet(
                 build=_anyhow,
             ),
             sequence(either(_HOW, _WHETHER), small_words.DOES_NOT_MATTER, build=_anyhow),
+            # "Whether you come at it from above or from the side, …"
+            sequence(_WHETHER, build=lambda things: _so((), things)),
         ),
         _written,
     )

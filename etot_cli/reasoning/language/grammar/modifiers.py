@@ -269,7 +269,7 @@ def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
 NONE_OF_THEM = sequence(
     "[but|and] (neither|none|not one) of (them|which|these|those) [is|are|being]",
     either(PLAIN_MODIFIER, _none_of),
-    build=_denied,
+    build=denied,
 )
 """Behind several things, what is true of none of them."""
 CONTRASTED = quiet(

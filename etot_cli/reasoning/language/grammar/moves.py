@@ -127,7 +127,10 @@ MOVE = either(
     quiet(_BY_HANDLE),
     *(
         sequence(THINGS, said, build=lambda things, opens=opens: MoveClause(things, opens))
-        for said, opens in (("need[s] opening", True), ("need[s] (closing|shutting)", False))
+        for said, opens in (
+            (f"need[s] ({verbs.OPEN.replace(',', '|')})", True),
+            (f"need[s] ({verbs.CLOSE.replace(',', '|')})", False),
+        )
     ),
     sequence(
         # "Put the pen in and shut the door behind it"

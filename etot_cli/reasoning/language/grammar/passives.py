@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.arrangements import TURNED, turned
 from etot_cli.reasoning.language.grammar.common import (
     EMPTY_WORDS,
     LIST,
@@ -27,6 +28,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
     PutClause,
     RemoveClause,
+    ReorientClause,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -57,6 +59,7 @@ PASSIVE = sequence(
     either(
         sequence(ALL_THINGS, verbs.TO_BE_DONE),
         sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+        sequence("have, having, get, getting", ALL_THINGS),
         sequence(verbs.CAN, ALL_THINGS, "[please] be"),
         sequence(verbs.ENSURE, ALL_THINGS, "is, are, get[s], (has|have) been"),
         sequence(small_words.WISH_IF, EMPTY_WORDS, ALL_THINGS, verbs.WERE_DONE),
@@ -65,8 +68,9 @@ PASSIVE = sequence(
     build=_taken,
 )
 """What is to be taken from somewhere."""
+_DONE_BEFORE = (verbs.TAKEN_AWAY, verbs.TAKEN_FROM, verbs.TAKEN_UP, verbs.REORIENTED)
 _ON = sequence(
-    after("be", "is", "were", *words_of((verbs.TAKEN_AWAY, verbs.TAKEN_FROM, verbs.TAKEN_UP))),
+    after("be", "is", "were", *words_of(_DONE_BEFORE)),
     silent(either(LIST, sequence(optional(phrase("~comma")), THEN))),
 )
 """Behind what is to be taken, in the passive."""
@@ -91,6 +95,14 @@ THEN_PLACED = sequence(
     build=_put_on,
 )
 """Where what was taken goes then ("… and placed on the tray")."""
+THEN_TURNED = sequence(
+    _ON,
+    optional(f"{verbs.TO_BE_DONE}, be, to be"),
+    EMPTY_WORDS,
+    TURNED,
+    build=lambda how: turned(Things((NounPhrase(pronoun=UNSAID, text="it"),)), how),
+)
+"""How what was taken is turned before it goes anywhere ("picked up, turned and placed …")."""
 BEFORE_PLACED = sequence(
     OPTIONAL_COMMA, "before being", phrase(verbs.BROUGHT), DESTINATIONS, build=_put_on
 )
@@ -113,6 +125,8 @@ ALSO_DONE = sequence(
 
 def goes_on(before: Any, clause: Any) -> bool:
     """Whether a clause without its verb goes on what is asked for in the passive."""
-    unsaid = isinstance(clause, PutClause) and UNSAID in pronouns(clause)
-    taken = isinstance(before, PickClause | RemoveClause) and not is_emptying(before)
+    unsaid = isinstance(clause, PutClause | ReorientClause) and UNSAID in pronouns(clause)
+    taken = isinstance(before, PickClause | RemoveClause | ReorientClause) and not is_emptying(
+        before
+    )
     return taken or not unsaid

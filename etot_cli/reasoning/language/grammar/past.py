@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from etot_cli.reasoning.language.grammar.arrangements import STANDS_UP
+from etot_cli.reasoning.language.grammar.arrangements import HAVING_TURNED, STANDS_UP
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.common import COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
@@ -124,14 +124,15 @@ _HAVING_DONE = either(
         build=lambda nps, word: EnsureClause((State(nps, word=word, kept=True),)),
     ),
     sequence(verbs.PICKED_UP, THINGS, build=PickClause),
+    HAVING_TURNED,
     sequence(
-        "(taken|took|lifted|pulled) (out|off|away), removed",
+        "(taken|took|lifted|pulled|got) (out|off|away),removed, extracted, withdrawn, cleared away",
         ALL_THINGS,
         optional(SOURCE, None),
         build=RemoveClause,
     ),
     sequence(
-        "taken, took, removed, moved, cleared",
+        "taken, took, removed, moved, cleared, lifted, got, pulled",
         ALL_THINGS,
         either(SOURCE, phrase("out, off, away", "")),
         build=lambda things, source: RemoveClause(things, source or None),

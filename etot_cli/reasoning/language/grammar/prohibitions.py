@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial, reduce
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.arrangements import HELD_MEANWHILE
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.emptying import ANYTHING, stays_empty
@@ -29,7 +30,12 @@ from etot_cli.reasoning.language.grammar.parsing import (
     some,
 )
 from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, not_left
-from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, EnsureClause
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
+    AvoidClause,
+    EnsureClause,
+    ReorientClause,
+)
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Modifier,
@@ -41,6 +47,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
 
 
 def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
@@ -57,6 +64,25 @@ def _not_wanted(things: Things) -> AvoidClause | None:
     """What is to be left alone; "any cups on the tray" are not to be there."""
     places = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
     return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
+
+
+def _unharmed(things: Things) -> AvoidClause:
+    """What is not to come to harm; whatever "it" may be, nothing is to."""
+    again = all(np.pronoun for np in things.phrases)
+    return AvoidClause(Avoid.HARM, None if again else things)
+
+
+def _not_dropped(things: Things) -> AvoidClause | None:
+    """What is not to be let fall; "do not drop the cup on the tray" says where not."""
+    return None if any(np.modifiers for np in things.phrases) else _unharmed(things)
+
+
+def _not_toppled(things: Things, said: str) -> AvoidClause | ReorientClause:
+    """What is not to fall: nothing knocks it over, and "it", which is put somewhere, stands."""
+    if not all(np.pronoun for np in things.phrases):
+        return AvoidClause(Avoid.HIT, things)
+    over = {"over", "topple"} & {*said.split()}
+    return ReorientClause(things, Nearby.UPRIGHT, meanwhile=True) if over else _unharmed(things)
 
 
 def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
@@ -90,6 +116,17 @@ def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause |
     return None if np.pronoun else _avoid(Avoid.MOVE, replace(things, phrases=(np,)))
 
 
+_NOTHING_HARMED = AvoidClause(Avoid.HARM, None)
+_WILL_NOT = "(does|do|will|can|may|should|must|shall) not"
+_UNHARMED = either(
+    sequence(THINGS, f"{_WILL_NOT} ({verbs.TO_THE_FLOOR})", build=_unharmed),
+    sequence(THINGS, phrase(f"{_WILL_NOT} ({verbs.TOPPLE.replace(',', '|')})"), build=_not_toppled),
+    phrase(
+        f"nothing ({verbs.FALLS_DOWN}), nothing (should|must|may|shall) ({verbs.FALL_DOWN})",
+        _NOTHING_HARMED,
+    ),
+)
+"""What is not to happen to things on the way."""
 _FORBIDDEN = either(
     sequence(
         one_of(
@@ -117,6 +154,14 @@ _FORBIDDEN = either(
         build=with_it,
     ),
     LET_MEET,
+    sequence("drop[ping]", THINGS, build=_not_dropped),
+    sequence("let[ting]", THINGS, verbs.TO_THE_FLOOR, build=_unharmed),
+    sequence("let[ting]", "anything", verbs.FALL_DOWN, build=lambda: _NOTHING_HARMED),
+    sequence(
+        "drop[ping], spill[ing], break[ing], knock[ing] over",
+        "anything",
+        build=lambda: _NOTHING_HARMED,
+    ),
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
     sequence("let[ting]", THINGS, verbs.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
@@ -143,7 +188,13 @@ AVOID = either(
         DESTINATIONS,
         build=lambda *said: AvoidClause(Avoid.PUT, ANYTHING, said[-1], negated=True),
     ),
-    sequence(optional(verbs.ENSURE), NOT_MET),
+    sequence(optional(verbs.ENSURE), either(NOT_MET, _UNHARMED)),
+    sequence("hands off, paws off", THINGS, build=partial(AvoidClause, Avoid.TOUCH)),
+    sequence(
+        THINGS,
+        "(is|are|remains|remain|stays|stay) (off limits|out of bounds|taboo|untouchable|tabu)",
+        build=partial(AvoidClause, Avoid.TOUCH),
+    ),
     sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
     sequence(
         verbs.NEED_NOT,
@@ -266,7 +317,8 @@ WITHOUT = sequence(
             ),
         ),
         sequence(verbs.WITHOUT, MEETING),
-        sequence(small_words.SO_THAT, NOT_MET),
+        sequence(small_words.SO_THAT, either(NOT_MET, _UNHARMED)),
+        HELD_MEANWHILE,
         sequence(verbs.WITHOUT, THINGS, verbs.TOPPLING, build=partial(AvoidClause, Avoid.HIT)),
         sequence(verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
         sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),

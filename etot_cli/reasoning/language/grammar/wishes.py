@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.common import (
     EMPTY_WORDS,
     LIST,
@@ -31,6 +32,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     PickClause,
     PutClause,
+    PutGroup,
     RemoveClause,
     put_to,
 )
@@ -78,7 +80,8 @@ WANTED = either(
     sequence(
         either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
         WHERE,
-        build=put_to,
+        EXTRAS,
+        build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
     ),
     sequence(
         either(

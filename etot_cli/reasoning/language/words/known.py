@@ -41,6 +41,8 @@ VERB_WORDS = words_of(
     # Things are called so, too, though none may be in the scene.
     "jam", "plant", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff",
     "whisk", "dish",
+    "finger", "so", "much", "as", "even", "past", "anywhere", "brush", "watch", "look",
+    "out", "careful", "mindful", "go", "going",
     *words_of((verbs.THE_ROBOT,))}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(

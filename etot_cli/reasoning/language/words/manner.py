@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from etot_cli.reasoning.language.words.verbs import REORIENTED
+
+_TURNED = REORIENTED.replace(",", "|")
 _SWUNG = "pulled|pushed|slid|swung|eased|drawn|rolled|nudged"
 OPEN_STATE = f"""
     [still] [{_SWUNG}|prised|flung|tugged] [wide|all the way|fully|completely] open, opened [up]
@@ -31,7 +34,8 @@ STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
     loose, outside, unused, round, dark
 """
-UPRIGHT = "upright, up, on end, vertical, vertically"
+_RIGHT_WAY_UP = "[the] right (way|side) up"
+UPRIGHT = f"upright, up, on (end|its end|their ends), vertical, vertically, {_RIGHT_WAY_UP}"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
     (in|into) (a|one) [vertical|single] (tower|stack|pile), onto each other
@@ -184,7 +188,7 @@ IN_THIS_ORDER = """
     in (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order
 """
-_UPRIGHT = "(upright|vertical|vertically|on end)"
+_UPRIGHT = f"(upright|vertical|vertically|on (end|its end)|{_RIGHT_WAY_UP})"
 ERECT = f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation)"
 STANDS = f"""
     (so [that]|such that) (it|they) (stands|stand|is|are) [standing] ({_UPRIGHT}|up),
@@ -213,8 +217,35 @@ LYING = f"""
     {LAID}, lying,
     so [that] (it|they) (lies|lie|is lying|are lying|is|are) ([down|flat] {_ON_ITS_SIDE}|flat|down)
 """
-FITTING = "so [that] (it|they) (fits|fit) [in|inside] [there|it]"
-GRASP = "grasp|grip|pose|pick|hold|approach"
+_FITS = "(fits|fit|goes|go|slides|slide|points|point|faces|face)"
+_IF_NEEDED = "(as|if|when|where|however) [it is] (needed|necessary|required)"
+ON_THE_WAY = """
+    the (whole|entire) (time|way|while), all the (way|time), throughout, at all times,
+    on the way [(there|over|down|up|across)], all along, always,
+    (while|as|when) you (move|carry|lift|put|lower|bring|do|are moving|are carrying)
+    [(it|them|so|that)] [over|down|up|there], during the (move|transport),
+    in (transit|the process)
+"""
+"""Behind how something is kept while it is moved."""
+LEVEL = f"{UPRIGHT}, level, straight [up], steady, standing [up|upright]"
+"""How a thing is kept that must not be tilted."""
+FITTING = """
+    so [that] (it|they) (fits|fit) [in|inside] [there|it], to fit [in|inside] [there|it],
+    in such a way that (it|they) (fits|fit), so as to fit [in|inside] [there|it]
+"""
+FITS_INTO = f"so [that] (it|they) [can|will] {_FITS}"
+"""Before what a thing that is turned is to be able to go into."""
+TURNED_AS_NEEDED = f"""
+    [after being|when] ({_TURNED}) [around|round] [({_IF_NEEDED})|first|beforehand],
+    (turning|rotating|reorienting|re orienting|flipping) (it|them) [around|round] [first]
+    [({_IF_NEEDED})|to fit|so that it fits],
+    after (turning|rotating|reorienting|re orienting|flipping) (it|them) [around|round],
+    after [(a|one)] (rotation|reorientation|re orientation), after (a|one) turn,
+    after (it|they) (has|have) been ({_TURNED}) [around|round]
+"""
+"""Behind where something goes: how it has to be held for that follows from where it goes."""
+IF_NEEDED = _IF_NEEDED
+GRASP = "grasp[s]|grip[s]|pose[s]|pick[s]|hold[s]|approach[es]"
 GRIPPER = "gripper|hand|fingers|wrist"
 BY_HAND = "(with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm)"
 """Says nothing: it does all so."""
@@ -225,13 +256,13 @@ HAND_EITHER_WAY = (
     f"{_THE_HAND} [either] (horizontal[ly] or vertical[ly]|vertical[ly] or horizontal[ly])"
 )
 HORIZONTAL = f"""
-    horizontally, sideways,
+    horizontally, sideways, sideward, sidewards,
     [with|using|in|by] [a] (horizontal|sideways|side) ({GRASP}), [a] horizontal,
     (from|by) (the|its|a|one) (side|sides), from [one] side,
     with a horizontal ({GRIPPER}), with {HAND_LEVEL}
 """
 VERTICAL = f"""
-    vertically, top down,
+    vertically, top down, straight (down|downwards|downward) [from above],
     [with|using|in|by] [a] (vertical|top|top down|rim) ({GRASP}), [a] vertical,
     [from] (above|straight above|overhead), from [the|its] top,
     by (the|its) (rim|edge|top) [from above],

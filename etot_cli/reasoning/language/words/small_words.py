@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from etot_cli.reasoning.language.words.manner import BY_HAND
-from etot_cli.reasoning.language.words.verbs import RELATIONS, THE_ROBOT
+from etot_cli.reasoning.language.words.verbs import BROUGHT, RELATIONS, THE_ROBOT
 
 NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 """What a named thing begins with, as a regular expression."""
@@ -333,14 +333,15 @@ BEFORE = "before [you], prior to, by the time [you]"
 _ONCE = "[only|right|straight|just|directly|immediately] (once|after|when|as soon as)"
 BY_THEN = f"[but] ({_ONCE}|not (before|until))"
 AFTER = f"({BY_THEN}) [you have|having|you]"
-GONE = """
+GONE = f"""
     (has|have) (gone|landed),
-    (has|have) been (put|placed|moved|brought|set|laid|stood) [down|away],
+    (has|have) been ({BROUGHT}) [down|away],
     (is|are) (put|set|laid) down
 """
 """Between a thing and where it is by then ("after the tuna has gone into the basket")."""
 LOOK_FOR = """
     find, locate, look (for|at), search for, identify, choose, select, approach, reach for,
+    (go|head|make|aim) for,
     (go|move|drive|walk|navigate) [over] (to|towards)
 """
 REACH = "reach[ing], look[ing], go[ing]"

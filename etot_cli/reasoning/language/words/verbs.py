@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from etot_cli.reasoning.language.words.inflections import participles, past_tenses
+
 PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
-    fetch[ing], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto], seiz(e|ing),
+    fetch[ing] [up], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto],
+    seiz(e|ing),
     collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
     pass[ing] [me|over], retriev(e|ing), gather[ing] [up],
     (fetch|fetching|get|getting|grab|find|take) me,
@@ -13,16 +16,6 @@ PICK = """
     scoop[ing] up, snap[ping] up, heav(e|ing) up, elevat(e|ing), reach[ing] me, procur(e|ing),
     obtain[ing], acquir(e|ing), snag[ging], pull[ing] up
 """
-PAST = {
-    "took": "take", "moved": "move", "placed": "place", "brought": "bring", "got": "get",
-    "gave": "give", "picked": "pick", "opened": "open", "closed": "close", "left": "leave",
-    "lifted": "lift", "fetched": "fetch", "returned": "return", "stored": "store",
-    "cleared": "clear", "tidied": "tidy", "emptied": "empty", "filled": "fill", "stacked": "stack",
-    "dropped": "drop", "handed": "hand", "passed": "pass", "grabbed": "grab", "carried": "carry",
-    "laid": "lay", "stood": "stand", "stuck": "stick", "popped": "pop", "pushed": "push",
-    "pulled": "pull", "turned": "turn", "swapped": "swap", "removed": "remove", "kept": "keep",
-}  # fmt: skip
-"""How a wish puts what is to be done ("I'd be glad if you took it out")."""
 TO_SOMEBODY = """
     (hand|handing|bring|bringing|give|giving|pass|passing|offer|offering|reach) me, hand[ing] over,
     pass[ing]
@@ -49,6 +42,15 @@ SET = """
     reposition[ing], reinstat(e|ing), tuck[ing] away, dish[ing] up,
     (set|setting|lay|laying) out, drop[ping] off, stuff[ing], (pass[ing]|hand[ing]) on
 """
+PERFORM = """
+    do, doing, perform[ing], execut(e|ing), mak(e|ing), attempt[ing], (carry|carrying) out,
+    appl(y|ying)
+"""
+A_PICK = "(a|one|the) (pick [up]|pickup|grasp|grip|lift)"
+A_PUT = """
+    (a|an|one|the) (place|placement|placing|put|pick and place|insertion|transfer|relocation|move)
+"""
+"""What is performed on a thing ("do a pick of the cup")."""
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
 PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
@@ -134,7 +136,7 @@ SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], (take|taking) care that, see to it [that],
-    make it so [that],
+    make it so [that], mind that, (watch|look) out that, (watch|see|be careful|be mindful) that,
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
@@ -157,13 +159,10 @@ NOTHING_IS = f"""
 """Before where there is to be nothing."""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
-    put away|put down|put back|set down|laid down|stashed|tucked [away]|slotted|
-    popped|stuck|stowed [away]|hidden|plonked|shoved|slipped|deposited|loaded|packed|slid|filed [away]|lodged|
-    planted|installed|housed|rehoused|rehomed|concealed|bundled|eased|conveyed|transported|ferried|heaped|introduced|
-    situated|relegated|banished|relocated|shifted|carried|delivered|restored|lowered|added|fitted|
-    dumped|positioned|nestled|wedged|crammed|repositioned|set out|laid out|served [up]
-"""
-BROUGHT = f"{_BROUGHT}, stood, returned"
+    put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|
+    set out|laid out|lowered
+""" + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
+BROUGHT = _BROUGHT
 """What was taken from one place is then, to another one."""
 NOTHING_GOES = """
     (nothing|no (thing|object|item)) (should|must|may|can|shall|is to|has to)
@@ -223,7 +222,10 @@ TAKEN_AWAY = """
 TAKEN_FROM = "taken, lifted, pulled, moved, cleared, brought, got, gotten"
 BEING_TAKEN = ("taken", "removed", "lifted", "pulled", "moved", "brought", "picked", "fetched")
 """After these "put" is said of the same thing, in the passive."""
-TAKEN_UP = "picked up, lifted up, grabbed, fetched, retrieved, collected"
+TAKEN_UP = """
+    picked up, lifted up, grabbed, fetched, retrieved, collected, seized, raised, gathered up,
+    snatched, plucked, hoisted, nabbed, held up, gripped, grasped
+"""
 CAN = "can, could, may"
 BE_PUT = f"[please] (be [{_BROUGHT}]|sit|stand|lie|rest)"
 RELATIONS = """
@@ -335,11 +337,23 @@ KEEP = "keep[ing], leav(e|ing)"
 IGNORE = "ignore, ignoring, never mind, forget [about], skip, do not bother with"
 REORIENT = """
     re orient[ing], reorient[ing], rotat(e|ing), tilt[ing], flip[ping], upright, turn[ing],
-    re orientate
+    re orientat(e|ing), reorientat(e|ing), swivel[ing], pivot[ing]
 """
-TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], make"
+REORIENTED = "re oriented, " + ", ".join(participles(REORIENT))
+"""What has been turned, in the passive."""
+ORIENTATION = "(chang(e|ing)|adjust[ing]|alter[ing]|correct[ing]|adapt[ing]|fix[ing])"
+"""Before "its orientation"."""
+TURNING_OF = """
+    (do|doing|perform[ing]|execut(e|ing)|carry[ing] out) (a|the)
+    (rotation|reorientation|re orientation|turn|flip) (of|on)
+"""
+TURN = "turn[ing], stand[ing], set[ting], put[ting], plac(e|ing), bring[ing], tip[ping], make"
 TIP = "tip[ping] [over], tilt[ing], turn[ing], flip[ping], rotat(e|ing)"
 """What these do to a thing that comes to lie on its side."""
+TILT = "tilt[ing], tip[ping]"
+TILTS = "(tilt|lean|tip) [to (the|one) side]"
+TILTING = "tilting, leaning, tipping"
+"""What a thing that is to stay upright does not do."""
 STACK = "stack[ing] [up], pil(e|ing) [up]"
 NEST = "nest[ing]"
 """Of several vessels they come to stand in each other, wherever that is; one goes into another."""
@@ -391,8 +405,13 @@ NEED_NOT = """
 NOT_TO_BE = """
     (must|should|may|can|shall|could) (not|never) be, (is|are) (not|never) to be
 """
-TOUCHED = "touched"
-WAS_HIT = "hit, struck, bumped [into], knocked [over|into], pushed [over]"
+TOUCHED = """
+    [so much as] touched, handled, [so much as] grazed, brushed [against], contacted, gone near,
+    messed with, interfered with, fiddled with
+"""
+WAS_HIT = """
+    [so much as] (hit|struck|bumped [into]|nudged|jostled), knocked [over|into], pushed [over]
+"""
 DISTURBED = """
     moved [around|about|away], disturbed, lifted [up|off|out], picked up, shifted, displaced,
     removed, taken [away|out|off]
@@ -406,9 +425,14 @@ WITHOUT = """
     without, [while] (making|being) sure not to, [while] [being] careful not to,
     [while] taking care not to, so as not to
 """
-TOUCH = "touch[ing], com(e|ing) near, contact[ing]"
-HIT = """
-    hit[ting], bump[ing] [against], (bang|banging) against,
+_BARELY = "[even|so much as|as much as]"
+TOUCH = f"""
+    {_BARELY} touch[ing], (com(e|ing)|go|going|get|getting) [anywhere] near [to],
+    contact[ing], {_BARELY} (graz(e|ing)|brush[ing]) [against|past], lay[ing] [a] (hand|finger) on,
+    mess[ing] with, fiddl(e|ing) with, meddl(e|ing) with, interfer(e|ing) with
+"""
+HIT = f"""
+    {_BARELY} (hit[ting]|bump[ing] [against]|nudg(e|ing)|jostl(e|ing)), (bang|banging) against,
     (bump|knock|bang|crash|bumping|knocking|banging|crashing|run|running) into,
     collid(e|ing) with, strik(e|ing), knock[ing] [over], push[ing] [over], topple, toppling,
     tip[ping] over
@@ -417,16 +441,38 @@ HIT = """
 MEETS = f"{TOUCH}, {HIT}"
 """What a door does to what stands in its way."""
 MET = "hit, touched, struck, bumped [into], knocked [into|over], pushed [over|away|aside]"
-HARM = "damag(e|ing), harm[ing], crush[ing], squash[ing]"
+HARM = "damag(e|ing), harm[ing], crush[ing], squash[ing], break[ing], spill[ing]"
 """What no plan may do to anything."""
+TO_THE_FLOOR = """
+    (fall|drop|roll|slip|tumble|land|end up|hit|go|crash) [down] [(on|onto|to)] the (floor|ground)
+"""
+"""What no plan may let happen to anything, either."""
+FALLS_DOWN = """
+    (falls|drops|rolls|slips|tumbles|spills|tips|topples|breaks)
+    [(out|off|over|down|away)] [(of|from) it]
+"""
+FALL_DOWN = """
+    (fall|drop|roll|slip|tumble|spill|tip|topple|break) [(out|off|over|down|away)] [(of|from) it]
+"""
 DISTURB = f"""
     {SHIFT},
     disturb[ing], displac(e|ing), lift[ing]
 """
 UPSET = "knock[ing], tip[ping], push[ing], throw[ing], sweep[ing]"
-TOPPLE = "fall [off|over|down], drop, topple [over], tip over, slide off, roll off"
-TOPPLING = "falling [off|over|down], dropping, toppling [over], tipping over, sliding off"
+TOPPLE = """
+    fall [off|over|down], drop, topple [over], tip over, slide off, roll off, tumble [over|down],
+    keel over, get knocked over
+"""
+TOPPLING = """
+    falling [off|over|down], dropping, toppling [over], tipping over, sliding off, rolling off,
+    tumbling [over|down], keeling over, being knocked over
+"""
 ANYTHING_ELSE = """
     anything else, any other (object|thing|things|objects), other (objects|things),
     the (others|rest)
 """
+PAST = past_tenses(
+    *(PICK, SHIFT, SET, REMOVE, CLEAR, TIDY_AWAY, FILL, STACK, SWAP, OPEN, CLOSE, PULL, KEEP),
+    *(REORIENT, TURN, THROW, THROW_AWAY, COVER, UNCOVER),
+)
+"""How a wish puts what is to be done ("I'd be glad if you took it out")."""

@@ -148,6 +148,10 @@ class ReorientClause:
 
     things: Things
     stance: Nearby | None = None
+    meanwhile: bool = False
+    """It is said of what is put somewhere by that: it is to be turned as it has to be for it ("… if
+    needed"), or kept upright on the way.
+    """
     only_named: bool = False
     """It is but named, or looked for, before something is asked of it."""
     remark: str = ""
