@@ -96,10 +96,11 @@ def remove(context: Context, clause: RemoveClause) -> None:
     discourse.last_places = context.source(themes)
     for place in discourse.last_places:
         context.mention_part(place)
+    known = {*discourse.things(*themes)} <= {*discourse.things(*discourse.put)}
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
     if clause.by_then and is_emptying(clause):
         text = " and ".join(np.text for np in clause.things.phrases)
-        context.discourse.notes.append(f"{text!r} goes to the desk first")
+        discourse.notes += [] if known else [f"{text!r} goes to the desk first"]
         _speak_of_emptied(context, clause)
 
 
