@@ -40,7 +40,7 @@ SAID_AGAIN = (
     ),
     (rf", {_TO_BE_EXACT} (?=(?:the|a|an|one|my|in|on|into|onto|to|next)\b)", ", "),
     (r"(?P<again>\b(?:one|an?) \w+, the \w+)(?=[.,;!?]|$)", _without_assurance),
-    (r", that is,? (?=(?:the|my) )", ", "),
+    (r", that is, (?=(?:the|my) )", ", "),
     (
         r"(?P<again>, (?:the|my) (?:\w+ ){0,2}\w+)(?<! one)(?<! ones),? (?:that is|i mean)"
         r"(?=[.,;!?]|$)",
