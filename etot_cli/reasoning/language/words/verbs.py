@@ -156,8 +156,10 @@ NOTHING_IS = f"""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stashed|tucked [away]|slotted|
-    popped|stuck|stowed [away]|hidden|plonked|shoved|slipped|deposited|loaded|packed|slid|filed [away]|lodged|
-    planted|installed|housed|rehoused|rehomed|concealed|bundled|eased|conveyed|transported|ferried|heaped|introduced|
+    popped|stuck|stowed [away]|hidden|plonked|
+    shoved|slipped|deposited|loaded|packed|slid|filed [away]|lodged|
+    planted|installed|
+    housed|rehoused|rehomed|concealed|bundled|eased|conveyed|transported|ferried|heaped|introduced|
     situated|relegated|banished|relocated|shifted|carried|delivered|restored|lowered|added|fitted|
     dumped|parked|nestled|wedged|crammed|repositioned|set out|laid out|served [up]
 """
