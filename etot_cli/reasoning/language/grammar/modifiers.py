@@ -223,7 +223,14 @@ quality_alone = Parser(_without_place, lambda: QUALITY.first)
 
 DESCRIBED = either(PLAIN_MODIFIER, CONTENTS, quality_alone)
 MODIFIER = Rule()
-MODIFIERS = some(MODIFIER, most=4)
+
+
+def _nested(modifiers: tuple[Modifier, ...]) -> tuple[Modifier, ...] | None:
+    """In "the top block of the stack of three blocks" the last "of" is about the stack."""
+    return None if [item.prep for item in modifiers].count(Prep.OF) > 1 else modifiers
+
+
+MODIFIERS = sequence(some(MODIFIER, most=4), build=_nested)
 
 
 OF_ALL = sequence(
