@@ -135,7 +135,8 @@ SIDED = [
     and not re.search(
         r"(?i)right (next|away|behind|then|above|below)|^right,|"
         r"(is|be|been|were|someone|i|thing) left\b"
-        r"|left (open|closed|shut|untouched|alone|where)|\bwant .* left (in|on) ",
+        r"|left (open|closed|shut|untouched|alone|where|standing|lying|sitting)"
+        r"|\bwant .* left (in|on) ",
         text,
     )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)

@@ -135,8 +135,7 @@ class Vocabulary:
             told = [
                 entry
                 for entry in told
-                if entry.info
-                and word in KIND_NOUNS.get(entry.info.kind, ())
+                if (entry.info and word in KIND_NOUNS.get(entry.info.kind, ()))
                 or (word == "glass" and entry.is_glass())
             ]
             return [replace(entry, content=(*entry.content, word)) for entry in told]
