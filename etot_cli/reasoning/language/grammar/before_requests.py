@@ -52,6 +52,7 @@ from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
+    phrase,
     sequence,
     silent,
     some,
@@ -67,6 +68,7 @@ from etot_cli.reasoning.language.grammar.prohibitions import (
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.reaching import SEPARATING
+from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.states import STATE, states
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
@@ -75,6 +77,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
     PutGroup,
     RemoveClause,
+    ReorientClause,
     SwapClause,
     Turns,
     put_to,
@@ -93,6 +96,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     FREEING,
     MAKING_ROOM,
     NAMED,
+    SEEING,
     about,
     any_of_them,
     done_there,
@@ -139,6 +143,15 @@ def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
     """What stays so while something else is done; nothing is done with something in the hand."""
     held = any(isinstance(said.clause, PickClause) for said in first)
     return None if held else (*first, *rest)
+
+
+def _turned_before(said: str, rest: Reading) -> Reading | None:
+    """What has been turned by the time that it goes somewhere."""
+    first = rest[0].clause
+    if not isinstance(first, PutClause | EnsureClause) or "it" in said.split():
+        return None
+    turned = ReorientClause(Things((NounPhrase(pronoun="it", text="it"),)), meanwhile=True)
+    return (rest[0], Spoken(turned, rest[0].position), *rest[1:])
 
 
 _SO_OR_EMPTY = plain(
@@ -231,6 +244,7 @@ WITH_MORE_BEFORE_IT = either(
     TOLD_BEHIND,
     sequence(TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
     sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by", CHAIN, build=add),
+    sequence(plain(SEEING), "[~comma] by, ~comma, ~colon", CHAIN, build=add),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
@@ -329,6 +343,13 @@ WITH_MORE_BEFORE_IT = either(
     ),
     not_so(CHAIN),
     sequence("while [you]", LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
+    sequence(
+        # "Once turned, the pen goes in the mug": "it" is what comes next
+        phrase(manner.TURNED_AS_NEEDED),
+        OPTIONAL_COMMA,
+        CHAIN,
+        build=_turned_before,
+    ),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(manner.STARTING_WITH, noun_phrase, COMMA, CHAIN, build=_started_with),
     sequence(

@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.passives import (
     ALSO_DONE,
     BEFORE_PLACED,
+    THEN_HELD,
     THEN_PLACED,
     THEN_TURNED,
     goes_on,
@@ -160,7 +161,7 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     joint("emptied", LIST, PLACED),
-    joint("passive", timed(THEN_PLACED, THEN_TURNED, ALSO_DONE)),
+    joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
     joint(
         # "…, but first the cup on the tray"
