@@ -145,6 +145,13 @@ def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
     return None if held else (*first, *rest)
 
 
+def _opened_for(seen: Reading, rest: Reading) -> Reading | None:
+    """What somebody wants to look into is opened, and whatever is done besides."""
+    first = rest[0].clause
+    opens = isinstance(first, MoveClause) and first.opens
+    return (*seen, *rest) if opens else None
+
+
 def _turned_before(said: str, rest: Reading) -> Reading | None:
     """What has been turned by the time that it goes somewhere."""
     first = rest[0].clause
@@ -244,7 +251,7 @@ WITH_MORE_BEFORE_IT = either(
     TOLD_BEHIND,
     sequence(TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
     sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by", CHAIN, build=add),
-    sequence(plain(SEEING), "[~comma] by, ~comma, ~colon", CHAIN, build=add),
+    sequence(plain(SEEING), "[~comma] by, ~comma, ~colon", CHAIN, build=_opened_for),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),

@@ -59,6 +59,10 @@ _HALF_DONE = Expression(
     rf"|(?<=slightly )open|ajar)(?: {_SO})*"
 )
 """What is not to be left half open is opened, or closed, by what is asked for next."""
+_MOVED_NEXT = Expression(
+    r"(?:(?:please|but|and|so|just|rather|instead|then|(?:can|could|would|will) you) )*"
+    r"(?:open|close|shut) (?:it|them|that)\b(?! one\b)"
+)
 _HELPING = word_set(
     "helps lets makes needs wants asks tells gets keeps allows means matters is has"
 )
@@ -89,6 +93,8 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
     found = _found(said)
     if found is None:
         return True
+    if _HALF_DONE.fullmatch(said):  # "…, open the other one" leaves this as it is
+        return any(map(_MOVED_NEXT.match, rest[:1]))
     thing, state = found
     words = {word for text in rest for word in text.replace(",", "").split()}
     return bool((_PRONOUNS | {thing}) & words) and not (state and not _MOVING & words)

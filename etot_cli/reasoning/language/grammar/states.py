@@ -278,7 +278,6 @@ BESIDES_SO = either(
         small_words.ALL_ALONG,
         build=lambda nps, said: ensured(_staying(nps, "", said, True)),
     ),
-    sequence("while", STAYS, build=ensured),
     sequence(
         "with",
         NP_LIST,
