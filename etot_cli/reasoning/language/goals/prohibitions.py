@@ -59,6 +59,21 @@ def avoid(context: Context, clause: AvoidClause) -> None:
         context.constraints[before:] = [replace(item, needless=True) for item in new]
 
 
+def _left_by_what_moves(context: Context, clause: AvoidClause) -> tuple[int, ...]:
+    """What "it" is in "put the pen in the mug without knocking it over": the pen is in the hand."""
+    step = context.done[-1] if context.done else None
+    (np, *more) = clause.things.phrases if clause.things else (NounPhrase(),)
+    alone = np.pronoun == "it" and not more and clause.avoid in _LEAVING and not clause.negated
+    if not alone or not isinstance(step, Put):
+        return ()
+    there = {place.where for place in step.places}
+    there |= {mark for place in step.places for near in place.beside for mark in near.landmarks}
+    with suppress(ReferenceProblem):
+        found = context.phrases.refer(np, Role.ANY, step.what)
+        return found if {*found} <= there else ()
+    return ()
+
+
 def _forbid(context: Context, clause: AvoidClause) -> None:
     if clause.goes_on:
         last = clause.things.phrases[-1].text if clause.things else "anything else"
@@ -96,7 +111,7 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         kept += [replace(m, clause=0) for m in targets] if before else targets
         context.discourse.mentions[before:] = kept
         return
-    indices = context.phrases.things(clause.things, role)
+    indices = _left_by_what_moves(context, clause) or context.phrases.things(clause.things, role)
     if clause.avoid is Avoid.HARM:
         harmed = " and ".join(thing.address for thing in context.discourse.things(*indices))
         context.discourse.notes.append(f"no plan may harm {harmed}")

@@ -150,6 +150,13 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?: (?:there|here|before you|in front of you))?(?=[.,;:!?]| (?:in|on)\b|$)",
         r"\1",
     ),
+    # "May only be grasped from above" is about how
+    (
+        r"\b(?:may|must|should|can|is to|has to|shall) only be "
+        r"(grasped|gripped|held|grabbed|lifted|picked up|approached) "
+        r"(?=(?:from|by|with|using|vertically|horizontally|sideways)\b)",
+        r"must be \1 only ",
+    ),
     # Nothing is asked of "the other one"
     (
         rf"\b(the (?:\w+ ){{0,3}}?\w+(?: {WHERE} (?:the|your|my) \w+)?),? (?:and |but )?"
@@ -169,6 +176,14 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     (
         rf"\blet (it|them|{_ONE}) down (?=(?:in|into|on|onto)\b)",
         r"put \1 down ",
+    ),
+    # Which of several does not matter, said ahead of what is done with one of them
+    (
+        r"(^|[.;!?] )(?:it (?:does not matter|makes no difference|is (?:up to you|your (?:choice|"
+        r"decision)))|(?:i|we) do not (?:care|mind)|no matter) (which (?:of the (?:two )?)?"
+        r"(?:\w+ ){1,2}?(?:you (?:use|choose|take|pick|select)|to (?:use|choose|take|pick)"
+        r"|is (?:used|chosen)))[.,;:]",
+        r"\1\2 does not matter,",
     ),
     # Putting down what is held
     (

@@ -47,8 +47,8 @@ from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import (
     BESIDES_SO,
     OPEN_OR_CLOSED,
+    MEANWHILE_SO,
     SHUT,
-    STAYS,
     ensured,
     holding_only,
     states,
@@ -122,7 +122,7 @@ WITH_MORE_SO = either(
         plain(either(sequence(NP_LIST, SHUT, build=left_so), UNTOUCHED)),
     ),
     joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
-    joint("and", OPTIONAL_COMMA, "while", plain(sequence(STAYS, build=ensured))),
+    joint("and", OPTIONAL_COMMA, plain(MEANWHILE_SO)),
     joint(
         # "I want the box empty and the tray holding the pen only"
         "and",

@@ -64,7 +64,11 @@ def _ruled_out(given: Input, at: int) -> list[Result]:
 
 _OTHER_POSE = sequence("not, no", Parser(_ruled_out, lambda: _POSE.first), optional("one"))
 POSE = either(
-    sequence(optional("only, just"), _POSE, optional("only")),
+    sequence(
+        optional("only, just, exclusively, solely, purely"),
+        _POSE,
+        optional("only, exclusively, alone"),
+    ),
     _OTHER_POSE,
     sequence(
         _POSE,
@@ -181,6 +185,7 @@ GRASPED = sequence(
             optional(
                 "but, with, using, being, [being] (grasped|gripped|held|approached),"
                 "[while|by] (grasping|gripping|holding|approaching) (it|them),"
+                "[while|by] coming [in|at it], approaching,"
                 "(grasp|grip) [~comma]"
             ),
             either(POSES, _ONE_OR_WORSE),
@@ -278,6 +283,11 @@ GRASP = quiet(
                 build=lambda poses, things: _asked(things, poses),
             ),
             sequence("us(e|ing), try[ing]", _told(POSES), build=_so),
+            sequence(
+                "us(e|ing) (whichever|whatever|any) (grasp|grip|approach)",
+                "[that] you (like|want|prefer|choose), works [best], is (easiest|best), suits you",
+                build=lambda: _so(()),
+            ),
             sequence(
                 optional("(grasping|gripping|holding|grabbing|taking|lifting) (it|them)"),
                 _told(_OR_BOTH),

@@ -50,7 +50,14 @@ def _in_turn(moved: MoveClause) -> MoveClause | None:
     return replace(moved, turns=Turns(all=nps)) if nps[1:] and not moved.things.either else None
 
 
+def _lifted(things: Things) -> MoveClause:
+    """What swings up when it is opened; "it" is rather what was taken hold of."""
+    again = all(np.pronoun for np in things.phrases)
+    return MoveClause(things, opens=True, far_fetched=int(again))
+
+
 _PLAIN_MOVE = either(
+    sequence("lift[ing] [up], rais(e|ing)", THINGS, build=_lifted),
     *(
         sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))
         for verb, opens in (("open[ing]", True), ("clos(e|ing), shut[ting]", False))
@@ -59,8 +66,7 @@ _PLAIN_MOVE = either(
         sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
         for verb, opens in (
             (
-                f"{verbs.OPEN}, (pull[ing]|slid(e|ing)|draw[ing]|eas(e|ing)) out, lift[ing] [up],"
-                " rais(e|ing)",
+                f"{verbs.OPEN}, (pull[ing]|slid(e|ing)|draw[ing]|eas(e|ing)) out",
                 True,
             ),
             (f"{verbs.CLOSE}, (push[ing]|slid(e|ing)|eas(e|ing)|shov(e|ing)) [back] in", False),

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.common import (
+    COMMA,
     IN_HAND,
     LIST,
     OPTIONAL_COMMA,
@@ -253,6 +254,37 @@ def kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> Ensu
     return EnsureClause((State(nps, word=word, kept=True, always=always),))
 
 
+MEANWHILE_SO = either(
+    sequence("while", STAYS, build=ensured),
+    sequence(
+        "with",
+        NP_LIST,
+        "kept, staying, remaining",
+        OPEN_OR_CLOSED,
+        ALWAYS,
+        build=kept_so,
+    ),
+    sequence(
+        # "…, the drawer staying shut", "… while keeping the drawer shut"
+        either(
+            sequence(COMMA, NP_LIST, "staying, remaining"),
+            sequence(OPTIONAL_COMMA, "while keeping", NP_LIST),
+        ),
+        OPEN_OR_CLOSED,
+        ALWAYS,
+        build=kept_so,
+    ),
+    sequence(
+        either(
+            sequence(COMMA, NP_LIST, "staying, remaining"),
+            sequence(OPTIONAL_COMMA, "[while] keeping", NP_LIST),
+        ),
+        DESTINATIONS,
+        small_words.ALL_ALONG,
+        build=lambda nps, where: ensured(_staying(nps, "", where, True)),
+    ),
+)
+"""What stays as it is while something else is done, which no comma has to set apart."""
 BESIDES_SO = either(
     sequence(
         # "…: the cup, containing the pen"

@@ -65,7 +65,7 @@ PICK = sequence(
     ),
     phrase(verbs.PICK),
     THINGS,
-    optional("up"),
+    optional("up, straight up"),
     optional(
         either(
             SOURCE,

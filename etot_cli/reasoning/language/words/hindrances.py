@@ -54,7 +54,8 @@ _BY_NOW = "only|just|already|still|now"
 SLIGHTLY_OPEN = f"""
     (is|are) (only|just) [{_A_BIT}|half] (open|ajar), (is|are) [just|only] barely open,
     (is|are) [{_BY_NOW}] ({_A_BIT}|half) (open|ajar),
-    (is|are) [{_BY_NOW}] open [only|just] ({_A_BIT})
+    (is|are) [{_BY_NOW}] open [only|just] ({_A_BIT}),
+    (is|are) [{_BY_NOW}] (nearly|almost) (closed|shut)
 """
 NOT_QUITE = f"""
     (is|are) not [quite|fully|completely|entirely|properly|really|yet]

@@ -69,7 +69,9 @@ WITHOUT_MEANING = f"""
     [you (like|want|prefer|please|choose|see fit|fancy)|[that] suits you [best|{_EASIER}]|
     is (easier|easiest|best) [for you]|seems best [to you]],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
-    as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
+    as wide as it (goes|can|will [go]), until it (will|does) not go any further,
+    as far as it (goes|can [go]|will [go]), whatever it takes, no matter what, at all costs,
+    [in] (whichever|whatever) way (is (easiest|best|possible)|works [best]|suits you), without (damaging|hurting|harming|breaking) anything,
     if possible,
     properly, neatly, directly, straight,
     ~comma if you would, ~comma shall we, behind you, after you,

@@ -130,6 +130,8 @@ class MoveClause:
     guarded: bool = False
     """It is said with a condition that its own end state answers ("if it is closed, open it")."""
     turns: Turns = Turns()
+    far_fetched: int = 0
+    """How much rather the same words are said of something else ("lift it" of a cup)."""
 
 
 @dataclass(frozen=True, slots=True)
