@@ -56,6 +56,12 @@ _STEP = (
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 
+_NO_NOUN = (
+    "in|into|on|onto|by|to|of|from|at|beside|behind|against|within|inside|over|under|near|for|with"
+    r"|and|or|so|is|are|be|lets?|\w+ing"
+)
+
+
 _DID = Expression(
     rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
     r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
@@ -112,11 +118,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         rf"^({ASKED})(?:tidy|clean)(?: up)? (?:the|my) {TABLE}(?: up)?(?:: | by (?=\w+ing ))",
         r"\1tidy up: ",
     ),
-    (
-        r"\b(put|place|move|set) (the \w+(?: \w+)?)"
-        r"(?<!into)(?<!onto)(?<! in)(?<! on)(?<! by)(?<! to)(?<!beside) itself\b",
-        r"\1 \2",
-    ),
+    # "The box itself" is the box; "by itself", "from itself" and "inside itself" are something else.
+    (rf"\b({NAMED}(?: (?!{_NO_NOUN}\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
     (rf"\bbut none of (?={NAMED})", "but not "),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
     (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),
