@@ -12,6 +12,14 @@ from etot_cli.reasoning.language.words.small_words import NAMED
 _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|ought to"
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
+_WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
+_NOTHING_ELSE = (
+    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand|end up"
+    r"|come|stay|remain|be left) (?:(?:in|on|inside) (?:there|it)|there|inside)"
+    r"|there (?:should|must|may|is to) be nothing else (?:(?:in|on|inside) (?:there|it)|there|inside)"
+    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else(?: (?:in|on) it)?)"
+    r"(?=[.;!]|$)"
+)
 _ASKED = re.compile(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
 _ALL_OF = {"any": "none", "either": "neither"}
 _LATTER = Expression(
@@ -85,6 +93,29 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"\bwith ({_SOME}) still ([^,.;]*), (?=(?:untouched|unmoved)(?:[.,;!]|$))",
         r"with \1 \2 ",
+    ),
+    # "Put the egg in the bowl; nothing else should be in there"
+    (
+        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? {_NOTHING_ELSE}",
+        r"\1",
+    ),
+    (
+        rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
+        rf"(in|on|into|onto|inside) ({_SOME})[.;,]? {_NOTHING_ELSE}",
+        lambda said: (
+            f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}"
+        ),
+    ),
+    # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
+    (
+        rf"\bit is ({_SOME}) (?:that |which )?{_WISHED} (?:to (?:be|go) )?"
+        r"(?=(?:in|on|into|onto|inside|next to|beside|behind|between|in front of|to the) )",
+        r"\1 should be ",
+    ),
+    (
+        rf"(^|[.;] )(?:what|the (?:thing|one)(?: that)?) {_WISHED} (?:to (?:be|go) )?"
+        rf"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is ({_SOME})(?=[.,;!]|$)",
+        r"\1\3 should be \2",
     ),
     # Of two there are no more to be told.
     (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),

@@ -105,7 +105,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     (rf"^({ASKED}leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
     (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={NAMED}|(?:it|them)\b)", r"\1set "),
-    (r"\b(set|put|place|lay) ([^.,;]*?) aside (?=(?:on|in|next to|beside) )", r"\1 \2 "),
+    (
+        r"\b(set|put|place|lay) ([^.,;]*?) aside,? "
+        r"(?=(?:(?:any|some)where )?(?:on|in|next to|beside|near|behind|to the) )",
+        r"\1 \2 ",
+    ),
     (rf"\b((?:on|in) {NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(please |(?:could|can) you )?(without \w+ing any other [^,.;]*), ([^.;]*)", r"\1\3 \2"),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
@@ -117,6 +121,17 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (
         rf"^({ASKED})(?:tidy|clean)(?: up)? (?:the|my) {TABLE}(?: up)?(?:: | by (?=\w+ing ))",
         r"\1tidy up: ",
+    ),
+    # "By size on the tray"
+    (
+        r"\b((?:stack|pile)(?: up)? [^.,;:]*?) (by size|in order of size) (on(?:to)? [^.,;:]*)",
+        r"\1 \3 \2",
+    ),
+    # "Take the blocks apart so that each block stands by itself"
+    (
+        r"(\b(\w{3,})s\b[^.;]*? (?:(?:so|such) that|until)) (?:each|every)(?: single)? \2 "
+        r"(?=(?:stands|lies|sits|rests|is)\b)",
+        r"\1 each one ",
     ),
     # "The box itself" is the box; "by itself", "from itself" and "inside itself" are something else.
     (rf"\b({NAMED}(?: (?!{_NO_NOUN}\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
