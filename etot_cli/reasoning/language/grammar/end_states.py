@@ -20,6 +20,12 @@ _NOTHING_ELSE = (
     r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else(?: (?:in|on) it)?)"
     r"(?=[.;!]|$)"
 )
+_KEPT = {"out of": "in", "off": "on"}
+_IMPERATIVE = {
+    "moving": "move", "putting": "put", "setting": "set", "placing": "place",
+    "carrying": "carry", "bringing": "bring",
+}  # fmt: skip
+_MOVED = f"(?:{'|'.join((*_IMPERATIVE, *_IMPERATIVE.values(), 'take', 'stand'))})"
 _ASKED = re.compile(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
 _ALL_OF = {"any": "none", "either": "neither"}
 _LATTER = Expression(
@@ -54,6 +60,18 @@ def _named_again(said: re.Match[str]) -> str:
         lambda which: first if which[1] == "former" else second,
         text,
     )
+
+
+def _left_there(said: re.Match[str]) -> str:
+    """What is not taken out of something is left in it, what is not taken off on it."""
+    done, _, what, away, where = said.groups()
+    return f"{done} and leave {what} {_KEPT[away]} {where}"
+
+
+def _left_while_moved(said: re.Match[str]) -> str:
+    """The same ahead of what is done with that."""
+    what, away, where, verb, place = said.groups()
+    return f"{_IMPERATIVE.get(verb, verb)} {where} {place} and leave {what} {_KEPT[away]} it"
 
 
 END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
@@ -93,6 +111,18 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"\bwith ({_SOME}) still ([^,.;]*), (?=(?:untouched|unmoved)(?:[.,;!]|$))",
         r"with \1 \2 ",
+    ),
+    # What is not taken out of a thing that goes somewhere comes along in it.
+    (
+        rf"\b({_MOVED} (?P<moved>{_SOME})\b [^.;]*?),? without "
+        rf"(?:taking|removing|lifting|getting) ({_SOME}) "
+        rf"(out of|off) (it|(?P=moved))(?=[.,;!]|$)",
+        _left_there,
+    ),
+    (
+        rf"\b(?:do not|never) (?:take|remove|lift|get) ({_SOME}) (out of|off) ({_SOME}) "
+        rf"(?:when|while|as) (?:you )?({_MOVED}) (?:\3|it) ([^.,;]*)",
+        _left_while_moved,
     ),
     # "Put the egg in the bowl; nothing else should be in there"
     (
