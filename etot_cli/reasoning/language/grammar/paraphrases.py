@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.end_states import END_STATES
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
+from etot_cli.reasoning.language.grammar.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.said_again import SAID_AGAIN
 from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.words.categories import CATEGORIES
@@ -87,6 +88,7 @@ def _in_turn(said: re.Match[str]) -> str:
 _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     *CONTRACTIONS,
     *END_STATES,
+    *ROUNDABOUT,
     *ASKED_OTHERWISE,
     *OBSTACLES,
     *LISTINGS,
@@ -333,7 +335,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(\bthe|\bits|\btheir|'s) content\b(?! with)", r"\1 contents"),
     (r"\b(the|its) foot of (?=(?:the|that|this) (?:tower|stack|pile)\b)", r"\1 bottom of "),
     # A chest's top is where things stand on it
-    (r"('s) top surface\b", r"\1 top"),
     (r"\b(on|onto|to) the top surface of (?!(?:the|my) (?:desk|table)\b)", r"\1 the top of "),
     # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
     (

@@ -131,6 +131,7 @@ _IN_GENERAL = Expression(
     r"^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
     r"|^it (?:is|gets|looks|feels) (?:so |very |too |"
     r"really |quite )?\w+ (?:in here|outside|out there)$"
+    r"|^(?:the |our |my )?(?:\w+ )?\w*time is (?:over|up)(?: now)?$"
     rf"|^(?:it is )?time (?:for|to) "
     rf"(?!(?:{'|'.join(sorted(VERB_WORDS))}|the|a|my)\b)\w+(?: up| out)?$"
     r"|^(?:that|this|it) is where (?:i|we|it|they) "
