@@ -27,7 +27,8 @@ _HOLDING = """
 """
 WITHOUT_MEANING = f"""
     please, kindly, [very|really] (carefully|gently|safely|cautiously),
-    also, too, as well, just, simply, now, though,
+    also, too, as well, just, simply, now, though, of course, obviously, naturally, evidently,
+    needless to say, somehow [or other], in some way [or other], one way or another,
     again,
     immediately, right away, right now, for me, fully, completely, all the way,
     the rest of the way, wide, there after,
@@ -97,6 +98,7 @@ ALL_ALONG = "at all times, (all|the (whole|entire)) [the] time, throughout"
 """Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
 """A sentence alone, after one that left it open anyway."""
+WHILE = "while [you [are]], whilst [you [are]], as you [are]"
 ANNOUNCED = "(two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)]"
 """Before what is to be done."""
 TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
