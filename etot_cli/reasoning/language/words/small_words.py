@@ -67,7 +67,8 @@ WITHOUT_MEANING = f"""
     is (easier|easiest|best) [for you]|seems best [to you]],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
-    if possible,
+    if possible, of course, obviously, naturally, somehow, by all means,
+    [and|but] whatever (you do|happens) [~comma],
     properly, neatly, directly, straight,
     ~comma if you would, ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
@@ -176,7 +177,8 @@ FRAMES = f"""
     (would|could) you be so (kind|good|nice) (as to|and|to), please you,
     mind [that] you, be so (kind|good|nice) (as to|to|and), if you would, do me a favor and,
     do me a favour and,
-    be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
+    be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and,
+    be a (good|kind|nice|clever) (boy|girl|lad|lass|dear|robot|fellow|sport|chap|soul) and
 """
 _AT_END = """
     (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn|day|session|shift|
@@ -256,13 +258,13 @@ DONE_WITH = """
 """
 """Before such a thing."""
 SAME_AGAIN = """
-    do [exactly|just] the same [thing] (with|for|to), ditto (with|for),
+    do [exactly|just] the same [thing] (with|for|to), ditto [with|for],
     [and] so (do|does|should|must), as (do|does),
     the same [thing] (goes|applies|holds) for, likewise [for|with], [the] same [thing] (with|for),
     (do|treat) likewise (with|for), repeat [(this|that|it)] (with|for)
 """
 """Before things that what was just asked for is asked for, too."""
-ALSO = "[~comma] (too|as well|also), likewise"
+ALSO = "[~comma] (too|as well|also), likewise, [~comma] ditto"
 BEFORE_ALL = "before (anything|everything) else [(is|gets) done|happens]"
 LEADING_FIRST = f"""
     first, [but] {BEFORE_ALL}, [but] before all [of] (that|this),

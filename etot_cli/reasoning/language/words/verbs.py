@@ -183,7 +183,7 @@ _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
 _WELL = "good|nice|nicely|lovely|great|perfect|perfectly|fine|well"
 MODAL = f"""
     [{_IN_FACT}] ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}|found|returned|stood]|
-    (end|finish|wind) up [{_BEING}]|get|(go|come|move|return) [back]|land|
+    find (its|their) way [back]|(end|finish|wind) up [{_BEING}]|get|(go|come|move|return) [back]|land|
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
@@ -192,7 +192,7 @@ MODAL = f"""
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
-    move[s] [up|down|over|back], (is|are) [now|still|also] (wanted|needed|required)
+    move[s] [up|down|over|back], find[s] (its|their) way [back], (is|are) [now|still|also] (wanted|needed|required)
 """
 _STAND_THERE = f"""
     (be|go|stand|sit|lie|rest|(be|end up) ({_BEING}|placed|put|found|kept)|end up)
@@ -320,9 +320,14 @@ WERE = f"""
 """
 """What it would be nice if things were."""
 LET = "have, let, get"
-LET_BE = f"{DONE}, [come to] ({_TO_STAND}), be, go, come, move, return, land, (end|wind) up"
+LET_BE = f"""
+    {DONE}, [come to] ({_TO_STAND}), be, go, come, move, return, land, (end|wind) up,
+    find (its|their) way [back]
+"""
 """Between them is what is to go somewhere."""
 JOINED_BY = f"({_MUST}|can|may|could) {_SIMPLY} be joined by"
+KEEP_COMPANY = f"keep[s], [can|may|could|might|will|{_MUST}] keep"
+"""Before whom something joins, and "company"."""
 JOIN = f"joins, [can|may|could|might|will|{_MUST}] join"
 SHARE = f"[can|may|could|might|will|{_MUST}] share[s]"
 COME_AWAY = """

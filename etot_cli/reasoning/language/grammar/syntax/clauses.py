@@ -250,6 +250,8 @@ class AvoidClause:
     """It need not be done, but may be."""
     as_it_is: bool = False
     """They are left as they are, with what is in and on them."""
+    over: bool = False
+    """They must not be knocked over, by what else is done or as they are moved themselves."""
     by: tuple[NounPhrase, ...] = ()
     """The door or drawer by which it must not happen, which moves as something else is done."""
 
