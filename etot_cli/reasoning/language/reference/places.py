@@ -361,7 +361,11 @@ class Places:
             beside = self._told_apart_from(themes) if there or word in spellings(THEREIN) else ()
             if len(beside) == 1:  # "the ball that is not in the bag should go in there"
                 found = tuple(in_or_on(discourse, Toward.TO, beside[0], themes) if there else ())
-                return found or (Place(Relation.INSIDE, beside[0]),)
+                vessels = discourse.things(beside[0])
+                if not found and all(can_be(at, Role.CONTAINER, self._scene) for at in vessels):
+                    found = (Place(Relation.INSIDE, beside[0]),)
+                if found:
+                    return found
             if word not in spellings(THEREIN) or len(before) != 1:
                 raise
             place = before[0]  # "take the milk out, put the juice in"

@@ -76,7 +76,8 @@ WITHOUT_MEANING = f"""
     without (dropping|breaking) (it|them), before i forget, by the way,
     what a mess [(in|around|over|) here|[over|in|] there|this is],
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
-    ~comma i (think|believe|guess|suppose|reckon),
+    ~comma i (think|believe|guess|suppose|reckon|would say), maybe, perhaps,
+    chop chop, quick march, asap, as soon as (possible|you can),
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
     that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
     ~comma [my [dear|good]]
@@ -136,8 +137,8 @@ GREETINGS = f"""
     [just] as a [first|quick|simple|little|short] (warm up|test|exercise|try) [~comma]
 """
 WOULD_BE_NICE = """
-    (i|we) would (be|feel) [very|really|so]
-    (glad|happy|happier|grateful|pleased|delighted|thankful),
+    (i|we) would (be|feel) [very|really|so|most|much|ever so]
+    (glad|happy|happier|grateful|pleased|delighted|thankful|obliged),
     (i|we) would [really] (like|love|appreciate|prefer) it,
     [it|that] would be [very|really|so]
     (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best|ideal) [of you],
@@ -173,11 +174,14 @@ FRAMES = f"""
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i [would|must|have to|would like to] ask you to, your job is, it is time to,
-    help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
+    help me [to|by], help me [to] (tidy|clean) up by, (i|we) [(really|just|still|also)] ought to, we [(really|just|still|also)] (need|have) to,
+    we (had better|should|must), you are to, if i were you ~comma [i (would|d)],
+    would it be (too much|much) (trouble|bother|to ask) [for you] to, you could [(always|just)],
+    [it is] [high] time [for you] to,
     (would|could) you be so (kind|good|nice) (as to|and|to), please you,
     mind [that] you, be so (kind|good|nice) (as to|to|and), if you would, do me a favor and,
     do me a favour and,
-    be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and,
+    be (a|an) (dear|darling|love|angel|star|pal|legend|sport|sweetheart|sweetie|saint|treasure) and,
     be a (good|kind|nice|clever) (boy|girl|lad|lass|dear|robot|fellow|sport|chap|soul) and
 """
 _AT_END = """

@@ -136,7 +136,8 @@ SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], (take|taking) care that, see to it [that],
-    make it so [that], mind that, (watch|look) out that, (watch|see|be careful|be mindful) that,
+    make it so [that], mind that, (may|can|could|must|would) i ask that, i [(would|must)] ask that,
+    (watch|look) out that, (watch|see|be careful|be mindful) that,
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
@@ -190,7 +191,7 @@ MODAL = f"""
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
-    get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie), (is|are) going [back],
+    get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie|live), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
     move[s] [up|down|over|back], find[s] (its|their) way [back], (is|are) [now|still|also] (wanted|needed|required)
 """
@@ -238,6 +239,7 @@ WANT = """
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
     i d like, (can|could|may|might) (i|we) (have|get), let (us|me) have,
     (would|is) it [be] possible to have,
+    it would be [really|so] (great|nice|lovely|good) to (see|have),
     (i|we) would rather (have|see),
     (what|all [that]) (i|we) [really|just] (want|need|would like) [to (have|see)] is
 """

@@ -212,6 +212,8 @@ class AgainClause:
     trailing: bool = False
     added: bool = False
     """They are added to what was spoken of."""
+    side_by_side: bool = False
+    """None of them, nor of those before, is to be on another one."""
     destinations: tuple[Destination, ...] = ()
     """Where the same things go next ("…, then on the tray"); there are no ``things`` then, and
     ``trailing`` tells where to of what was only to be taken away ("… on the tray will do").
