@@ -320,6 +320,9 @@ def _condition(
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
     else:
         places = context.places.of(condition.destinations, subjects)
+    if condition.kept:
+        for subject in subjects:
+            choose_by_place(context, subject, places, stays=True)
     if stance := stance_in(condition.destinations):
         places = with_stance(context, subjects, places, stance)
     for subject in subjects:
