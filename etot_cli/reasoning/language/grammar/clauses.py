@@ -177,7 +177,20 @@ _NOT_MEANWHILE = Parser(
 
 _ASKED = Rule(
     either(
-        *(sequence(_NOT_MEANWHILE, PICK), PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
+        *(
+            sequence(_NOT_MEANWHILE, PICK),
+            PUT,
+            REMOVE,
+            EMPTY,
+            MOVE,
+            ENSURE,
+            WANTED,
+            COVER,
+            REORIENT,
+            TOWER,
+            SWAP,
+            AVOID,
+        ),
         *(
             KEEP_STILL,
             KEEP_OUT,

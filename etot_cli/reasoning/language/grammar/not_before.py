@@ -107,7 +107,9 @@ NOT_BEFORE = quiet(
             build=lambda earlier, later: _only_after(later, earlier),
         ),
         sequence(_forbidden("only"), OPTIONAL_COMMA, EARLIER, build=_only_after),
-        sequence(_NOT_YET, OPTIONAL_COMMA, _BEFORE_THAT, build=lambda later: _only_after(later, ())),
+        sequence(
+            _NOT_YET, OPTIONAL_COMMA, _BEFORE_THAT, build=lambda later: _only_after(later, ())
+        ),
         sequence(
             _BEFORE_THAT,
             OPTIONAL_COMMA,
