@@ -9,6 +9,7 @@ from itertools import chain, islice, product
 
 from etot_cli.errors import InstructionError, UnsatisfiableError
 from etot_cli.reasoning.builtin.branching import MAX_ALTERNATIVES
+from etot_cli.reasoning.builtin.circles import circle
 from etot_cli.reasoning.builtin.drafts import BESIDE, STANCES, Atom, Draft, contradiction
 from etot_cli.reasoning.builtin.goal import (
     Goal,
@@ -80,7 +81,8 @@ def _without_implied(atoms: Sequence[Atom], scene: SceneState) -> list[Atom]:
     stands on a plate in a cupboard is in the cupboard, and not on the desk.
 
     Raises:
-        UnsatisfiableError: one object is to be at two places, in two ways, or on or in itself.
+        UnsatisfiableError: one object is to be at two places, in two ways, or on or in itself, or
+            an order is a circle.
     """
     wanted = [atom for atom in atoms if atom.key in ("on", "inside") and not atom.denied]
     places = {a.names[0]: [b for b in wanted if b.names[0] == a.names[0]] for a in wanted}
@@ -91,6 +93,9 @@ def _without_implied(atoms: Sequence[Atom], scene: SceneState) -> list[Atom]:
             raise contradiction(atom.names[0], "it cannot both stand and lie")
         if atom.key == "lying" and Atom("in_hand", atom.names) in atoms:
             raise contradiction(atom.names[0], "what is held does not lie anywhere")
+    beside = [(atom.names[0], atom.where) for atom in atoms if atom.where is not None]
+    if order := circle(beside):
+        raise contradiction(order.partition(" ")[0], f"the order is a circle: {order}")
     for name in places:
         # What bears it now and goes nowhere itself is freed of it before.
         if name in map(owner_of, _around(name, places)):

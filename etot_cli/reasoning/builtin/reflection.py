@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.fetching import fetched_first
+from etot_cli.reasoning.builtin.openings import closed_alike, closed_by_others, reopened_at_once
 from etot_cli.reasoning.builtin.regrasping import grasped_anew, regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
@@ -87,11 +88,13 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
         opened = (*opened, case.action.target)
     seen = {case.actions}
     for found, change in case.corrections():
-        actions = without_idle(found, failed.start)
+        alike = closed_alike(found, case.actions)
+        actions = without_idle(alike, failed.start, reopened_at_once(case.actions))
         if actions in seen:
             continue
         seen.add(actions)
-        if case.serves(actions, aim) and not check_plan(actions, failed.start, opened):
+        may_stay = (*opened, *closed_by_others(actions, failed.start))
+        if case.serves(actions, aim) and not check_plan(actions, failed.start, may_stay):
             yield Branch(actions, f"{change}, because {cause.text}")
 
 
@@ -264,7 +267,24 @@ class _Case:
             placed = placed_by(self.actions, name, self.index)
             if placed is not None and name not in self.cause.objects:
                 yield from self._earlier(placed, name)
+        for name, placed in self._come_since():
+            yield from self._earlier(placed, name)
         yield from regrasped(self.failed, self.index, self.cause.kind)
+
+    def _come_since(self) -> list[tuple[str, int]]:
+        """What the branch has put beside the picked object into the same container, the first one
+        first, each with the place of its PICK UP: it takes room from the hand, or has pushed the
+        object to a wall, though only that wall is named.
+        """
+        around = enclosing(self.scene, self.action.target)
+        beside = contents(self.scene, around[0]) if around else ()
+        placed = ((name, placed_by(self.actions, name, self.index)) for name in beside)
+        since = [
+            (name, index)
+            for name, index in placed
+            if index is not None and name != self.action.target and name not in self.cause.objects
+        ]
+        return sorted(since, key=lambda item: item[1])
 
     def _taken_before_opening(self, owner: str) -> Iterator[Correction]:
         """The picked object is taken to a safe place before what now covers it was opened."""

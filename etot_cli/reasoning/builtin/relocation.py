@@ -15,6 +15,7 @@ from etot_cli.reasoning.builtin.revision import (
     cycle_of,
     hand_free_at,
     inserted,
+    opened_before,
     reachable_throughout,
     relocations,
 )
@@ -160,7 +161,12 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
     """
     scene, actions = failed.record.before, failed.branch.actions
     cycle = cycle_of(actions, failed.index)
-    if actions[failed.index].verb in (Verb.OPEN, Verb.CLOSE) and cycle.start < failed.index:
+    within = opened_before(actions, failed.index)
+    closings = {
+        action.target for action in actions[failed.index + 1 :] if action.verb is Verb.CLOSE
+    }
+    amid = cycle.start < failed.index or any(actions[at].target in closings for at in within)
+    if actions[failed.index].verb in (Verb.OPEN, Verb.CLOSE) and amid:
         cycle = Cycle(failed.index, failed.index + 1)  # it is done in the midst of another one
     own = actions[cycle.start : cycle.end]
     filled = {action.target for action in own if action.verb not in (Verb.PICK_UP, Verb.PUT_ON)}
