@@ -152,6 +152,24 @@ def test_a_part_is_closed_once_after_the_last_that_goes_into_it(between: str | N
     assert plan.endswith("[CLOSE, chest]")
 
 
+def test_a_part_is_closed_after_the_last_that_is_taken_out_where_something_went_in() -> None:
+    state = scenes.scene(
+        scenes.cabinet("shelf", (0.5, 0.4), 0.0),
+        scenes.ball("nut", (0.3, -0.3)), scenes.ball("egg", (0.5, 0.4), inside="shelf", on="shelf"),
+    )  # fmt: skip
+    goals = {"inside": ["nut", "shelf"]}, {"on": ["egg", "desk"]}
+    (plan,) = plans(state, *goals)
+    assert plan == (
+        "[OPEN, shelf] [PICK UP, nut] [PUT INTO, shelf] [PICK UP, egg] [PUT ON, desk] "
+        "[CLOSE, shelf]"
+    )
+    # What is to be in the hand is taken before, and a part that is to be open stays so.
+    (held,) = plans(state, goals[0], {"in_hand": "egg"})
+    assert held.endswith("[PICK UP, egg]") and held.count("[CLOSE, shelf]") == 1
+    (left,) = plans(state, *goals, {"open": "shelf"})
+    assert left == plan.removesuffix(" [CLOSE, shelf]")
+
+
 def test_what_stands_is_laid_down_and_what_lies_is_left() -> None:
     name, mug = scenes.cup("mug", (0.4, 0.2))
     state = scenes.scene((name, mug), scenes.drawers("unit", (0.5, 0.0), {}, on=""))

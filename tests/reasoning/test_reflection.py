@@ -804,6 +804,18 @@ def test_what_went_in_before_hinders_though_only_the_walls_are_named() -> None:
     assert revision(alone) is None
 
 
+def test_what_cannot_be_taken_up_again_where_it_was_set_down_goes_further_off() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, -0.2), {"upper": 1.0}), scenes.ball("nut", (0.4, 0.2))
+    )
+    before = changed(start, nut={"position": (0.3, -0.2, 0.165)})
+    plan = "[PICK UP, nut] [PUT ON, desk] (safe place) [PICK UP, nut] (horizontal) [PUT ON, chest]"
+    step = failed(start, plan, 2, cause(CauseKind.NO_GRASP, "chest"), before)
+    (found,) = [one for one in BuiltinReasoner().reflect(step) if "further off" in one.reason]
+    assert format_plan(found.actions) == format_plan(parse_plan(plan))
+    assert any((disc.x, disc.y) == (0.3, -0.2) for disc in found.actions[1].keepout)
+
+
 def test_what_changes_places_between_closed_doors_leaves_both_closed() -> None:
     left, right = (scenes.cabinet(f"{n}_cab", (0.5, y), 0.0) for n, y in (("l", 0.3), ("r", -0.3)))
     start = scenes.scene(

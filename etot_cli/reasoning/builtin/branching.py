@@ -208,7 +208,13 @@ def _branch(
     _shut(sketch, to_shut, in_hand)
     if not in_hand and course.fetched(scene.holding):
         sketch.put_down()
-    actions = shared(sketch.actions, closed_in_words)
+    filled = {
+        put.target
+        for place, row in choice.placements.items()
+        for put in row
+        if put.relation is Relation.INSIDE and lasting[put.name] == place
+    }
+    actions = shared(sketch.actions, filled, closed_in_words)
     kept_open.update(closed_by_others(actions, scene))
     reason = ", ".join(dict.fromkeys(words))
     return Branch(actions, reason), frozenset(kept_open)

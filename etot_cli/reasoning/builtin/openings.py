@@ -11,32 +11,50 @@ from itertools import pairwise
 
 from etot_cli.reasoning.builtin.rules import left_open
 from etot_cli.skills.action import Action, Verb
-from etot_cli.world.state import SceneState
+from etot_cli.world.state import SceneState, owner_of
 
 _TURNS = (Verb.OPEN, Verb.CLOSE)
 
 
 def shared(
-    actions: Sequence[Action], closed_in_words: Collection[tuple[str, int]] = ()
+    actions: Sequence[Action],
+    filled: Collection[str] = (),
+    closed_in_words: Collection[tuple[str, int]] = (),
 ) -> tuple[Action, ...]:
     """A plan without the closings of a part that is opened again before another part is turned,
     and closed for good later: one that stands open may cover another, or be where that turns.
 
     Args:
         actions: the plan.
+        filled: parts that something is put into to stay. They are closed at the end where what is
+            taken out last would leave them open.
         closed_in_words: parts that were to be closed in so many words, each with how many actions
             come before those words are obeyed.
     """
     dropped: set[int] = set()
+    last: list[Action] = []
     turns = [index for index, action in enumerate(actions) if action.verb in _TURNS]
     for first, second in pairwise(turns):
-        address = actions[first].target
-        again = (actions[first].verb, actions[second].verb) == (Verb.CLOSE, Verb.OPEN)
-        asked = any(part == address and first < at <= second for part, at in closed_in_words)
-        at_last = any(action == actions[first] for action in actions[second:])
-        if again and actions[second].target == address and at_last and not asked:
+        close, address = actions[first], actions[first].target
+        again = Action(Verb.OPEN, address) == actions[second] and close.verb is Verb.CLOSE
+        if not again or any(
+            part == address and first < at <= second for part, at in closed_in_words
+        ):
+            continue
+        if close in actions[second:]:
             dropped |= {first, second}
-    return tuple(action for index, action in enumerate(actions) if index not in dropped)
+        elif address in filled and _can_wait(address, actions[second:]):
+            dropped |= {first, second}
+            last.insert(0, close)
+    return (*(action for index, action in enumerate(actions) if index not in dropped), *last)
+
+
+def _can_wait(address: str, rest: Sequence[Action]) -> bool:
+    """Whether a part can be closed when the rest of a plan is done: the hand is free by then, and
+    no other part of the same piece is opened before.
+    """
+    others = {action.target for action in rest if action.verb is Verb.OPEN} - {address}
+    return rest[-1].verb is not Verb.PICK_UP and owner_of(address) not in map(owner_of, others)
 
 
 def reopened_at_once(actions: Sequence[Action]) -> frozenset[str]:

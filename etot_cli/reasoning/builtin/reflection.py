@@ -33,6 +33,7 @@ from etot_cli.reasoning.builtin.relocation import (
     other_places,
     relocated,
     set_aside,
+    set_down_elsewhere,
     shut_meanwhile,
     without_reopening,
 )
@@ -51,7 +52,7 @@ from etot_cli.reasoning.builtin.revision import (
     without_idle,
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
-from etot_cli.reasoning.builtin.sharing import lowered, side_by_side
+from etot_cli.reasoning.builtin.sharing import come_since, lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import (
@@ -267,24 +268,10 @@ class _Case:
             placed = placed_by(self.actions, name, self.index)
             if placed is not None and name not in self.cause.objects:
                 yield from self._earlier(placed, name)
-        for name, placed in self._come_since():
+        for name, placed in come_since(self.failed):
             yield from self._earlier(placed, name)
         yield from regrasped(self.failed, self.index, self.cause.kind)
-
-    def _come_since(self) -> list[tuple[str, int]]:
-        """What the branch has put beside the picked object into the same container, the first one
-        first, each with the place of its PICK UP: it takes room from the hand, or has pushed the
-        object to a wall, though only that wall is named.
-        """
-        around = enclosing(self.scene, self.action.target)
-        beside = contents(self.scene, around[0]) if around else ()
-        placed = ((name, placed_by(self.actions, name, self.index)) for name in beside)
-        since = [
-            (name, index)
-            for name, index in placed
-            if index is not None and name != self.action.target and name not in self.cause.objects
-        ]
-        return sorted(since, key=lambda item: item[1])
+        yield from set_down_elsewhere(self.failed, self.action.target)
 
     def _taken_before_opening(self, owner: str) -> Iterator[Correction]:
         """The picked object is taken to a safe place before what now covers it was opened."""
