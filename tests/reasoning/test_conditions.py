@@ -135,6 +135,28 @@ def test_an_order_that_is_a_circle_is_refused_as_one(keys: tuple[str, str]) -> N
     assert plans(state, *ahead, {"not": {key: ["c", "a"]}})
 
 
+@pytest.mark.parametrize(
+    ("key", "side", "other"), [("left_of", "left", "right"), ("right_of", "right", "left")]
+)
+def test_what_comes_beside_what_stands_there_comes_to_its_right_side(
+    key: str, side: str, other: str
+) -> None:
+    state = scenes.scene(
+        scenes.item("tray", at=(0.5, 0.0), size=(0.2, 0.4, 0.01)),
+        scenes.cup("jar", (0.5, 0.0), on="tray"),
+        scenes.cup("tin", (0.3, 0.3)), scenes.cup("pot", (0.3, -0.3)),
+    )  # fmt: skip
+    on = [{"on": [name, "tray"]} for name in ("tin", "jar", "pot")]
+    stays, moved = plans(state, *on, {key: ["tin", "jar"]}, {key: ["jar", "pot"]})
+    tin, pot = (f"[PICK UP, {name}] [PUT ON, tray]" for name in ("tin", "pot"))
+    assert stays == f"{tin} ({side} of jar) {pot} ({other} of jar)"
+    assert f"[PICK UP, jar] [PUT ON, tray] ({side} of pot)" in moved
+    # At a very point there is no choice.
+    at = {"at": ["pot", [0.5, -0.1]]}
+    (first, *_) = plans(state, on[2], at, {key: ["jar", "pot"]})
+    assert f"{other} of jar" not in first
+
+
 @pytest.mark.parametrize("between", [None, "on", "inside"])
 def test_a_part_is_closed_once_after_the_last_that_goes_into_it(between: str | None) -> None:
     state = scenes.scene(

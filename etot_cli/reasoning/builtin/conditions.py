@@ -17,22 +17,13 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.builtin.surfaces import CONVERSE
 from etot_cli.specs.task import BESIDE_KEYS, Condition
-from etot_cli.world.spatial import Nearby, Whereabouts, whereabouts
+from etot_cli.world.spatial import Whereabouts, whereabouts
 from etot_cli.world.state import DESK, SceneState, owner_of
 
 _LAST = {BESIDE: 1, **dict.fromkeys(STANCES, 2)}
 """Conditions on how something stands come after those on where."""
-_CONVERSE = {
-    Nearby.LEFT: Nearby.RIGHT,
-    Nearby.RIGHT: Nearby.LEFT,
-    Nearby.FRONT: Nearby.BEHIND,
-    Nearby.BEHIND: Nearby.FRONT,
-    Nearby.NEXT_TO: Nearby.NEXT_TO,
-    Nearby.NEAR: Nearby.NEAR,
-    Nearby.AWAY: Nearby.AWAY,
-}
-"""What holds of a landmark and a thing where the key holds of the thing and the landmark."""
 
 
 def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, ...]:
@@ -192,8 +183,8 @@ def _beside(
     where = replace(where, denied=denied)
     found = [Atom(BESIDE, (name,), where=where)]
     info = scene.infos.get(name)
-    if where.relation in _CONVERSE and info is not None and not info.movable:
-        turned = replace(where, relation=_CONVERSE[where.relation], landmarks=(name,))
+    if where.relation in CONVERSE and info is not None and not info.movable:
+        turned = replace(where, relation=CONVERSE[where.relation], landmarks=(name,))
         found.append(Atom(BESIDE, where.landmarks, where=turned))
     return [(atom,) for atom in found]
 
