@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.fetching import fetched_first
-from etot_cli.reasoning.builtin.regrasping import grasped_anew, regrasped
+from etot_cli.reasoning.builtin.regrasping import grasped_anew, grasped_for, regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
     carriers,
@@ -86,7 +86,7 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
     if case.action.verb is Verb.OPEN:
         opened = (*opened, case.action.target)
     seen = {case.actions}
-    for found, change in case.corrections():
+    for found, change, _ in case.corrections():
         actions = without_idle(found, failed.start)
         if actions in seen:
             continue
@@ -349,6 +349,8 @@ class _Case:
         if pick is not None:
             yield from regrasped(self.failed, pick, self.cause.kind)
         yield from grasped_anew(self.failed, pick, self.cause.kind)
+        if not self._culprits() or self._is_furniture_alone():
+            yield from grasped_for(self.failed, pick, self.cause)
 
     def _is_furniture_alone(self) -> bool:
         """Whether only what cannot be moved is in the way."""

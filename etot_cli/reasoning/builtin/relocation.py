@@ -30,10 +30,14 @@ WIDE_OPEN = 0.98
 
 
 class Correction(NamedTuple):
-    """A revised branch and what was changed, in words."""
+    """A revised branch and what was changed, in words.
+
+    ``anew``: what is set down at a safe place and taken again at once is to be grasped anew there.
+    """
 
     actions: Actions
     change: str
+    anew: bool = False
 
 
 def set_aside(failed: FailedStep, name: str) -> Actions:

@@ -162,7 +162,7 @@ def without_idle(actions: Actions, scene: SceneState) -> Actions:
         puts = actions[index + 1 : index + 4 : 2]
         stands = any(where.relation.is_stance for one in puts for where in one.where)
         # Else it is grasped anew.
-        if waits and action.pose is actions[index + 2].pose and not stands:
+        if waits and action == actions[index + 2] and not stands:
             return without_idle((*actions[:index], *actions[index + 2 :]), scene)
         part = scene.part(action.target)
         if action.verb not in (Verb.OPEN, Verb.CLOSE) or part is None:
