@@ -14,8 +14,8 @@ from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.skills.placements.looking import placements
 from etot_cli.skills.placements.placement import Tally
 from etot_cli.skills.placements.put import request_for
-from etot_cli.world.snapshot import copy_configuration
 from etot_cli.world.pose import Pose
+from etot_cli.world.snapshot import copy_configuration
 
 MAX_LOOKS = 12
 """Grasps from which it is looked ahead, up to a second each: five leans of the hand at a middle and

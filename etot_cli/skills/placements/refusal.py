@@ -10,7 +10,7 @@ import numpy as np
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Quality, Request
-from etot_cli.skills.placements.looking import BEST_TRIES, placements
+from etot_cli.skills.placements.looking import ALL_TRIES, BEST_TRIES, MAX_TRIES, placements
 from etot_cli.skills.placements.placement import Placement, Tally, placement_at
 from etot_cli.skills.placements.places import PlaceFinder
 from etot_cli.skills.placements.relief import relief
@@ -113,7 +113,8 @@ def _missed(belief: Belief, request: Request, tally: Tally) -> Placement | None:
     """
     if tally.looked_at <= BEST_TRIES:
         return None
-    return next(placements(belief, request, Tally(belief.world), thoroughly=True), None)
+    tries = ALL_TRIES if tally.obstructed else MAX_TRIES
+    return next(placements(belief, request, Tally(belief.world), closely=tries), None)
 
 
 def _as_held(request: Request, tally: Tally, fixed: list[str]) -> str:
