@@ -38,11 +38,15 @@ class GraspPose(StrEnum):
 
 @dataclass(frozen=True, slots=True, order=True)
 class Keepout:
-    """A disc of the desk plane that a safe place must not touch: centre x, y and radius [m]."""
+    """A disc of the desk plane that a safe place must not touch: centre x, y and radius [m].
+
+    ``soft``: it may where nothing else is free.
+    """
 
     x: float
     y: float
     radius: float
+    soft: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.fetching import fetched_first
+from etot_cli.reasoning.builtin.keepouts import kept_away
 from etot_cli.reasoning.builtin.regrasping import grasped_anew, grasped_for, regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
@@ -47,6 +48,7 @@ from etot_cli.reasoning.builtin.revision import (
     purpose,
     reachable_throughout,
     relocations,
+    taken_at_once,
     without_idle,
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
@@ -86,13 +88,14 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
     if case.action.verb is Verb.OPEN:
         opened = (*opened, case.action.target)
     seen = {case.actions}
-    for found, change, _ in case.corrections():
-        actions = without_idle(found, failed.start)
-        if actions in seen:
-            continue
-        seen.add(actions)
-        if case.serves(actions, aim) and not check_plan(actions, failed.start, opened):
-            yield Branch(actions, f"{change}, because {cause.text}")
+    for found, change, anew in case.corrections():
+        whole = without_idle(found, failed.start)
+        for actions in (*([] if anew else taken_at_once(whole, case.actions)), whole):
+            if actions in seen:
+                continue
+            seen.add(actions)
+            if case.serves(actions, aim) and not check_plan(actions, failed.start, opened):
+                yield Branch(actions, f"{change}, because {cause.text}")
 
 
 class _Case:
@@ -183,6 +186,10 @@ class _Case:
         if put is None or put.safe or pick not in own or self.index in own:
             return
         actions = moved_before(self.actions, own, failing.start)
+        at = failing.start + pick + 1 - own.start
+        discs = {*put.keepout, *kept_away(actions[at + 1 :], put, self.scene)}
+        there = replace(put, keepout=tuple(sorted(discs)))
+        actions = (*actions[:at], there, *actions[at + 1 :])
         yield Correction(
             reachable_throughout(actions, self.start),
             f"{name} is put where it belongs before it is in the way",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -179,6 +179,19 @@ def without_idle(actions: Actions, scene: SceneState) -> Actions:
         if undone and following[0].verb is not action.verb and (closed or opened):
             return without_idle((*actions[:index], *actions[index + 2 :]), scene)
     return actions
+
+
+def taken_at_once(actions: Actions, before: Actions) -> Iterator[Actions]:
+    """A revised branch without the first of the objects set down that only are to be grasped anew:
+    after other actions than ``before`` the object may well be grasped so at once.
+    """
+    for index in range(len(actions) - 2):
+        pick, put, again = actions[index : index + 3]
+        grasps = (pick.verb, again.verb) == (Verb.PICK_UP, Verb.PICK_UP)
+        waits = grasps and pick.target == again.target and put.safe
+        if waits and actions[: index + 3] != before[: index + 3]:
+            yield (*actions[:index], *actions[index + 2 :])
+            return
 
 
 def brought_before(actions: Actions, index: int, before: int) -> Actions | None:
