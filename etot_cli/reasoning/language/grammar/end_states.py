@@ -165,9 +165,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
         rf"(in|on|into|onto|inside) ({_SOME})[.;,]? {_NOTHING_ELSE}",
-        lambda said: (
-            f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}"
-        ),
+        lambda said: f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}",
     ),
     # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
     (
@@ -242,7 +240,10 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 would like to see ",
     ),
     # "A little tower"
-    (r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b", r"\1 a \2"),
+    (
+        r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
+        r"\1 a \2",
+    ),
     # "With the cup still on the tray" tells of no tray.
     (
         r"(?<=\w) with (?="
