@@ -331,9 +331,7 @@ def _of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:
 def _named(asides: Iterable[str], is_name: IsName) -> str:
     """What asides name in the scene, as a remark."""
     phrases = [
-        in_state(said, phrase)
-        for said in asides
-        for phrase in _phrases(said.split(), is_name)
+        in_state(said, phrase) for said in asides for phrase in _phrases(said.split(), is_name)
     ]
     return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""
 

@@ -138,7 +138,9 @@ ALSO_DONE = sequence(
 
 def goes_on(before: Any, clause: Any) -> bool:
     """Whether a clause without its verb goes on what is asked for in the passive."""
-    unsaid = isinstance(clause, PutClause | ReorientClause | PickClause) and UNSAID in pronouns(clause)
+    unsaid = isinstance(clause, PutClause | ReorientClause | PickClause) and UNSAID in pronouns(
+        clause
+    )
     taken = isinstance(before, PickClause | RemoveClause | ReorientClause) and not is_emptying(
         before
     )
