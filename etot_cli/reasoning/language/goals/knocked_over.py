@@ -12,7 +12,7 @@ from etot_cli.world.spatial import Nearby
 
 def keep_it_standing(context: Context, clause: AvoidClause) -> bool:
     """Whether this is about "it", be it what is put somewhere, which is to stand there then, or
-    what that goes next to, which nothing is to hit.
+    what that goes next to or into, which nothing is to hit.
 
     Raises:
         AmbiguousReference: either may fall.
@@ -24,6 +24,9 @@ def keep_it_standing(context: Context, clause: AvoidClause) -> bool:
     beside = {mark for place in step.places for near in place.beside for mark in near.landmarks}
     fall = [index for index in beside if can_stand(context, index)]
     moved = any(can_stand(context, index) for index in step.what)
+    if not (fall or moved):  # "the pen in the mug": a pen cannot be knocked over
+        around = dict.fromkeys(place.where for place in step.places)
+        fall = [i for i in around if i is not None and _is_thing_that_stands(context, i)]
     if len(fall) == 1 and not moved:
         names = (thing.name for thing in context.discourse.things(*fall))
         context.constraints.append(Constraint(Keep.UNHIT, tuple(names)))
@@ -34,3 +37,10 @@ def keep_it_standing(context: Context, clause: AvoidClause) -> bool:
         raise AmbiguousReference(text, [referents[i].text for i in (*step.what, *fall)])
     reorient(context, ReorientClause(clause.things, Nearby.UPRIGHT, meanwhile=True))
     return True
+
+
+def _is_thing_that_stands(context: Context, index: int) -> bool:
+    """Whether things, none of them the desk or a drawer, can be knocked over."""
+    things = context.discourse.things(index)
+    known = all(t.name in context.scene.infos and t.part is None for t in things)
+    return known and can_stand(context, index)

@@ -140,14 +140,15 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     ),
     # "From ajar to open" is open in the end
     (
-        rf"\b(should|must|has to|needs to|is to) (?:go|change|be (?:moved|brought|taken)) {_FROM_STATE}",
+        r"\b(should|must|has to|needs to|is to) (?:go|change|be (?:moved|brought|taken)) "
+        rf"{_FROM_STATE}",
         r"\1 be ",
     ),
     (rf"[,:] {_FROM_STATE}", ": "),
     # Which things there are to be seen says nothing of them
     (
         rf"\b({NAMED}(?: (?!you\b|that\b|which\b|see\b)\w+)+) (?:that |which )?you (?:can )?see"
-        r"(?: (?:there|here|before you|in front of you))?(?=[.,;:!?]| (?:in|on)\b|$)",
+        r"(?: (?:there|here|before you|in front of you))?(?=[.,;:!?]|$)",
         r"\1",
     ),
     # "May only be grasped from above" is about how
@@ -169,8 +170,8 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"\1if \2 is ",
     ),
     (
-        rf"\b(put|place|store|stow|set) ([^.,;:]*?) where (?:the |other )?\w+s "
-        rf"(?:go|belong|live|are kept)[,:] (?:namely,? |that is,? )?(?=(?:in|into|on|onto) )",
+        r"\b(put|place|store|stow|set) ([^.,;:]*?) where (?:the |other )?\w+s "
+        r"(?:go|belong|live|are kept)[,:] (?:namely,? |that is,? )?(?=(?:in|into|on|onto) )",
         r"\1 \2 ",
     ),
     (

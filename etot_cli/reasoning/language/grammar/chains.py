@@ -46,8 +46,8 @@ from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import (
     BESIDES_SO,
-    OPEN_OR_CLOSED,
     MEANWHILE_SO,
+    OPEN_OR_CLOSED,
     SHUT,
     ensured,
     holding_only,

@@ -316,7 +316,7 @@ GRASP = quiet(
             ),
             sequence(_BY_THE_HAND, POSES, build=_so),
             sequence(
-                f"approach[ing], {_COME_AT}",
+                "approach[ing], com(e|ing) at",
                 THINGS,
                 POSES,
                 build=lambda things, poses: _so(poses, things),

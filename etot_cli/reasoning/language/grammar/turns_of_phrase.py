@@ -146,7 +146,7 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     (
         rf"\b(?:an?|one|any|either) (\w+),? \(?(?:either )?(?:the )?({_COLOR}) or (?:the )?"
         rf"({_COLOR})(?: one)?(?:\)|{_END})",
-        r"the \2 \1 or the \3 \1",
+        r"a \2 \1 or a \3 \1",
     ),
     # What is to be in what "has" it, and by when; all that is so is so in the end
     (

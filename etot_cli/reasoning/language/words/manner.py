@@ -7,7 +7,8 @@ from etot_cli.reasoning.language.words.verbs import REORIENTED
 _TURNED = REORIENTED.replace(",", "|")
 _SWUNG = "pulled|pushed|slid|swung|eased|drawn|rolled|nudged"
 OPEN_STATE = f"""
-    [still] [{_SWUNG}|prised|flung|tugged|standing] [wide|all the way|fully|completely] open, opened [up]
+    [still] [{_SWUNG}|prised|flung|tugged|standing] [wide|all the way|fully|completely] open,
+    opened [up]
 """
 CLOSED_STATE = f"""
     [still] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight] (closed|shut)
@@ -111,7 +112,8 @@ LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|rele
 """Behind where something is brought."""
 KEPT_HELD = """
     and [then] (keep hold of|keep holding|hold on to|hang on to|hold|keep|do not drop) (it|them)
-    [there|up|in (the|your) (hand|gripper)|[up] in the air|in mid air], and [then] wait [there], and do not let go [of it]
+    [there|up|in (the|your) (hand|gripper)|[up] in the air|in mid air],
+    and [then] wait [there], and do not let go [of it]
 """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
@@ -217,11 +219,12 @@ EITHER_WAY = """
     [either] [a] side or [a] (top|top down) [grasp|grip],
     [either] [a] (top|top down) or [a] side [grasp|grip],
     [no matter] from (any|whichever|whatever|every) (direction|angle)
-    [you (like|want|prefer|choose|please)|suits you [best]|works [best]|is (easier|easiest|best) [for you]],
+    [you (like|want|prefer|choose|please)|suits you [best]|works [best]|
+    is (easier|easiest|best) [for you]],
     from either [the] side or (above|[the] top), from either (above|[the] top) or [the] side,
-    [with|using] either a (vertical|top|top down) or a (horizontal|side|sideways)
+    with either a (vertical|top|top down) or a (horizontal|side|sideways)
     (grasp|grip|approach),
-    [with|using] either a (horizontal|side|sideways) or a (vertical|top|top down)
+    with either a (horizontal|side|sideways) or a (vertical|top|top down)
     (grasp|grip|approach),
     no matter from (which|what) (direction|angle) [you (approach|come)]
 """

@@ -467,7 +467,7 @@ DISTURB = f"""
 """
 UPSET = "knock[ing], tip[ping], push[ing], throw[ing], sweep[ing]"
 TOPPLE = """
-    fall [off|over|down], drop, topple [over], tip over, slide off, roll (off|away),
+    fall [off|over|down], drop, topple [over], tip over, slide off, roll off,
     tumble [over|down], keel over, get knocked over
 """
 TOPPLING = """
