@@ -157,7 +157,15 @@ REORIENT = either(
         optional(phrase(manner.IF_NEEDED, True), False),
         build=lambda things, needed: ReorientClause(things, meanwhile=needed),
     ),
-    sequence(verbs.ORIENTATION, "the (orientation|pose) of", THINGS, build=ReorientClause),
+    sequence(
+        verbs.ORIENTATION,
+        either(
+            sequence("the (orientation|pose) of", THINGS),
+            sequence(THINGS, "'s (orientation|pose)"),
+        ),
+        optional(either(phrase(manner.IF_NEEDED, True), phrase(manner.FITTING, True)), False),
+        build=lambda things, needed: ReorientClause(things, meanwhile=needed),
+    ),
     sequence(verbs.TURNING_OF, THINGS, build=ReorientClause),
     sequence(
         either(

@@ -21,6 +21,10 @@ _GO_AWAY = (
     rf"(?:out of (?:the|my|our) way|aside|away(?: from {_ONE})?"
     rf"|(?:off|out of|from) (?:{_ONE}|it))"
 )
+_FROM_STATE = (
+    r"from (?:(?:half |being )?(?:open|closed|shut)|ajar) to "
+    r"(?=(?:being )?(?:fully |completely |wide )?(?:open|closed|shut)\b)"
+)
 _WISH = Expression(
     r"(?:(?<=^)|(?<=[.;!?,:] )|(?<=\b(?:and|but) ))(?:i|we) (?P<no>do not |would not )?"
     r"(?:would )?(?:really |just )?(?:want|need|like|prefer)\b[^.;!?]* left (?:in|on|inside)\b"
@@ -127,6 +131,44 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"\b((?:that|which) is|whichever (?:\w+ ){{1,2}}?is) the (?=(?:{_MOST})"
         rf"(?:[.,;!?]|$| and\b| {WHERE}))",
         r"\1 ",
+    ),
+    # What is asked of a thing that is named ahead
+    (
+        rf"(^|[.;!?] )(?:as (?:for|to)|regarding|concerning|with (?:regard|respect) to"
+        rf"|when it comes to) ({NAMED}[^.,;:!?]*?)[,:] (?=\w)",
+        r"\1\2: ",
+    ),
+    # "From ajar to open" is open in the end
+    (
+        rf"\b(should|must|has to|needs to|is to) (?:go|change|be (?:moved|brought|taken)) {_FROM_STATE}",
+        r"\1 be ",
+    ),
+    (rf"[,:] {_FROM_STATE}", ": "),
+    # Which things there are to be seen says nothing of them
+    (
+        rf"\b({NAMED}(?: (?!you\b|that\b|which\b|see\b)\w+)+) (?:that |which )?you (?:can )?see"
+        r"(?: (?:there|here|before you|in front of you))?(?=[.,;:!?]| (?:in|on)\b|$)",
+        r"\1",
+    ),
+    # Nothing is asked of "the other one"
+    (
+        rf"\b(the (?:\w+ ){{0,3}}?\w+(?: {WHERE} (?:the|your|my) \w+)?),? (?:and |but )?"
+        r"(?:not|rather than|instead of) the other(?: one)?(?=[.;!?]|$)",
+        r"\1",
+    ),
+    # "Should it be in the way" is "if it is"
+    (
+        rf"(^|[.;!?,:] )should ({_ONE}|it) be (?=(?:in the way|needed|necessary|blocking)\b)",
+        r"\1if \2 is ",
+    ),
+    (
+        r"\b(put|place|store|stow|set) ([^.,;:]*?) where (?:the |other )?\w+s "
+        r"(?:go|belong|live|are kept)[,:] (?:namely,? |that is,? )?(?=(?:in|into|on|onto) )",
+        r"\1 \2 ",
+    ),
+    (
+        rf"\blet (it|them|{_ONE}) down (?=(?:in|into|on|onto)\b)",
+        r"put \1 down ",
     ),
     # Putting down what is held
     (

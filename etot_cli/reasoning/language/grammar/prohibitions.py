@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, not
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
+    Clause,
     EnsureClause,
     ReorientClause,
 )
@@ -45,7 +46,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -114,6 +115,15 @@ def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause |
         return None
     np = reduce(NounPhrase.told_by, at, things.phrases[0])
     return None if np.pronoun else _avoid(Avoid.MOVE, replace(things, phrases=(np,)))
+
+
+def _not_falling_off(nps: tuple[NounPhrase, ...], np: NounPhrase) -> Clause:
+    """What is not to fall off something stays there; what falls off the desk, wherever on that it
+    is, comes to harm.
+    """
+    if np.head in DESK_NOUNS:
+        return _unharmed(Things(nps))
+    return EnsureClause((State(nps, (Destination(Toward.ON, (np,)),), kept=True),))
 
 
 _NOTHING_HARMED = AvoidClause(Avoid.HARM, None)
@@ -316,6 +326,23 @@ WITHOUT = sequence(
             build=lambda nps, np: EnsureClause(
                 (State(nps, (Destination(Toward.ON, (np,)),), kept=True),)
             ),
+        ),
+        sequence(
+            verbs.WITHOUT,
+            either(
+                sequence(NP_LIST, f"[ever] ({verbs.FALLING}) [down] (off [of]|from), leaving"),
+                sequence("let[ting]", NP_LIST, f"{verbs.FALL} (off [of]|from)"),
+            ),
+            noun_phrase,
+            build=_not_falling_off,
+        ),
+        sequence(
+            verbs.WITHOUT,
+            either(
+                sequence(THINGS, verbs.FALLING_TO_THE_FLOOR),
+                sequence("drop[ping]", THINGS, "(on|onto|to) the (floor|ground)"),
+            ),
+            build=_unharmed,
         ),
         sequence(verbs.WITHOUT, MEETING),
         sequence(small_words.SO_THAT, either(NOT_MET, _UNHARMED)),

@@ -33,7 +33,10 @@ _RELATIONS = (
     "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
     "patients?|grand(?:ma|pa)|granny|grandad|uncle|aunt|cousin|niece|nephew|parents|toddler|grandchild(?:ren)?|lady|ladies|gentlem[ae]n|wom[ae]n|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
 )
-_OWN = "hands?|feet|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|bus|train|taxi|shift"
+_OWN = (
+    "hands?|feet|foot|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|shins?|elbows?|toes?|hips?"
+    "|ankles?|wrists?|shoulders?|bus|train|taxi|shift"
+)
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
     r"(?:i|we|you|he|she|nobody|no one|somebody|someone|everybody|everyone|people"

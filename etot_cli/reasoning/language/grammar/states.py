@@ -281,6 +281,14 @@ BESIDES_SO = either(
     sequence(
         "with",
         NP_LIST,
+        "staying, remaining, (kept|left) [standing|lying|sitting]",
+        PREDICATE,
+        small_words.ALL_ALONG,
+        build=lambda nps, said: ensured(_staying(nps, "", said, True)),
+    ),
+    sequence(
+        "with",
+        NP_LIST,
         either(
             sequence("kept, staying, remaining", OPEN_OR_CLOSED, ALWAYS),
             sequence(OPEN_OR_CLOSED, small_words.ALL_ALONG, build=lambda word: (word, True)),

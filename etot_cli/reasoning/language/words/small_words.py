@@ -48,8 +48,9 @@ WITHOUT_MEANING = f"""
     [of] your [own] (choice|choosing)),
     (any|whichever) ({_HOLDING}), with (any|whichever|whatever) ({_HOLDING}),
     ({_HOLDING}) (of your [own] (choice|choosing)|as you (like|please|wish|prefer)),
-    (whichever|whatever) [one] you (like|want|prefer|choose|fancy), [it is] your choice,
-    [it is|that is] up to you, you (choose|decide|pick), the choice is yours,
+    (whichever|whatever) [one|of (them|these|the two)]
+    you (like|want|prefer|choose|fancy|can reach) [best], [it is] your choice,
+    [it is|that is] up to you, you (choose|decide|pick) [which [one]], the choice is yours,
     wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
@@ -59,6 +60,8 @@ WITHOUT_MEANING = f"""
     [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four)], whichever,
     if you can,
     (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
+    (whichever|whatever) [one|of (them|these|the two)]
+    (is (easier|easiest|better|best) [for you]|suits you [best|better]|it is),
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
     however you (like|can|want), as you (like|wish|prefer|please),
@@ -96,7 +99,9 @@ DOES_NOT_MATTER = """
     (choice|decision), is not important, is (irrelevant|unimportant)
 """
 """Before or behind what is left open."""
-ALL_ALONG = "at all times, (all|the (whole|entire)) [the] time, throughout"
+ALL_ALONG = """
+    at all times, (all|the (whole|entire)) [the] (time|while), throughout, all along
+"""
 """Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
 """A sentence alone, after one that left it open anyway."""
@@ -174,7 +179,7 @@ FRAMES = f"""
     (how|what) about [[if] you], why do not you,
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
     i (was|am) hoping [that] you (could|would),
-    (would|is) it [be] possible to, it would be (good|great|nice|better) to,
+    (would|is) it [be] possible to, it would be (good|great|nice|kind|lovely|better) [of you] to,
     i [would|must|have to|would like to] ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by, (i|we) [(really|just|still|also)] ought to, we [(really|just|still|also)] (need|have) to,
     we (had better|should|must), you are to, if i were you ~comma [i (would|d)],

@@ -348,7 +348,7 @@ REORIENT = """
 """
 REORIENTED = "re oriented, " + ", ".join(participles(REORIENT))
 """What has been turned, in the passive."""
-ORIENTATION = "(chang(e|ing)|adjust[ing]|alter[ing]|correct[ing]|adapt[ing]|fix[ing])"
+ORIENTATION = "(chang(e|ing)|adjust[ing]|alter[ing]|correct[ing]|adapt[ing]|fix[ing]|modify[ing])"
 """Before "its orientation"."""
 TURNING_OF = """
     (do|doing|perform[ing]|execut(e|ing)|carry[ing] out) (a|the)
@@ -467,12 +467,19 @@ DISTURB = f"""
 """
 UPSET = "knock[ing], tip[ping], push[ing], throw[ing], sweep[ing]"
 TOPPLE = """
-    fall [off|over|down], drop, topple [over], tip over, slide off, roll off, tumble [over|down],
-    keel over, get knocked over
+    fall [off|over|down], drop, topple [over], tip over, slide off, roll (off|away),
+    tumble [over|down], keel over, get knocked over
 """
 TOPPLING = """
-    falling [off|over|down], dropping, toppling [over], tipping over, sliding off, rolling off,
-    tumbling [over|down], keeling over, being knocked over
+    falling [off|over|down], dropping, toppling [over], tipping over, sliding off,
+    rolling (off|away), tumbling [over|down], keeling over, being knocked over
+"""
+FALLING = (
+    "falling|rolling|slipping|sliding|dropping|tumbling|toppling|coming|being (pushed|knocked)"
+)
+FALLING_TO_THE_FLOOR = """
+    (falling|rolling|slipping|dropping|tumbling|landing|ending up|going|crashing) [down]
+    (on|onto|to) the (floor|ground), hitting the (floor|ground)
 """
 ANYTHING_ELSE = """
     anything else, any other (object|thing|things|objects), other (objects|things),
