@@ -215,7 +215,8 @@ class Discourse:
         if not more and 0 < len(now) < len(parts):
             options = tuple((thing,) for thing in now) if len(option) == 1 else (now,)
             self.referents[referent] = replace(self.referents[referent], options=options)
-            if called and len(now) == 1:
+            named = self.scene.infos[option[0].name].label.split()[-1] in called.split()
+            if called and len(now) == 1 and (word == "open" or not named):
                 self.notes.append(f"{called!r} is {now[0].address}, which is {word}")
 
     def is_spoken(self, referent: int) -> bool:
