@@ -185,7 +185,7 @@ SWEEPS = {
 }
 """In which direction, or by which size, several things are taken one after the other."""
 IN_THIS_ORDER = """
-    in (this|that) order, in the (given|same|stated) order,
+    in [exactly|precisely] (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order
 """
 _UPRIGHT = f"(upright|vertical|vertically|on (end|its end)|{_RIGHT_WAY_UP})"

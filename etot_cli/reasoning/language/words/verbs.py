@@ -293,7 +293,7 @@ HOLDS_IT = f"""
     [is|are|end[s] up] (holding|gripping|grasping), holds, ends up with
 """
 """Between the hand and what is in it in the end."""
-END_WITH = f"({_MUST}) end [up] with"
+END_WITH = f"(({_MUST}) end|ends|end) [up] with"
 CONTAINED = """
     had, contained, held, has, contains, holds, could (have|contain|hold),
     (was|were|is) holding
