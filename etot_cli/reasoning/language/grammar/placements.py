@@ -81,6 +81,23 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 ",
     ),
     (r"\bas (close|near)((?: to)? [^.,;]*?)? as (?:you can|it gets|it goes|can be)\b", r"as \1\2 as possible"),
+    # "Stack the books, black over blue"
+    (
+        rf"(\b(?:stack|pile|tower|build)\b[^.;]*?[,:] (?:with )?)({_COLOR}) (?:over|above) ({_COLOR})"
+        r"(?=[.,;]| and\b| once\b| after\b|$)",
+        r"\1\2 on \3",
+    ),
+    (
+        r"\b(to|on|at|in) the (?:immediate|direct) "
+        r"(?=(?:left|right|front|back|rear|left (?:hand )?side|right (?:hand )?side) of\b)",
+        r"immediately \1 the ",
+    ),
+    # As many things are different ones anyway
+    (
+        rf"\b((?:put|place|move|bring|take|pick up|get|grab|fetch|set) (?:{'|'.join(NUMBERS)}) )"
+        r"(?:different|distinct|arbitrary|random) (?=(?!colou?r|kind|sort)\w+s\b)",
+        r"\1",
+    ),
     # Everything that can be eaten
     (r"\b(?:everything|anything|whatever)(?: (?:that|which))?(?: is)? (?:edible|eatable)\b", "all the food"),
     (r"\b(all|every|each)(?: (?:of )?the)? edible (?:things?|items?|objects?)\b", r"\1 food"),
