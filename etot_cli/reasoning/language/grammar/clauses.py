@@ -91,7 +91,7 @@ from etot_cli.reasoning.language.grammar.togetherness import IN_ONE_PLACE
 from etot_cli.reasoning.language.grammar.towers import TOWER
 from etot_cli.reasoning.language.grammar.unstacking import REVERSED, SPREAD
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART, WANTED, WISHED
-from etot_cli.reasoning.language.words import nouns, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.known import LINKS
 from etot_cli.reasoning.language.words.patterns import words_of
 
@@ -101,7 +101,8 @@ AGAIN = either(
         THINGS,
         optional("(should|must|shall|can|may|does|do) [go|be]"),
         small_words.ALSO,
-        build=lambda things: AgainClause(things, trailing=True),
+        optional(sequence(OPTIONAL_COMMA, phrase(manner.NOT_STACKED, True)), False),
+        build=lambda things, apart: AgainClause(things, trailing=True, side_by_side=apart),
     ),
     sequence(
         "add[ing]",

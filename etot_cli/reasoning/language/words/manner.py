@@ -230,7 +230,8 @@ ON_THE_WAY = """
     in (transit|the process)
 """
 """Behind how something is kept while it is moved."""
-LEVEL = f"{UPRIGHT}, level, straight [up], steady, standing [up|upright]"
+LEVELED = "level, straight [up], steady, standing [up|upright]"
+LEVEL = f"{UPRIGHT}, {LEVELED}"
 """How a thing is kept that must not be tilted."""
 FITTING = """
     so [that] (it|they) (fits|fit) [in|inside] [there|it], to fit [in|inside] [there|it],
