@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.end_states import END_STATES
 from etot_cli.reasoning.language.grammar.forbidding import FORBIDDING
+from etot_cli.reasoning.language.grammar.going import GOING
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
@@ -97,6 +98,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     *LISTINGS,
     *WHEREABOUTS,
     *PLACEMENTS,
+    *GOING,
     *SAID_AGAIN,
     (_WISHED, _as_asked),
     (

@@ -221,7 +221,8 @@ EITHER_WAY = """
 """
 LYING = f"""
     {LAID}, lying,
-    ({_SO}) (it|they) [all|both] (lies|lie|is lying|are lying|is|are) [all|both] ([down|flat] {_ON_ITS_SIDE}|flat|down)
+    ({_SO}) (it|they) [all|both] (lies|lie|is lying|are lying|is|are) [all|both]
+    ([down|flat] {_ON_ITS_SIDE}|flat|down)
 """
 _FITS = "(fits|fit|goes|go|slides|slide|points|point|faces|face)"
 _IF_NEEDED = (
