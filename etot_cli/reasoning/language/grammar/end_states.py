@@ -67,6 +67,21 @@ def _seen_there(said: re.Match[str]) -> str:
     return f"{said['begun']}i want {said['seen']} {said['where']}{said['rest']}"
 
 
+_AT_THE_END = Expression(
+    rf"^with (?P<what>{_SOME}) (?P<state>closed|shut|open) (?:(?:at|in) the end|when all is done|"
+    r"afterwards), (?P<rest>[^.;!?]*)"
+)
+
+
+def _so_when_done(said: re.Match[str]) -> str:
+    """How something is to be "at the end", which is said ahead of all else."""
+    what, rest = said["what"], said["rest"]
+    if len(re.findall(r"\b(?:it|its)\b", rest)) > 1:
+        return said[0]
+    rest = re.sub(r"\bit\b", what, rest)
+    return f"{rest}, and {what} should be {said['state']} in the end"
+
+
 def _named_again(said: re.Match[str]) -> str:
     """The things themselves for "the former" and "the latter", where but one pair was named."""
     pairs = re.findall(rf"\b{_SOME} and {NAMED}", said[0])
@@ -165,6 +180,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 ",
     ),
     (_CONTAINER, _with_it_inside),
+    (_AT_THE_END, _so_when_done),
     (_LATTER, _named_again),
     # "The cup itself"
     (rf"\b({NAMED} (?:(?!and\b|or\b|in\b|on\b|by\b)\w+ ){{1,3}}?)itself (?=\w)", r"\1"),
@@ -181,7 +197,10 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 would like to see ",
     ),
     # "A little tower"
-    (r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b", r"\1 a \2"),
+    (
+        r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
+        r"\1 a \2",
+    ),
     # "With the cup still on the tray" tells of no tray.
     (
         r"(?<=\w) with (?="

@@ -29,12 +29,21 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:dare(?: to)?|(?:think|dream) (?:of|about)) (?=\w)",
         r"\1 ",
     ),
-    (r"\b(?:whatever you do|whatever happens|at all costs),? (?=(?:please )?(?:do not|never)\b)", ""),
+    (
+        r"\b(?:whatever you do|whatever happens|at all costs),? (?=(?:please )?(?:do not|never)\b)",
+        "",
+    ),
     (r"\byou are not (?:allowed |supposed |permitted |meant )?to (?=\w)", "do not "),
     (_FROM_THERE, r"\1"),
     (rf"\b({_MUST_NOT}) (?:budge|stir|leave (?:{_SPOT})){_ENDS}", "must not be moved"),
-    (rf"\b({_IT}) (?:must|should|may|shall|is|are) not(?: to)? move{_ENDS}", r"\1 must not be moved"),
-    (rf"\bwithout ({_IT}) (?:moving|budging|stirring|leaving (?:{_SPOT})){_ENDS}", r"without moving \1"),
+    (
+        rf"\b({_IT}) (?:must|should|may|shall|is|are) not(?: to)? move{_ENDS}",
+        r"\1 must not be moved",
+    ),
+    (
+        rf"\bwithout ({_IT}) (?:moving|budging|stirring|leaving (?:{_SPOT})){_ENDS}",
+        r"without moving \1",
+    ),
     (
         rf"\b((?:keep|leave|keeping|leaving) {_IT}) (?:in|on|at) (?:its|their) (?:\w+ )?"
         rf"(?:spot|spots|place|places|position|positions){_ENDS}",
