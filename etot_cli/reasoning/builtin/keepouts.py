@@ -37,9 +37,11 @@ def keepouts_of(failed: FailedStep, name: str, room: float = 0.0) -> tuple[Keepo
     return tuple(sorted(set(discs)))
 
 
-def room_for(scene: SceneState, name: str, held: str) -> Keepout:
-    """Where an object is, as room for one that is held."""
-    x, y, _ = scene.states[name].position
+def room_for(
+    scene: SceneState, name: str, held: str, point: tuple[float, float] | None = None
+) -> Keepout:
+    """Where an object is, or the point that was named, as room for one that is held."""
+    x, y = point or scene.states[name].position[:2]
     return _disc(x, y, radius(scene.infos[held]))
 
 

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.fetching import fetched_first
+from etot_cli.reasoning.builtin.openings import closed_alike, closed_by_others, reopened_at_once
 from etot_cli.reasoning.builtin.regrasping import grasped_anew, regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
@@ -32,6 +33,7 @@ from etot_cli.reasoning.builtin.relocation import (
     other_places,
     relocated,
     set_aside,
+    set_down_elsewhere,
     shut_meanwhile,
     without_reopening,
 )
@@ -50,7 +52,7 @@ from etot_cli.reasoning.builtin.revision import (
     without_idle,
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
-from etot_cli.reasoning.builtin.sharing import lowered, side_by_side
+from etot_cli.reasoning.builtin.sharing import come_since, lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import (
@@ -87,11 +89,13 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
         opened = (*opened, case.action.target)
     seen = {case.actions}
     for found, change in case.corrections():
-        actions = without_idle(found, failed.start)
+        alike = closed_alike(found, case.actions)
+        actions = without_idle(alike, failed.start, reopened_at_once(case.actions))
         if actions in seen:
             continue
         seen.add(actions)
-        if case.serves(actions, aim) and not check_plan(actions, failed.start, opened):
+        may_stay = (*opened, *closed_by_others(actions, failed.start))
+        if case.serves(actions, aim) and not check_plan(actions, failed.start, may_stay):
             yield Branch(actions, f"{change}, because {cause.text}")
 
 
@@ -264,7 +268,10 @@ class _Case:
             placed = placed_by(self.actions, name, self.index)
             if placed is not None and name not in self.cause.objects:
                 yield from self._earlier(placed, name)
+        for name, placed in come_since(self.failed):
+            yield from self._earlier(placed, name)
         yield from regrasped(self.failed, self.index, self.cause.kind)
+        yield from set_down_elsewhere(self.failed, self.action.target)
 
     def _taken_before_opening(self, owner: str) -> Iterator[Correction]:
         """The picked object is taken to a safe place before what now covers it was opened."""

@@ -15,6 +15,7 @@ from etot_cli.reasoning.builtin.revision import (
     cycle_of,
     hand_free_at,
     inserted,
+    opened_before,
     reachable_throughout,
     relocations,
 )
@@ -110,13 +111,24 @@ def _safe_put(actions: Actions, name: str, before: int) -> int | None:
 
 def _further_off(failed: FailedStep, name: str, put: int) -> Iterator[Correction]:
     """The relocation with a place that also keeps clear of where the object is in the way."""
+    yield from _kept_clear(failed, name, put)
+    yield from other_places(failed, put)
+
+
+def set_down_elsewhere(failed: FailedStep, name: str) -> Iterator[Correction]:
+    """The branch with another safe place for what cannot be picked up again from the one it got."""
+    put = _safe_put(failed.branch.actions, name, failed.index)
+    if put is not None:
+        yield from _kept_clear(failed, name, put)
+
+
+def _kept_clear(failed: FailedStep, name: str, put: int) -> Iterator[Correction]:
     actions = failed.branch.actions
     discs = {*actions[put].keepout, *keepouts_of(failed, name, HAND_ROOM)}
     keepout: tuple[Keepout, ...] = tuple(sorted(discs))
     if keepout != actions[put].keepout:
         further = replace(actions[put], keepout=keepout)
         yield Correction(_replaced(actions, put, further), f"{name} goes further off")
-    yield from other_places(failed, put)
 
 
 def other_places(failed: FailedStep, put: int) -> Iterator[Correction]:
@@ -160,7 +172,12 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
     """
     scene, actions = failed.record.before, failed.branch.actions
     cycle = cycle_of(actions, failed.index)
-    if actions[failed.index].verb in (Verb.OPEN, Verb.CLOSE) and cycle.start < failed.index:
+    within = opened_before(actions, failed.index)
+    closings = {
+        action.target for action in actions[failed.index + 1 :] if action.verb is Verb.CLOSE
+    }
+    amid = cycle.start < failed.index or any(actions[at].target in closings for at in within)
+    if actions[failed.index].verb in (Verb.OPEN, Verb.CLOSE) and amid:
         cycle = Cycle(failed.index, failed.index + 1)  # it is done in the midst of another one
     own = actions[cycle.start : cycle.end]
     filled = {action.target for action in own if action.verb not in (Verb.PICK_UP, Verb.PUT_ON)}

@@ -88,7 +88,10 @@ HELD_MEANWHILE = either(
     ),
     sequence(
         verbs.WITHOUT,
-        either(sequence(verbs.TILT, THINGS), sequence("letting", THINGS, verbs.TILTS)),
+        either(
+            sequence(verbs.TILT, THINGS),
+            sequence("letting", THINGS, verbs.TILTS),
+        ),
         silent(optional(manner.ON_THE_WAY)),
         build=_upright_meanwhile,
     ),
@@ -125,6 +128,12 @@ def _kept_upright(things: Things) -> ReorientClause:
     """What is to stay upright; "it" is what is put somewhere meanwhile."""
     again = all(np.pronoun for np in things.phrases)
     return ReorientClause(things, Nearby.UPRIGHT, meanwhile=again)
+
+
+def _held_upright(things: Things) -> ReorientClause | None:
+    """What "hold it upright" says of what is put somewhere; else it asks for something in the hand."""
+    again = all(np.pronoun for np in things.phrases)
+    return _upright_meanwhile(things) if again else None
 
 
 def turned(things: Things, how: tuple[Nearby | None, bool]) -> ReorientClause:
@@ -171,6 +180,7 @@ REORIENT = either(
         build=_stood_up,
     ),
     sequence(verbs.KEEP, THINGS, f"{manner.UPRIGHT}, {manner.TURNED_UP}", build=_kept_upright),
+    sequence("hold[ing]", THINGS, f"{manner.ERECT}, level", build=_held_upright),
     sequence(
         f"{verbs.LAY}, {verbs.TIP}",
         THINGS,

@@ -197,7 +197,7 @@ JOINED = either(
     joint("which in turn", COMMA, WHICH_IN_TURN_IS),
     joint("after", COMMA, WHICH_FIRST_GETS),
     joint("and", COMMA, so_in_turn(phrase("which", (NounPhrase(pronoun="it", text="which"),)))),
-    joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
+    joint("while", OPTIONAL_COMMA, small_words.WHILE, LED_CLAUSE),
     joint(
         "then",
         OPTIONAL_COMMA,

@@ -12,6 +12,20 @@ from etot_cli.reasoning.language.words.small_words import NAMED
 _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|ought to"
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
+_WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
+_NOTHING_ELSE = (
+    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand|end up"
+    r"|come|stay|remain|be left) (?:(?:in|on|inside) (?:there|it)|there|inside)"
+    r"|there (?:should|must|may|is to) be nothing else (?:(?:in|on|inside) (?:there|it)|there|inside)"
+    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else(?: (?:in|on) it)?)"
+    r"(?=[.;!]|$)"
+)
+_KEPT = {"out of": "in", "off": "on"}
+_IMPERATIVE = {
+    "moving": "move", "putting": "put", "setting": "set", "placing": "place",
+    "carrying": "carry", "bringing": "bring",
+}  # fmt: skip
+_MOVED = f"(?:{'|'.join((*_IMPERATIVE, *_IMPERATIVE.values(), 'take', 'stand'))})"
 _ASKED = re.compile(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
 _ALL_OF = {"any": "none", "either": "neither"}
 _LATTER = Expression(
@@ -96,6 +110,18 @@ def _named_again(said: re.Match[str]) -> str:
     )
 
 
+def _left_there(said: re.Match[str]) -> str:
+    """What is not taken out of something is left in it, what is not taken off on it."""
+    done, _, what, away, where = said.groups()
+    return f"{done} and leave {what} {_KEPT[away]} {where}"
+
+
+def _left_while_moved(said: re.Match[str]) -> str:
+    """The same ahead of what is done with that."""
+    what, away, where, verb, place = said.groups()
+    return f"{_IMPERATIVE.get(verb, verb)} {where} {place} and leave {what} {_KEPT[away]} it"
+
+
 END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "Only then should the cup be put there", "after that, and only then, should it …"
     (
@@ -133,6 +159,41 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"\bwith ({_SOME}) still ([^,.;]*), (?=(?:untouched|unmoved)(?:[.,;!]|$))",
         r"with \1 \2 ",
+    ),
+    # What is not taken out of a thing that goes somewhere comes along in it.
+    (
+        rf"\b({_MOVED} (?P<moved>{_SOME})\b [^.;]*?),? without "
+        rf"(?:taking|removing|lifting|getting) ({_SOME}) "
+        rf"(out of|off) (it|(?P=moved))(?=[.,;!]|$)",
+        _left_there,
+    ),
+    (
+        rf"\b(?:do not|never) (?:take|remove|lift|get) ({_SOME}) (out of|off) ({_SOME}) "
+        rf"(?:when|while|as) (?:you )?({_MOVED}) (?:\3|it) ([^.,;]*)",
+        _left_while_moved,
+    ),
+    # "Put the egg in the bowl; nothing else should be in there"
+    (
+        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? {_NOTHING_ELSE}",
+        r"\1",
+    ),
+    (
+        rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
+        rf"(in|on|into|onto|inside) ({_SOME})[.;,]? {_NOTHING_ELSE}",
+        lambda said: (
+            f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}"
+        ),
+    ),
+    # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
+    (
+        rf"\bit is ({_SOME}) (?:that |which )?{_WISHED} (?:to (?:be|go) )?"
+        r"(?=(?:in|on|into|onto|inside|next to|beside|behind|between|in front of|to the) )",
+        r"\1 should be ",
+    ),
+    (
+        rf"(^|[.;] )(?:what|the (?:thing|one)(?: that)?) {_WISHED} (?:to (?:be|go) )?"
+        rf"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is ({_SOME})(?=[.,;!]|$)",
+        r"\1\3 should be \2",
     ),
     # Of two there are no more to be told.
     (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),

@@ -269,8 +269,8 @@ def kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> Ensu
 
 BESIDES_SO = either(
     sequence(
-        # "…: the cup, containing the pen"
-        verbs.HOLDING,
+        # "…: the cup, containing the pen"; who is "holding the pen" may be the hand
+        "containing",
         NP_LIST,
         build=lambda held: ensured(
             State(held, (Destination(Toward.INSIDE, (NounPhrase(pronoun="it", text="it"),)),))
