@@ -26,9 +26,9 @@ from etot_cli.reasoning.language.goals.choosing import (
     check_swept,
     check_taken,
     choose_by_place,
-    tell_not_there,
     leave_there,
     tell_apart,
+    tell_not_there,
     without_riders,
 )
 from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of

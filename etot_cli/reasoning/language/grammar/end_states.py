@@ -61,7 +61,8 @@ def _with_it_inside(said: re.Match[str]) -> str:
     if re.search(r"\bthe (?:former|latter)\b", rest):
         return f"{what} and {vessel}{rest}"
     what = re.sub("^both (?=the|my)", "", what)
-    rest = re.sub("^ are (?:both|all) ", " is ", rest)
+    rest = re.sub("^ are both ", " is ", rest)
+    rest = re.sub("^ (should|must|shall|have to|need to|belong|go) both ", r" \1 ", rest)
     return f"{vessel} with {what} in it{rest}"
 
 
@@ -180,9 +181,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
         rf"(in|on|into|onto|inside) ({_SOME})[.;,]? {_NOTHING_ELSE}",
-        lambda said: (
-            f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}"
-        ),
+        lambda said: f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}",
     ),
     # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
     (
@@ -243,8 +242,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (_CONTAINER, _with_it_inside),
     (_AT_THE_END, _so_when_done),
     (_LATTER, _named_again),
-    # "The cup itself"
-    (rf"\b({NAMED} (?:(?!and\b|or\b|in\b|on\b|by\b)\w+ ){{1,3}}?)itself (?=\w)", r"\1"),
     (_LOOKED_AT, _seen_there),
     (
         r"(^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:come back|get back|return|come home|look|am back"

@@ -94,7 +94,8 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
     # "I want both on the tray: the cup, and in it the pen"
     (
         rf"\b(?:{_SO_MANY}|two things|the following)(?: of them| things)? "
-        rf"({WHERE} {NAMED} [^,.;:]*)[:,] ({NAMED} [^,.;:]*?),? and,? ((?:in|on) it),? ({NAMED} [^,.;:]*)(?=[.;!]|$)",
+        rf"({WHERE} {NAMED} [^,.;:]*)[:,] ({NAMED} [^,.;:]*?),? and,? "
+        rf"((?:in|on) it),? ({NAMED} [^,.;:]*)(?=[.;!]|$)",
         r"\2 \1, and \3 \4",
     ),
     (

@@ -13,8 +13,8 @@ from etot_cli.reasoning.language.grammar.forbidding import FORBIDDING
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
-from etot_cli.reasoning.language.grammar.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.remarks import PEOPLE
+from etot_cli.reasoning.language.grammar.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.said_again import SAID_AGAIN
 from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.words.categories import CATEGORIES

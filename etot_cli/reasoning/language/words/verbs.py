@@ -456,7 +456,8 @@ TO_THE_FLOOR = """
 """What no plan may let happen to anything, either."""
 GETTING_TO_THE_FLOOR = """
     (falling|dropping|rolling|slipping|tumbling|landing|ending up|going|crashing) [down]
-    (on|onto|to) the (floor|ground), hitting the (floor|ground)
+    (on|onto|to) the (floor|ground), hitting the (floor|ground),
+    (falling|rolling|slipping|sliding|tumbling|dropping) (off [of]|from) the (desk|table)
 """
 TOPPLES = """
     falls [over|down], topples [over], tips [over], tumbles [over|down], keels over,
