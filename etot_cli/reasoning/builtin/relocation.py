@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
-from etot_cli.reasoning.builtin.keepouts import keepouts_of
+from etot_cli.reasoning.builtin.keepouts import keepouts_of, needed_later
 from etot_cli.reasoning.builtin.relations import carriers, container_address, is_closed, is_inside
 from etot_cli.reasoning.builtin.revision import (
     Actions,
@@ -31,15 +31,20 @@ WIDE_OPEN = 0.98
 
 
 class Correction(NamedTuple):
-    """A revised branch and what was changed, in words."""
+    """A revised branch and what was changed, in words.
+
+    ``anew``: what is set down at a safe place and taken again at once is to be grasped anew there.
+    """
 
     actions: Actions
     change: str
+    anew: bool = False
 
 
 def set_aside(failed: FailedStep, name: str) -> Actions:
     """Taking an object to where it is out of the way of what failed."""
-    put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(failed, name))
+    discs = (*keepouts_of(failed, name), *needed_later(failed, name))
+    put = Action(Verb.PUT_ON, DESK, safe=True, keepout=tuple(sorted(discs)))
     return Action(Verb.PICK_UP, name), put
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -161,7 +161,7 @@ def without_idle(actions: Actions, scene: SceneState, turned: Collection[str] = 
         puts = actions[index + 1 : index + 4 : 2]
         stands = any(where.relation.is_stance for one in puts for where in one.where)
         # Else it is grasped anew.
-        if waits and action.pose is actions[index + 2].pose and not stands:
+        if waits and action == actions[index + 2] and not stands:
             return without_idle((*actions[:index], *actions[index + 2 :]), scene, turned)
         part = scene.part(action.target)
         if action.verb not in (Verb.OPEN, Verb.CLOSE) or part is None:
@@ -180,6 +180,19 @@ def without_idle(actions: Actions, scene: SceneState, turned: Collection[str] = 
         if undone and following[0].verb is not action.verb and (closed or opened):
             return without_idle((*actions[:index], *actions[index + 2 :]), scene, turned)
     return actions
+
+
+def taken_at_once(actions: Actions, before: Actions) -> Iterator[Actions]:
+    """A revised branch without the first of the objects set down that only are to be grasped anew:
+    after other actions than ``before`` the object may well be grasped so at once.
+    """
+    for index in range(len(actions) - 2):
+        pick, put, again = actions[index : index + 3]
+        grasps = (pick.verb, again.verb) == (Verb.PICK_UP, Verb.PICK_UP)
+        waits = grasps and pick.target == again.target and put.safe
+        if waits and actions[: index + 3] != before[: index + 3]:
+            yield (*actions[:index], *actions[index + 2 :])
+            return
 
 
 def brought_before(actions: Actions, index: int, before: int) -> Actions | None:
