@@ -61,7 +61,8 @@ def _with_it_inside(said: re.Match[str]) -> str:
     if re.search(r"\bthe (?:former|latter)\b", rest):
         return f"{what} and {vessel}{rest}"
     what = re.sub("^both (?=the|my)", "", what)
-    rest = re.sub("^ are (?:both|all) ", " is ", rest)
+    rest = re.sub("^ are both ", " is ", rest)
+    rest = re.sub("^ (should|must|shall|have to|need to|belong|go) both ", r" \1 ", rest)
     return f"{vessel} with {what} in it{rest}"
 
 
@@ -79,6 +80,21 @@ def _seen_there(said: re.Match[str]) -> str:
     if re.search(r"\bit\b", said["rest"]):
         return f"{said['begun']}as for {said['where']}, i want {said['seen']} it{said['rest']}"
     return f"{said['begun']}i want {said['seen']} {said['where']}{said['rest']}"
+
+
+_AT_THE_END = Expression(
+    rf"^with (?P<what>{_SOME}) (?P<state>closed|shut|open) (?:(?:at|in) the end|when all is done|"
+    r"afterwards), (?P<rest>[^.;!?]*)"
+)
+
+
+def _so_when_done(said: re.Match[str]) -> str:
+    """How something is to be "at the end", which is said ahead of all else."""
+    what, rest = said["what"], said["rest"]
+    if len(re.findall(r"\b(?:it|its)\b", rest)) > 1:
+        return said[0]
+    rest = re.sub(r"\bit\b", what, rest)
+    return f"{rest}, and {what} should be {said['state']} in the end"
 
 
 def _named_again(said: re.Match[str]) -> str:
@@ -224,9 +240,8 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 ",
     ),
     (_CONTAINER, _with_it_inside),
+    (_AT_THE_END, _so_when_done),
     (_LATTER, _named_again),
-    # "The cup itself"
-    (rf"\b({NAMED} (?:(?!and\b|or\b|in\b|on\b|by\b)\w+ ){{1,3}}?)itself (?=\w)", r"\1"),
     (_LOOKED_AT, _seen_there),
     (
         r"(^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:come back|get back|return|come home|look|am back"

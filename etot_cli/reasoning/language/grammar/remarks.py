@@ -284,8 +284,8 @@ def is_reason(said: str, is_name: IsName) -> bool:
     """Whether this may stand behind "because" and asks for nothing itself."""
     said = _GONE_WRONG.sub(" fails", said)
     words = {*said.split()}
-    asked = _YOU_DO.match(said)
-    if asked and asked[1] in VERB_WORDS - OTHER_VERBS and any(map(is_name, words)):
+    asked = _YOU_DO.match(said)  # "even if you have to move it" asks for nothing
+    if asked and asked[1] in VERB_WORDS - OTHER_VERBS - {"have"} and any(map(is_name, words)):
         return False  # "as you move the cup over there, keep it upright"
     if not is_of_people(said):
         return not (ASKING | CHANGING - {"to", "by", "than"} | WORK) & words

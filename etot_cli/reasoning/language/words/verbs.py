@@ -267,7 +267,7 @@ NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
     (should|must|shall|may|can|had better) (not|no longer)
     (be|stay|remain|go|lie|stand|(end|finish|wind) up|get)
-    [left|kept|put|lying|standing|sitting|placed],
+    [left|kept|put|[left] (lying|standing|sitting)|placed],
     (is|are) not to (be|go|stay|lie|stand|end up) [left|kept|put|placed],
     (does|do) not (belong|go)
 """
@@ -299,7 +299,7 @@ CONTAINED = """
     (was|were|is) holding
 """
 """Between a vessel and what is to be in it."""
-STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
+STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put|lying|standing|sitting]"
 STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
 """Before what something is never to be in or on."""
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
@@ -454,6 +454,15 @@ TO_THE_FLOOR = """
     (fall|drop|roll|slip|tumble|land|end up|hit|go|crash) [down] [(on|onto|to)] the (floor|ground)
 """
 """What no plan may let happen to anything, either."""
+GETTING_TO_THE_FLOOR = """
+    (falling|dropping|rolling|slipping|tumbling|landing|ending up|going|crashing) [down]
+    (on|onto|to) the (floor|ground), hitting the (floor|ground),
+    (falling|rolling|slipping|sliding|tumbling|dropping) (off [of]|from) the (desk|table)
+"""
+TOPPLES = """
+    falls [over|down], topples [over], tips [over], tumbles [over|down], keels over,
+    gets knocked over, is knocked over
+"""
 FALLS_DOWN = """
     (falls|drops|rolls|slips|tumbles|spills|tips|topples|breaks)
     [(out|off|over|down|away)] [(of|from) it]
