@@ -8,7 +8,7 @@ from collections.abc import Callable
 from etot_cli.reasoning.language.grammar.corners import TABLE
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import SIZES
+from etot_cli.reasoning.language.words.lexicon import LEVELS, SIZES, is_descriptive
 from etot_cli.reasoning.language.words.small_words import NAMED
 
 _CATEGORY = "|".join(CATEGORIES)
@@ -20,6 +20,14 @@ _FREE = (
     r"where (?:nothing else (?:is|stands|lies)(?: (?:yet|already))?|there is nothing(?: else)?"
     r"|there is (?:still )?(?:room|space)|it is (?:free|empty))"
 )
+
+
+def _of_one_sort(said: re.Match[str]) -> str:
+    """Neither of two things of which but the second has its noun ("neither the blue nor the …")."""
+    first, word, second, other, noun = said.groups()
+    told = all(is_descriptive(item) or item in LEVELS or item in SIZES for item in (word, other))
+    return f"neither {first} {noun} nor {second} {noun}" if told else said[0]
+
 
 ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "There is fruit in the bowl; the bigger piece …"
@@ -61,12 +69,14 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1\3 \2",
     ),
     # "To the chest's top", "in the desk's far right corner"
-    (rf"\b(on|onto|to) ({_NOUN})'s top(?: surface)?{_END}", r"\1 the top of \2"),
+    (rf"\b(on|onto|to) ({_NOUN}) ?'s top(?: surface)?{_END}", r"\1 the top of \2"),
     (
-        rf"\b(the|my) ({TABLE})'s ((?:(?:far|near|front|back|rear|left|right|upper|lower|hand) ?)+"
+        rf"\b(the|my) ({TABLE}) ?'s ((?:(?:far|near|front|back|rear|left|right|upper|lower|hand) ?)+"
         r"(?:corner|edge|side|end|half))\b",
         r"the \3 of \1 \2",
     ),
+    (r"\b(?:onto|on) (?=the (?:(?:far|near|front|back|rear|left|right) )*corner\b)", "at "),
+    (r"\bneither (the (\w+)) nor (the (\w+)) (\w+)\b", _of_one_sort),
     # "In front of the cup, on the side facing the robot"
     (
         rf"\b(in front of {_NOUN}),? (?:on|at) the side (?:that is |that )?"
