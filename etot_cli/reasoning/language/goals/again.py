@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Step
+from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Relation, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.closer import certain
 from etot_cli.reasoning.language.goals.context import Context
@@ -73,6 +73,8 @@ def again(context: Context, clause: AgainClause) -> None:
         if clause.trailing and any(_like_a_place(context, step, index) for index in themes):
             why = "say whether it goes there, too, or is one more place to go to"
             raise ReferenceProblem(text, why, 4)
+        if clause.side_by_side and not _on_one_thing(step):
+            raise ReferenceProblem(text, "say what each of them is to stand on", 3)
         if isinstance(context.last, TowerClause):
             raise ReferenceProblem(text, "say where in the stack it goes", 3)
         if themes:
@@ -83,6 +85,11 @@ def again(context: Context, clause: AgainClause) -> None:
         if isinstance(step, Pick) and index == step.what:
             raise ReferenceProblem(text, "say again what is to be done with it", 2)
         context.steps.append(replace(step, what=index))
+
+
+def _on_one_thing(step: Put) -> bool:
+    """Whether all that is put there lies on the same thing, and so on nothing else."""
+    return len(step.places) == 1 and step.places[0].relation is Relation.ON
 
 
 def _check_another(context: Context, things: Things, themes: Sequence[int]) -> None:

@@ -215,7 +215,7 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         themes = context.phrases.things(clause.things, Role.THEME)
     for index in themes:
         lying = clause.stance is Nearby.LYING
-        if clause.stance is None or not (lying or _can_stand(context, index)):
+        if clause.stance is None or not (lying or can_stand(context, index)):
             if clause.meanwhile and clause.stance and not _is_rod(context, index):
                 text = context.discourse.referents[index].text
                 context.discourse.notes.append(f"not checked: {text} is kept level on the way")
@@ -284,7 +284,7 @@ def with_stance(
     if stance is Nearby.LYING:
         for index in themes:
             _check_lying(context, index)
-    if stance is Nearby.LYING or all(_can_stand(context, index) for index in themes):
+    if stance is Nearby.LYING or all(can_stand(context, index) for index in themes):
         near = Near(stance)
         return tuple(replace(place, beside=(*place.beside, near)) for place in places)
     held = all(place.relation is Relation.INSIDE for place in places)
@@ -305,7 +305,7 @@ def _check_lying(context: Context, index: int) -> None:
             raise ReferenceProblem(text, f"{thing.name}: {NO_SIDE}", 5)
 
 
-def _can_stand(context: Context, index: int) -> bool:
+def can_stand(context: Context, index: int) -> bool:
     """Whether things have an upright pose; what lies flat as it is would stand on its edge."""
     scene = context.scene
     things = context.discourse.things(index)

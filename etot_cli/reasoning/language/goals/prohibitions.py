@@ -19,6 +19,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import check_alone
 from etot_cli.reasoning.language.goals.choosing import leave_among
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.knocked_over import keep_it_standing
 from etot_cli.reasoning.language.goals.ruled_out import is_not_chosen, rule_out_things
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -69,6 +70,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         return
     if clause.things is None:
         _avoid_others(context, clause)
+        return
+    if keep_it_standing(context, clause):
         return
     _check_moves(context, clause.by)
     role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY

@@ -88,7 +88,10 @@ HELD_MEANWHILE = either(
     ),
     sequence(
         verbs.WITHOUT,
-        either(sequence(verbs.TILT, THINGS), sequence("letting", THINGS, verbs.TILTS)),
+        either(
+            sequence(verbs.TILT, THINGS),
+            sequence("letting", THINGS, verbs.TILTS),
+        ),
         silent(optional(manner.ON_THE_WAY)),
         build=_upright_meanwhile,
     ),

@@ -26,7 +26,6 @@ from etot_cli.reasoning.language.grammar.chains import (
     joint,
 )
 from etot_cli.reasoning.language.grammar.clauses import (
-    LED_CLAUSE,
     Reading,
     plain,
 )

@@ -147,6 +147,7 @@ TO_BE_EMPTY = either(
                 sequence(ALL_THINGS, verbs.MODAL),
                 sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
                 sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+                sequence("let, have", ALL_THINGS, "be"),
             ),
             optional(phrase("both, all"), ""),
             manner.EMPTIED,

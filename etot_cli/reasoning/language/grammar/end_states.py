@@ -48,6 +48,39 @@ def _nor(said: re.Match[str]) -> str:
     return f" and {them} {modal} not {be}{f' {door}' if door else ''}"
 
 
+_CONTAINER = Expression(
+    rf"(?P<what>{_SOME})(?: and|,? together with|,? along with|,? with) its "
+    rf"(?:container|vessel|receptacle), (?P<vessel>{_SOME})(?:,(?= )|(?=[.;!]|$))(?P<rest>[^!?]*)"
+)
+"""A thing and what it is to be in, which is said behind it."""
+
+
+def _with_it_inside(said: re.Match[str]) -> str:
+    """What goes somewhere with its container is in that in the end."""
+    what, vessel, rest = said["what"], said["vessel"], said["rest"]
+    if re.search(r"\bthe (?:former|latter)\b", rest):
+        return f"{what} and {vessel}{rest}"
+    what = re.sub("^both (?=the|my)", "", what)
+    rest = re.sub("^ are (?:both|all) ", " is ", rest)
+    return f"{vessel} with {what} in it{rest}"
+
+
+_LOOKED_AT = Expression(
+    rf"(?P<begun>^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:look at|look over at|see|come back to"
+    rf"|get back to)|looking at) (?P<where>{_SOME}),? (?:i|we) (?:would |should )?"
+    r"(?:want|like|expect|need|wish) to (?:see|find) "
+    r"(?P<seen>[^.;!?]*?\b(?:on|in|inside|on top of)) it\b(?! \w*in\b)(?P<rest>[^.;!?]*)"
+)
+"""What somebody wants to see when he looks at something."""
+
+
+def _seen_there(said: re.Match[str]) -> str:
+    """What is to be seen on or in something is to be there."""
+    if re.search(r"\bit\b", said["rest"]):
+        return f"{said['begun']}as for {said['where']}, i want {said['seen']} it{said['rest']}"
+    return f"{said['begun']}i want {said['seen']} {said['where']}{said['rest']}"
+
+
 def _named_again(said: re.Match[str]) -> str:
     """The things themselves for "the former" and "the latter", where but one pair was named."""
     pairs = re.findall(rf"\b{_SOME} and {NAMED}", said[0])
@@ -132,9 +165,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
         rf"(in|on|into|onto|inside) ({_SOME})[.;,]? {_NOTHING_ELSE}",
-        lambda said: (
-            f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}"
-        ),
+        lambda said: f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}",
     ),
     # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
     (
@@ -192,7 +223,27 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?: (?:about|around))? (?=(?:in|on) {NAMED})",
         r"\1 ",
     ),
+    (_CONTAINER, _with_it_inside),
     (_LATTER, _named_again),
+    # "The cup itself"
+    (rf"\b({NAMED} (?:(?!and\b|or\b|in\b|on\b|by\b)\w+ ){{1,3}}?)itself (?=\w)", r"\1"),
+    (_LOOKED_AT, _seen_there),
+    (
+        r"(^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:come back|get back|return|come home|look|am back"
+        r"|are back|look again)|(?:once|when) you are (?:done|finished)),? "
+        r"(?:i|we) (?:would |should )?(?:want|like|expect|need|wish) to (?:see|find|have) ",
+        r"\1i want ",
+    ),
+    (
+        rf"\b(i|we) (?:would )?(want|like|expect|wish) to find (?={_SOME} (?:on|in|inside|next to|"
+        r"beside|behind|closed|shut|open)\b)",
+        r"\1 would like to see ",
+    ),
+    # "A little tower"
+    (
+        r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
+        r"\1 a \2",
+    ),
     # "With the cup still on the tray" tells of no tray.
     (
         r"(?<=\w) with (?="

@@ -154,6 +154,13 @@ _ARE_STILL = sequence(
 ENSURE = either(
     sequence(verbs.ENSURE, states, build=EnsureClause),
     sequence(
+        "let, have",
+        NP_LIST,
+        "be",
+        OPEN_OR_CLOSED,
+        build=lambda nps, word: ensured(state_of(nps, word)),
+    ),
+    sequence(
         # "Those parcels are for the bin"
         NP_LIST,
         "is for, are for",

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import Things
 from etot_cli.reasoning.language.words import manner, small_words
 from etot_cli.world.spatial import Nearby
 
+
 def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
     """What stays so while something else is done; nothing is done with something in the hand."""
     held = any(isinstance(said.clause, PickClause) for said in first)

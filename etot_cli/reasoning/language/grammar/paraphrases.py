@@ -9,9 +9,11 @@ from etot_cli.reasoning.language.grammar.asked_otherwise import ASKED_OTHERWISE
 from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.end_states import END_STATES
+from etot_cli.reasoning.language.grammar.forbidding import FORBIDDING
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
+from etot_cli.reasoning.language.grammar.remarks import PEOPLE
 from etot_cli.reasoning.language.grammar.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.said_again import SAID_AGAIN
 from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
@@ -87,6 +89,7 @@ def _in_turn(said: re.Match[str]) -> str:
 
 _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     *CONTRACTIONS,
+    *FORBIDDING,
     *END_STATES,
     *ROUNDABOUT,
     *ASKED_OTHERWISE,
@@ -185,6 +188,12 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1: ",
     ),
     (rf"^({ASKED}(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
+    # To a thing, not to somebody
+    (
+        rf"\b(?:pass|hand) ({NAMED} [^.,;:]*?) (?:over|across|along) "
+        rf"(?=to (?:the|my) )(?!to {PEOPLE}\b)",
+        r"bring \1 ",
+    ),
     (
         r"\bpass ((?:the|my) [^.,;]*?) (?:down |over |up )?"
         r"(?=(?:from (?:the|my) [^.,;]*? )?(?:onto|into) )",

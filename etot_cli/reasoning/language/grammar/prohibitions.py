@@ -147,7 +147,8 @@ _FORBIDDEN = either(
                 one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.HIT: verbs.HIT}), THINGS, build=_avoid
             ),
             sequence(verbs.DISTURB, THINGS, build=_undisturbed),
-            sequence(phrase(verbs.UPSET, Avoid.HIT), THINGS, "off, over, down", build=_avoid),
+            sequence(phrase(verbs.UPSET, Avoid.HIT), THINGS, "off, down", build=_avoid),
+            sequence(verbs.UPSET, THINGS, "over", build=partial(AvoidClause, Avoid.HIT, over=True)),
         ),
         WITH_IT,
         optional(small_words.TRAILING_THEN),

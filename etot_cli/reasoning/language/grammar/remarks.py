@@ -61,7 +61,7 @@ _HAPPENED = Expression(
     r"|will have) to |^will (?!be\b|need\b|[^~]* (?:myself|ourselves)$)"
     r"|^(?:need|want) something to \w+(?: (?:with|on|from|in))?$"
     r"|^will [^~]* (?:myself|ourselves)$"
-    r"|^keeps? (?:losing|forgetting|dropping|misplacing|missing|knocking|bumping|tripping)\b"
+    r"|^keeps? (?:on )?(?!standing\b|lying\b|sitting\b)\w+ing\b"
     r"|^(?:worry|look|work|like(?! (?:the|my|our|your|this|that|these|those|it|them)\b))\b"
     r"|^(?:have|has|had|am|are|is|was|were|likes|loves?|hates?|broke|bought|left|made|forgot|lost|"
     r"found|got|did|went|came|ate|drank|saw|spilt|felt|gave|sent|"

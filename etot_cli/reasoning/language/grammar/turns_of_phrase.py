@@ -23,6 +23,7 @@ _AFTERWARDS = (
     r"|(?:when|once) you have finished)"
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
+_IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -172,7 +173,41 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"(?:i|we) (?:want|need|would like)(?= is\b|:)",
         r"\1",
     ),
+    (
+        rf"(^|[.;!,] )i am afraid(?: that)?,? (?={NAMED} (?:\w+ ){{1,3}}?"
+        r"(?:has to|have to|needs? to|must|should|belongs?|goes?|will have to)\b)",
+        r"\1",
+    ),
+    # How a thing is by now
+    (
+        r"\b((?:that|which) (?:is|are)) (?:still|currently|now|right now|at the moment|at present) "
+        rf"(?={_IS_SO}{_END})",
+        r"\1 ",
+    ),
+    (
+        rf"\b((?:that|which) (?:is|are) {_IS_SO}) (?:already|still|currently|now|right now|anyway"
+        rf"|at the moment|at present|just now)(?=[.,;!?]|$| (?:and|then)\b)",
+        r"\1",
+    ),
+    (
+        rf"\b((?:that|which) (?:is|are) not (?:in|on) {NAMED} \w+(?: \w+)??) already(?= \w)",
+        r"\1",
+    ),
+    # "Is the cup on the tray? If not, put it there."
+    (
+        rf"(^|[.;!] )(is|are) ({NAMED} \w+(?: \w+)?) ((?:in|on) {NAMED} \w+(?: \w+)?)"
+        r"(?: already| yet)?\? if (?:not|(?:it|they) (?:is|are) not),? ",
+        r"\1if \3 \2 not \4, ",
+    ),
     # A thing that is found somewhere
+    (
+        rf"(^|[.;!] )((?:in|on|inside) {NAMED} \w+(?: \w+)?) you (?:will |can |should |may )?find "
+        r"((?:an?|some|the|two|three) \w+(?: \w+)?)(?=[.;:!])",
+        lambda said: (
+            f"{said[1]}there {'are' if said[3].split()[0] in ('two', 'three') else 'is'} "
+            f"{said[3]} {said[2]}"
+        ),
+    ),
     (
         rf"(^|[.;!] )({NAMED} (?:\w+ )??(?!that\b|which\b)\w+) "
         r"(?:that |which )?you (?:will |can )?find "

@@ -67,6 +67,14 @@ def _its_own(things: Things, place: NounPhrase) -> PutClause | None:
     return put_to(things, (Destination(Toward.TO, (place,), FILLED),)) if own else None
 
 
+def _in_company(things: Things, np: NounPhrase, where: tuple[Destination, ...]) -> PutClause | None:
+    """What joins a thing where that is, or what is to be with it at a place."""
+    if not where:
+        return put_to(things, (Destination(Toward.WITH, (np,), "join"),))
+    together = replace(things, phrases=(*things.phrases, np))
+    return None if things.either else put_to(together, where)
+
+
 WANTED = either(
     PASSIVE,
     sequence(
@@ -90,6 +98,17 @@ WANTED = either(
         ),
         noun_phrase,
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
+    ),
+    sequence(
+        # "Let the pen keep the cap company (in the cup)"
+        either(
+            sequence(f"have, let, {verbs.CAN}", ALL_THINGS, "[please] keep"),
+            sequence(ALL_THINGS, verbs.KEEP_COMPANY),
+        ),
+        noun_phrase,
+        "company",
+        optional(DESTINATIONS, ()),
+        build=_in_company,
     ),
     sequence(
         noun_phrase,
@@ -167,6 +186,7 @@ _WHAT_GOES = either(
 )
 """What is there, or (True) alone is there."""
 _NO_MORE = "and nothing else, but nothing else"
+_IT_IS = "it is, it 's"
 _IS = f"{verbs.BE}, should be, must be, has to be, needs to be, shall be"
 
 
@@ -231,7 +251,18 @@ TOLD_APART = either(
         ALL_THINGS,
         build=_nothing_but,
     ),
-    sequence("it is, it 's", ALL_THINGS, "that, which", verbs.MODAL, DESTINATIONS, build=put_to),
+    sequence(
+        # "It is the cup that goes in the box", "it's the cup I want in the box"
+        _IT_IS,
+        ALL_THINGS,
+        either(
+            sequence("that, which", f"{verbs.MODAL}, {verbs.WANTED}"),
+            f"{verbs.WANTED}",
+            sequence(optional("that, which"), verbs.TO_BE_DONE_BY_YOU, verbs.SET_DOWN),
+        ),
+        DESTINATIONS,
+        build=put_to,
+    ),
     sequence(
         # "The left ball is the one that you should pick up"
         either(sequence(_POINTED_OUT, _THE_ONE), sequence("it is", noun_phrase, "that, which")),

@@ -68,7 +68,8 @@ WITHOUT_MEANING = f"""
     is (easier|easiest|best) [for you]|seems best [to you]],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
-    if possible,
+    if possible, of course, obviously, naturally, somehow, by all means,
+    [and|but] whatever (you do|happens) [~comma],
     properly, neatly, directly, straight,
     ~comma if you would, ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
@@ -76,7 +77,8 @@ WITHOUT_MEANING = f"""
     without (dropping|breaking) (it|them), before i forget, by the way,
     what a mess [(in|around|over|) here|[over|in|] there|this is],
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
-    ~comma i (think|believe|guess|suppose|reckon),
+    ~comma i (think|believe|guess|suppose|reckon|would say), maybe, perhaps,
+    chop chop, quick march, asap, as soon as (possible|you can),
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
     that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
     ~comma [my [dear|good]]
@@ -137,8 +139,8 @@ GREETINGS = f"""
     [just] as a [first|quick|simple|little|short] (warm up|test|exercise|try) [~comma]
 """
 WOULD_BE_NICE = """
-    (i|we) would (be|feel) [very|really|so]
-    (glad|happy|happier|grateful|pleased|delighted|thankful),
+    (i|we) would (be|feel) [very|really|so|most|much|ever so]
+    (glad|happy|happier|grateful|pleased|delighted|thankful|obliged),
     (i|we) would [really] (like|love|appreciate|prefer) it,
     [it|that] would be [very|really|so]
     (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best|ideal) [of you],
@@ -174,11 +176,15 @@ FRAMES = f"""
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible to, it would be (good|great|nice|better) to,
     i [would|must|have to|would like to] ask you to, your job is, it is time to,
-    help me [to|by], help me [to] (tidy|clean) up by, we need to, you are to,
+    help me [to|by], help me [to] (tidy|clean) up by, (i|we) [(really|just|still|also)] ought to, we [(really|just|still|also)] (need|have) to,
+    we (had better|should|must), you are to, if i were you ~comma [i (would|d)],
+    would it be (too much|much) (trouble|bother|to ask) [for you] to, you could [(always|just)],
+    [it is] [high] time [for you] to,
     (would|could) you be so (kind|good|nice) (as to|and|to), please you,
     mind [that] you, be so (kind|good|nice) (as to|to|and), if you would, do me a favor and,
     do me a favour and,
-    be (a|an) (dear|darling|love|angel|star|pal|legend|sport) and
+    be (a|an) (dear|darling|love|angel|star|pal|legend|sport|sweetheart|sweetie|saint|treasure) and,
+    be a (good|kind|nice|clever) (boy|girl|lad|lass|dear|robot|fellow|sport|chap|soul) and
 """
 _AT_END = """
     (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn|day|session|shift|
@@ -258,13 +264,13 @@ DONE_WITH = """
 """
 """Before such a thing."""
 SAME_AGAIN = """
-    do [exactly|just] the same [thing] (with|for|to), ditto (with|for),
+    do [exactly|just] the same [thing] (with|for|to), ditto [with|for],
     [and] so (do|does|should|must), as (do|does),
     the same [thing] (goes|applies|holds) for, likewise [for|with], [the] same [thing] (with|for),
     (do|treat) likewise (with|for), repeat [(this|that|it)] (with|for)
 """
 """Before things that what was just asked for is asked for, too."""
-ALSO = "[~comma] (too|as well|also), likewise"
+ALSO = "[~comma] (too|as well|also), likewise, [~comma] ditto"
 BEFORE_ALL = "before (anything|everything) else [(is|gets) done|happens]"
 LEADING_FIRST = f"""
     first, [but] {BEFORE_ALL}, [but] before all [of] (that|this),

@@ -136,7 +136,8 @@ SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], (take|taking) care that, see to it [that],
-    make it so [that], mind that, (watch|look) out that, (watch|see|be careful|be mindful) that,
+    make it so [that], mind that, (may|can|could|must|would) i ask that, i [(would|must)] ask that,
+    (watch|look) out that, (watch|see|be careful|be mindful) that,
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
@@ -183,16 +184,16 @@ _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
 _WELL = "good|nice|nicely|lovely|great|perfect|perfectly|fine|well"
 MODAL = f"""
     [{_IN_FACT}] ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}|found|returned|stood]|
-    (end|finish|wind) up [{_BEING}]|get|(go|come|move|return) [back]|land|
+    find (its|their) way [back]|(end|finish|wind) up [{_BEING}]|get|(go|come|move|return) [back]|land|
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
-    get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie), (is|are) going [back],
+    get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie|live), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
-    move[s] [up|down|over|back], (is|are) [now|still|also] (wanted|needed|required)
+    move[s] [up|down|over|back], find[s] (its|their) way [back], (is|are) [now|still|also] (wanted|needed|required)
 """
 _STAND_THERE = f"""
     (be|go|stand|sit|lie|rest|(be|end up) ({_BEING}|placed|put|found|kept)|end up)
@@ -238,6 +239,7 @@ WANT = """
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
     i d like, (can|could|may|might) (i|we) (have|get), let (us|me) have,
     (would|is) it [be] possible to have,
+    it would be [really|so] (great|nice|lovely|good) to (see|have),
     (i|we) would rather (have|see),
     (what|all [that]) (i|we) [really|just] (want|need|would like) [to (have|see)] is
 """
@@ -320,9 +322,14 @@ WERE = f"""
 """
 """What it would be nice if things were."""
 LET = "have, let, get"
-LET_BE = f"{DONE}, [come to] ({_TO_STAND}), be, go, come, move, return, land, (end|wind) up"
+LET_BE = f"""
+    {DONE}, [come to] ({_TO_STAND}), be, go, come, move, return, land, (end|wind) up,
+    find (its|their) way [back]
+"""
 """Between them is what is to go somewhere."""
 JOINED_BY = f"({_MUST}|can|may|could) {_SIMPLY} be joined by"
+KEEP_COMPANY = f"keep[s], [can|may|could|might|will|{_MUST}] keep"
+"""Before whom something joins, and "company"."""
 JOIN = f"joins, [can|may|could|might|will|{_MUST}] join"
 SHARE = f"[can|may|could|might|will|{_MUST}] share[s]"
 COME_AWAY = """

@@ -212,6 +212,8 @@ class AgainClause:
     trailing: bool = False
     added: bool = False
     """They are added to what was spoken of."""
+    side_by_side: bool = False
+    """None of them, nor of those before, is to be on another one."""
     destinations: tuple[Destination, ...] = ()
     """Where the same things go next ("…, then on the tray"); there are no ``things`` then, and
     ``trailing`` tells where to of what was only to be taken away ("… on the tray will do").
@@ -250,6 +252,8 @@ class AvoidClause:
     """It need not be done, but may be."""
     as_it_is: bool = False
     """They are left as they are, with what is in and on them."""
+    over: bool = False
+    """They must not be knocked over, by what else is done or as they are moved themselves."""
     by: tuple[NounPhrase, ...] = ()
     """The door or drawer by which it must not happen, which moves as something else is done."""
 

@@ -1,0 +1,36 @@
+"""What "it" is that must not be knocked over while something is put somewhere."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.builtin.goal import Constraint, Keep, Put
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.placing import can_stand, reorient
+from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause, ReorientClause
+from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.world.spatial import Nearby
+
+
+def keep_it_standing(context: Context, clause: AvoidClause) -> bool:
+    """Whether this is about "it", be it what is put somewhere, which is to stand there then, or
+    what that goes next to, which nothing is to hit.
+
+    Raises:
+        AmbiguousReference: either may fall.
+    """
+    step = context.done[-1] if context.done else None
+    pronouns = clause.things is not None and all(np.pronoun for np in clause.things.phrases)
+    if not (clause.over and pronouns and isinstance(step, Put)) or clause.things is None:
+        return False
+    beside = {mark for place in step.places for near in place.beside for mark in near.landmarks}
+    fall = [index for index in beside if can_stand(context, index)]
+    moved = any(can_stand(context, index) for index in step.what)
+    if len(fall) == 1 and not moved:
+        names = (thing.name for thing in context.discourse.things(*fall))
+        context.constraints.append(Constraint(Keep.UNHIT, tuple(names)))
+        return True
+    if fall:
+        text = clause.things.phrases[0].text or "it"
+        referents = context.discourse.referents
+        raise AmbiguousReference(text, [referents[i].text for i in (*step.what, *fall)])
+    reorient(context, ReorientClause(clause.things, Nearby.UPRIGHT, meanwhile=True))
+    return True
