@@ -13,11 +13,13 @@ _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
 _WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
+_IN_THERE = r"(?:(?:in|on|inside) (?:there|it)|there|inside)"
 _NOTHING_ELSE = (
-    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand|end up"
-    r"|come|stay|remain|be left) (?:(?:in|on|inside) (?:there|it)|there|inside)"
-    r"|there (?:should|must|may|is to) be nothing else (?:(?:in|on|inside) (?:there|it)|there|inside)"
-    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else(?: (?:in|on) it)?)"
+    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
+    rf"|end up|come|stay|remain|be left) {_IN_THERE}"
+    rf"|there (?:should|must|may|is to) be nothing else {_IN_THERE}"
+    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
+    r"(?: (?:in|on) it)?)"
     r"(?=[.;!]|$)"
 )
 _KEPT = {"out of": "in", "off": "on"}
@@ -191,9 +193,11 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (
         rf"(^|[.;] )(?:what|the (?:thing|one)(?: that)?) {_WISHED} (?:to (?:be|go) )?"
-        rf"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is ({_SOME})(?=[.,;!]|$)",
+        r"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is "
+        rf"({_SOME})(?=[.,;!]|$)",
         r"\1\3 should be \2",
     ),
+    (rf"\bit is ({_SOME}) (?:that |which )?({_WISHED})(?=[.;!]|$)", r"\2 \1"),
     # Of two there are no more to be told.
     (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),
     # Which one it is not, said behind it

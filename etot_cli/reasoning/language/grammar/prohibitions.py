@@ -231,6 +231,27 @@ AVOID = either(
         one_of({Avoid.TOUCH: verbs.TOUCHED, Avoid.MOVE: verbs.DISTURBED, Avoid.HIT: verbs.WAS_HIT}),
         build=_none_disturbed,
     ),
+    sequence(
+        # "Neither the cup nor the can may be moved"
+        "neither",
+        sequence(separated(noun_phrase, sequence(OPTIONAL_COMMA, "nor")), build=_neither),
+        either(
+            sequence(
+                f"({verbs.MAY}) be [ever]",
+                one_of(
+                    {
+                        Avoid.TOUCH: verbs.TOUCHED,
+                        Avoid.MOVE: verbs.DISTURBED,
+                        Avoid.HIT: verbs.WAS_HIT,
+                        Avoid.OPEN: "opened",
+                        Avoid.CLOSE: "closed, shut",
+                    }
+                ),
+            ),
+            phrase(f"({verbs.MAY}) move", Avoid.MOVE),
+        ),
+        build=lambda things, avoid: AvoidClause(avoid, things, negated=True),
+    ),
     sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
     sequence(
         # "Move neither the cup nor the can", "touch neither cup"
