@@ -236,6 +236,7 @@ RELATIONS = """
 """
 WANT = """
     (i|we) [just|really|also] (want|need|prefer) [to (have|see)], need,
+    (i|we) (could|can) do with,
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
     i d like, (can|could|may|might) (i|we) (have|get), let (us|me) have,
     (would|is) it [be] possible to have,
