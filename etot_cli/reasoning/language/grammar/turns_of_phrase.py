@@ -207,6 +207,11 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     (rf"(^|[.;!] ){PEOPLE} (?:says?|said|thinks?|reckons?) (?:that )?(?={_TO_GO})", r"\1"),
     (r"\bin (its|their|his|her) stead\b", r"in \1 place"),
     (rf"\b(?:can|could|may|might) i (?:please )?trouble you for (?={NAMED})", "hand me "),
+    (
+        rf"\b(?:down|up|out) (from {NAMED} \w+(?: \w+)?) (?:and |then |and then )?"
+        r"(?=(?:into|onto) )",
+        r"\1 ",
+    ),
     # How a thing is by now
     (
         r"\b((?:that|which) (?:is|are)) (?:still|currently|now|right now|at the moment|at present) "

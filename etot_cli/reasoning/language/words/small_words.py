@@ -26,7 +26,8 @@ _HOLDING = """
     (approach|grasp|grip|gripper|grasping) (direction|pose|orientation|angle|side)
 """
 WITHOUT_MEANING = f"""
-    [pretty] please, kindly, ta, ~comma there is a (good|dear|clever) (boy|girl|lad|lass|chap|robot),
+    [pretty] please, kindly, ta, 
+    ~comma there is a ((good|dear|clever) (boy|girl|lad|lass|chap|robot)|dear|love|darling),
     [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though,
     again,
@@ -183,6 +184,7 @@ FRAMES = f"""
     i [would|must|have to|would like to] ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by, (i|we) [(really|just|still|also)] ought to, we [(really|just|still|also)] (need|have) to,
     we (had better|should|must), you are to, if i were you ~comma [i (would|d)],
+    would it be (all right|alright|ok|okay) [with you] to,
     would it be (too much|much) (trouble|bother|to ask) [for you] to, you could [(always|just)],
     [it is] [high] time [for you] to,
     (would|could) you be so (kind|good|nice) (as to|and|to), please you,
