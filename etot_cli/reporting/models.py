@@ -131,6 +131,8 @@ class KeepoutModel(Model):
     x: Metres
     y: Metres
     radius: Metres
+    soft: bool = False
+    """It may, where nothing else is free."""
 
 
 class ActionModel(Model):

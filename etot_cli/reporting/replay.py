@@ -32,6 +32,7 @@ class _Disc(Lenient):
     x: float
     y: float
     radius: float
+    soft: bool = False
 
 
 class _Node(Lenient):
@@ -85,7 +86,7 @@ def _restore(action: Action, node: _Node | None) -> Action:
     """Adds the details that the tree node of an action has on record."""
     if node is None or node.action != str(action):
         return action
-    discs = tuple(Keepout(disc.x, disc.y, disc.radius) for disc in node.keepout)
+    discs = tuple(Keepout(disc.x, disc.y, disc.radius, disc.soft) for disc in node.keepout)
     return replace(action, safe=node.safe, keepout=discs)
 
 

@@ -38,11 +38,15 @@ class GraspPose(StrEnum):
 
 @dataclass(frozen=True, slots=True, order=True)
 class Keepout:
-    """A disc of the desk plane that a safe place must not touch: centre x, y and radius [m]."""
+    """A disc of the desk plane that a safe place must not touch: centre x, y and radius [m].
+
+    ``soft``: it may where nothing else is free.
+    """
 
     x: float
     y: float
     radius: float
+    soft: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +62,8 @@ class Action:
             avoids, from the failed rollout; base frame.
         where: of a PUT ON, where on that surface; of a PUT, that it is to stand upright or to lie
             there. All of it must hold afterwards.
+        onward: of a PICK UP, the PUT for which the object is taken: so that it goes there as it is
+            held.
     """
 
     verb: Verb
@@ -66,10 +72,13 @@ class Action:
     safe: bool = False
     keepout: tuple[Keepout, ...] = ()
     where: tuple[Whereabouts, ...] = ()
+    onward: Action | None = None
 
     def __str__(self) -> str:
         text = f"[{self.verb.value}, {self.target}]"
         notes = [*([self.pose.value] if self.pose else []), *map(str, self.where)]
+        if self.onward is not None:
+            notes.append(f"to {self.onward.verb.value.lower()} {self.onward.target}")
         return f"{text} ({', '.join(notes)})" if notes else text
 
 
@@ -112,7 +121,16 @@ def parse_plan(text: str, targets: Iterable[str] | None = None) -> tuple[Action,
         position = match.end()
     if not actions:
         raise PlanSyntaxError("the plan is empty; expected e.g. [PICK UP, pen] [PUT INTO, holder]")
-    return tuple(actions)
+    return tuple(map(_with_what_follows, actions, [*actions[1:], None]))
+
+
+def _with_what_follows(action: Action, following: Action | None) -> Action:
+    """A PICK UP for a PUT that follows is for all that is said of that."""
+    onward = action.onward
+    if onward is None or following is None:
+        return action
+    same = (following.verb, following.target) == (onward.verb, onward.target)
+    return replace(action, onward=following) if same else action
 
 
 def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
@@ -132,6 +150,7 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
         )
     pose: GraspPose | None = None
     safe = False
+    onward: Action | None = None
     where: list[Whereabouts] = []
     for note in (match["note"] or "").split(","):
         plain = " ".join(note.split())
@@ -141,6 +160,9 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             pose = GraspPose.VERTICAL
         elif plain.lower() == "safe place":
             safe = True
+        elif verb is Verb.PICK_UP and (next_put := _ONWARD.fullmatch(plain)) is not None:
+            onward = Action(Verb(f"PUT {next_put[1].upper()}"), next_put[2])
+            _check_target(onward.target, allowed, f"[{verb.value}, {target}] ({plain})")
         elif plain:
             place = read_whereabouts(plain)
             if place is None or not _says_where(verb, place):
@@ -152,7 +174,7 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
                 )
             _check_landmarks(place, allowed, f"[{verb.value}, {target}] ({plain})")
             where.append(place)
-    return Action(verb, target, pose, safe, where=tuple(where))
+    return Action(verb, target, pose, safe, where=tuple(where), onward=onward)
 
 
 def _says_where(verb: Verb, place: Whereabouts) -> bool:
@@ -162,6 +184,7 @@ def _says_where(verb: Verb, place: Whereabouts) -> bool:
 
 
 _NAME = r"[A-Za-z]\w*(?:\.\w+)?"
+_ONWARD = re.compile(rf"(?i:to put (on|into)) ({_NAME})")
 _POINT = re.compile(r"at (-?\d+(?:\.\d+)?) (-?\d+(?:\.\d+)?)")
 
 
@@ -193,10 +216,14 @@ def read_whereabouts(text: str) -> Whereabouts | None:
 
 def _check_landmarks(place: Whereabouts, allowed: set[str] | None, written: str) -> None:
     for name in place.landmarks:
-        if allowed is not None and name not in allowed:
-            raise PlanSyntaxError(
-                f"{written}: the scene has no {name!r}; it has {', '.join(sorted(allowed))}"
-            )
+        _check_target(name, allowed, written)
+
+
+def _check_target(name: str, allowed: set[str] | None, written: str) -> None:
+    if allowed is not None and name not in allowed:
+        raise PlanSyntaxError(
+            f"{written}: the scene has no {name!r}; it has {', '.join(sorted(allowed))}"
+        )
 
 
 def format_plan(actions: Iterable[Action]) -> str:

@@ -69,9 +69,9 @@ class Belief:
         self.data, self.rng, self.scene = data, rng, scene
         self._twin = twin
 
-    def in_state(self, data: mujoco.MjData) -> Belief:
-        """The same twin in another state."""
-        return Belief(self._twin, data, self.rng, self.scene)
+    def in_state(self, data: mujoco.MjData, scene: SceneState | None = None) -> Belief:
+        """The same twin in another state, which relations see as ``scene`` where that differs."""
+        return Belief(self._twin, data, self.rng, self.scene if scene is None else scene)
 
     @property
     def joints(self) -> Vector:

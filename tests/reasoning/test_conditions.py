@@ -66,8 +66,8 @@ ON_DRAWER = "[PICK UP, apple] [PUT ON, drawer]"
                 {"inside": ["apple", "drawer"]},
             ],
             [
-                "[OPEN, drawer] [PICK UP, holder] [PUT INTO, drawer] [CLOSE, drawer]"
-                " [OPEN, drawer] [PICK UP, apple] [PUT INTO, holder] [CLOSE, drawer]"
+                "[OPEN, drawer] [PICK UP, holder] [PUT INTO, drawer] "
+                "[PICK UP, apple] [PUT INTO, holder] [CLOSE, drawer]"
             ],
         ),
     ],
@@ -120,6 +120,76 @@ def test_what_is_not_to_be_there_goes_elsewhere(
         scenes.ball("nut", (0.4, 0.4)),
     )
     assert plans(state, condition) == wanted
+
+
+@pytest.mark.parametrize("keys", [("left_of", "right_of"), ("in_front_of", "behind")])
+def test_an_order_that_is_a_circle_is_refused_as_one(keys: tuple[str, str]) -> None:
+    key, turned = keys
+    state = scenes.scene(*(scenes.ball(name, (0.4, 0.2 * i)) for i, name in enumerate("abcd")))
+    ahead = [{key: ["a", "b"]}, {turned: ["c", "b"]}]
+    for closing in ({key: ["c", "a"]}, {turned: ["a", "c"]}):
+        with pytest.raises(UnsatisfiableError, match=r"circle: a .* b, b .* c, c .* a$"):
+            plans(state, {key: ["d", "a"]}, *ahead, closing)
+    # One that only meets again is none, nor is one that is denied.
+    assert plans(state, *ahead, {key: ["a", "c"]})
+    assert plans(state, *ahead, {"not": {key: ["c", "a"]}})
+
+
+@pytest.mark.parametrize(
+    ("key", "side", "other"), [("left_of", "left", "right"), ("right_of", "right", "left")]
+)
+def test_what_comes_beside_what_stands_there_comes_to_its_right_side(
+    key: str, side: str, other: str
+) -> None:
+    state = scenes.scene(
+        scenes.item("tray", at=(0.5, 0.0), size=(0.2, 0.4, 0.01)),
+        scenes.cup("jar", (0.5, 0.0), on="tray"),
+        scenes.cup("tin", (0.3, 0.3)), scenes.cup("pot", (0.3, -0.3)),
+    )  # fmt: skip
+    on = [{"on": [name, "tray"]} for name in ("tin", "jar", "pot")]
+    stays, moved = plans(state, *on, {key: ["tin", "jar"]}, {key: ["jar", "pot"]})
+    tin, pot = (f"[PICK UP, {name}] [PUT ON, tray]" for name in ("tin", "pot"))
+    assert stays == f"{tin} ({side} of jar) {pot} ({other} of jar)"
+    assert f"[PICK UP, jar] [PUT ON, tray] ({side} of pot)" in moved
+    # At a very point there is no choice.
+    at = {"at": ["pot", [0.5, -0.1]]}
+    (first, *_) = plans(state, on[2], at, {key: ["jar", "pot"]})
+    assert f"{other} of jar" not in first
+
+
+@pytest.mark.parametrize("between", [None, "on", "inside"])
+def test_a_part_is_closed_once_after_the_last_that_goes_into_it(between: str | None) -> None:
+    state = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 0.0}),
+        scenes.cabinet("shelf", (0.5, 0.4), 0.0),
+        scenes.ball("nut", (0.3, -0.3)), scenes.ball("egg", (0.3, 0.3)),
+        scenes.ball("pea", (0.3, 0.0)),
+    )  # fmt: skip
+    nut, egg = ({"inside": [name, "chest"]} for name in ("nut", "egg"))
+    goals: list[dict[str, Any]] = [nut, *([{between: ["pea", "shelf"]}] if between else []), egg]
+    (plan,) = plans(state, *goals, {"closed": "chest"})
+    assert (plan,) == tuple(plans(state, *goals))
+    # Another part may be where that which stands open is, or be covered by it.
+    assert plan.count("[OPEN, chest]") == plan.count("[CLOSE, chest]") == 1 + (between == "inside")
+    assert plan.endswith("[CLOSE, chest]")
+
+
+def test_a_part_is_closed_after_the_last_that_is_taken_out_where_something_went_in() -> None:
+    state = scenes.scene(
+        scenes.cabinet("shelf", (0.5, 0.4), 0.0),
+        scenes.ball("nut", (0.3, -0.3)), scenes.ball("egg", (0.5, 0.4), inside="shelf", on="shelf"),
+    )  # fmt: skip
+    goals = {"inside": ["nut", "shelf"]}, {"on": ["egg", "desk"]}
+    (plan,) = plans(state, *goals)
+    assert plan == (
+        "[OPEN, shelf] [PICK UP, nut] [PUT INTO, shelf] [PICK UP, egg] [PUT ON, desk] "
+        "[CLOSE, shelf]"
+    )
+    # What is to be in the hand is taken before, and a part that is to be open stays so.
+    (held,) = plans(state, goals[0], {"in_hand": "egg"})
+    assert held.endswith("[PICK UP, egg]") and held.count("[CLOSE, shelf]") == 1
+    (left,) = plans(state, *goals, {"open": "shelf"})
+    assert left == plan.removesuffix(" [CLOSE, shelf]")
 
 
 def test_what_stands_is_laid_down_and_what_lies_is_left() -> None:

@@ -133,10 +133,10 @@ SIDED = [
     if re.search(r"(?i)\b(left|right|leftmost|rightmost)\b", text)
     and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
     and not re.search(
-        r"(?i)right (next|away|behind|then|above|below)|^right,|"
-        r"(is|be|been|were|someone|i|thing) left\b"
+        r"(?i)right (next|away|behind|then|above|below|way up)|^right,|"
+        r"(is|be|been|were|someone|somebody|has|i|thing) left\b"
         r"|left (open|closed|shut|untouched|alone|where|standing|lying|sitting)"
-        r"|\bwant .* left (in|on) ",
+        r"|\bwant .* left (in|on) |\byour (left|right) of",  # the robot's, whoever looks
         text,
     )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)

@@ -145,7 +145,9 @@ def test_what_comes_from_a_drawer_in_a_doors_way_is_taken_out_before() -> None:
     )
     step = failed(start, plan, 3, cause(CauseKind.BLOCKED, "chest", "locker"), before)
     out = "[OPEN, chest] [PICK UP, tin] [PUT ON, desk] [CLOSE, chest]"
-    assert revision(step) == f"{out} [PICK UP, tin] [PUT INTO, locker] [CLOSE, locker]"
+    filled = "[PICK UP, tin] [PUT INTO, locker]"
+    first = f"[OPEN, chest] {filled} [CLOSE, chest] [CLOSE, locker]"
+    assert revisions(step) == [first, f"{out} {filled} [CLOSE, locker]"]
 
 
 def test_what_blocks_a_cycle_from_the_start_is_taken_out_before_the_close() -> None:
@@ -224,7 +226,7 @@ def test_the_order_changes_where_an_earlier_step_is_in_the_way() -> None:
     )
 
 
-def test_a_drawer_is_opened_again_where_the_new_order_shuts_away_the_vessel() -> None:
+def test_a_drawer_stays_open_where_the_new_order_would_shut_away_the_vessel() -> None:
     start = scenes.apple_and_holder()
     before = changed(
         start, apple={"inside": "holder", "on": ("holder",)}, drawer={"openness": {"top": 1.0}}
@@ -235,8 +237,8 @@ def test_a_drawer_is_opened_again_where_the_new_order_shuts_away_the_vessel() ->
     )
     step = failed(start, plan, 3, cause(CauseKind.NO_GRASP, "apple", "holder"), before)
     assert revision(step) == (
-        "[OPEN, drawer] [PICK UP, holder] [PUT INTO, drawer] [CLOSE, drawer] "
-        "[OPEN, drawer] [PICK UP, apple] [PUT INTO, holder] [CLOSE, drawer]"
+        "[OPEN, drawer] [PICK UP, holder] [PUT INTO, drawer] "
+        "[PICK UP, apple] [PUT INTO, holder] [CLOSE, drawer]"
     )
 
 
@@ -488,6 +490,25 @@ def test_what_may_be_anywhere_on_the_desk_stays_at_its_safe_place(
     assert format_plan(revised.actions) == (
         f"[PICK UP, thing] [PUT ON, desk] ({stance.split()[0]}) [CLOSE, cupboard]"
     )
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_a_vessel_goes_back_to_what_bore_it_unless_that_went_elsewhere(moved: bool) -> None:
+    start = scenes.scene(
+        scenes.item("box", at=(0.4, 0.1)),
+        scenes.cup("mug", (0.4, 0.1), on="box", z=0.25), scenes.ball("nut", (0.4, 0.1), on="desk"),
+        scenes.item("mat", at=(0.4, -0.3)),
+    )  # fmt: skip
+    reasoner = BuiltinReasoner()
+    text = "Put the nut into the mug." + moved * " Put the box on the mat."
+    (branch,) = reasoner.propose(Assignment(text), start)
+    rollout = record(start, effect=False, cause=cause(CauseKind.NO_GRASP, "mug"))
+    verdict = reasoner.judge(branch.actions[0], rollout)
+    revised = first_revision(reasoner, FailedStep(branch, 0, rollout, verdict, start))
+    assert revised is not None
+    plan = format_plan(revised.actions)
+    assert plan.startswith("[PICK UP, mug] [PUT ON, desk]")
+    assert plan.endswith("[PICK UP, mug] [PUT ON, box]") is not moved
 
 
 def test_what_comes_back_into_a_drawer_does_so_before_that_is_closed() -> None:
@@ -765,6 +786,74 @@ def test_a_drawer_opened_before_a_door_is_closed_until_it_is_needed() -> None:
     late = f"[OPEN, cupboard] {egg} [CLOSE, cupboard] [OPEN, chest] {nut} [CLOSE, chest]"
     soon = f"[OPEN, cupboard] [OPEN, chest] {egg} [CLOSE, cupboard] {nut} [CLOSE, chest]"
     assert revisions(step) == [late, soon]
+
+
+def test_what_went_in_before_hinders_though_only_the_walls_are_named() -> None:
+    start = scenes.scene(
+        scenes.cup("pot", (0.4, 0.2)), scenes.ball("nut", (0.4, 0.2), inside="pot", on="pot"),
+        scenes.ball("egg", (0.4, -0.2)), scenes.ball("pea", (0.4, -0.4)),
+    )  # fmt: skip
+    within = {"inside": "pot", "on": ("pot",)}
+    egg, pea = (f"[PICK UP, {name}] [PUT INTO, pot]" for name in ("egg", "pea"))
+    nut = "[PICK UP, nut] [PUT ON, desk]"
+    before = changed(start, egg=within, pea=within)
+    step = failed(start, f"{egg} {pea} {nut}", 4, cause(CauseKind.NO_GRASP, "pot"), before)
+    assert revision(step) == f"{nut} {egg} {pea}"
+    # Nothing came in since: what was there from the start is not to blame for that.
+    alone = failed(start, nut, 0, cause(CauseKind.NO_GRASP, "pot"))
+    assert revision(alone) is None
+
+
+def test_what_cannot_be_taken_up_again_where_it_was_set_down_goes_further_off() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, -0.2), {"upper": 1.0}), scenes.ball("nut", (0.4, 0.2))
+    )
+    before = changed(start, nut={"position": (0.3, -0.2, 0.165)})
+    plan = "[PICK UP, nut] [PUT ON, desk] (safe place) [PICK UP, nut] (horizontal) [PUT ON, chest]"
+    step = failed(start, plan, 2, cause(CauseKind.NO_GRASP, "chest"), before)
+    (found,) = [one for one in BuiltinReasoner().reflect(step) if "further off" in one.reason]
+    assert format_plan(found.actions) == format_plan(parse_plan(plan))
+    assert any((disc.x, disc.y) == (0.3, -0.2) for disc in found.actions[1].keepout)
+
+
+def test_what_changes_places_between_closed_doors_leaves_both_closed() -> None:
+    left, right = (scenes.cabinet(f"{n}_cab", (0.5, y), 0.0) for n, y in (("l", 0.3), ("r", -0.3)))
+    start = scenes.scene(
+        left, right,
+        scenes.ball("nut", (0.5, 0.3), inside="l_cab", on="l_cab"),
+        scenes.ball("egg", (0.5, -0.3), inside="r_cab", on="r_cab"),
+    )  # fmt: skip
+    nut, egg = "[PICK UP, nut] [PUT INTO, r_cab]", "[PICK UP, egg] [PUT INTO, l_cab]"
+    plan = f"[OPEN, r_cab] [OPEN, l_cab] {nut} {egg} [CLOSE, l_cab] [CLOSE, r_cab]"
+    before = changed(
+        start, nut={"inside": "r_cab", "on": ("r_cab",)},
+        l_cab={"openness": {"door": 1.0}}, r_cab={"openness": {"door": 1.0}},
+    )  # fmt: skip
+    step = failed(start, plan, 4, cause(CauseKind.NO_GRASP, "r_cab", "nut"), before)
+    swapped, waiting = revisions(step)[:2]
+    assert swapped.index(egg) < swapped.index(nut)
+    assert waiting.index(RELOCATE.format("nut")) < waiting.index(egg) < waiting.index(nut)
+    for found in (swapped, waiting):
+        for name in ("l_cab", "r_cab"):
+            assert found.count(f"[OPEN, {name}]") == found.count(f"[CLOSE, {name}]")
+
+
+def test_what_may_stand_elsewhere_in_its_place_leaves_the_very_point_free() -> None:
+    start = scenes.scene(scenes.cup("vase", (0.4, -0.3)), scenes.item("book", at=(0.4, 0.3)))
+    before = held(changed(start, vase={"position": (0.41, 0.02, 0.17)}), "book")
+    plan = (
+        "[PICK UP, vase] [PUT ON, desk] (at centre) [PICK UP, book] [PUT ON, desk] (at 0.350 0.050)"
+    )
+    (found, *_) = BuiltinReasoner().reflect(
+        failed(start, plan, 3, cause(CauseKind.NO_ROOM, "vase"), before)
+    )
+    assert format_plan(found.actions) == plan
+    (disc,) = found.actions[1].keepout
+    assert (disc.x, disc.y, disc.radius) == (0.35, 0.05, 0.03)
+    # Of two exact places neither gives way.
+    exact = plan.replace("at centre", "at 0.400 0.000")
+    step = failed(start, exact, 3, cause(CauseKind.NO_ROOM, "vase"), before)
+    assert revision(step) is None
 
 
 def test_of_two_that_change_places_one_waits_elsewhere() -> None:

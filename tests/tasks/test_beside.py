@@ -56,6 +56,32 @@ def test_the_vase_is_moved_where_it_does_not_stand_right(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("key", ["left_of", "right_of"])
+def test_a_row_is_built_around_what_stands_in_its_middle(
+    key: str, seed: int, tmp_path: Path
+) -> None:
+    """On the tray there is room on both sides of the vase and for no more, so it has to stay."""
+    tray = {"kind": "box", "at": [0.55, 0.0], "size": [0.16, 0.38, 0.012], "mass": 0.8}
+    objects = {
+        "tray": tray,
+        "vase": VASE | {"on": "tray", "at": [0.55, 0.0]},
+        "wine": VASE | {"at": [0.34, 0.27]},
+        "oil": VASE | {"at": [0.34, -0.27]},
+    }
+    goal = [{"on": [name, "tray"]} for name in ("wine", "vase", "oil")]
+    goal += [{key: ["wine", "vase"]}, {key: ["vase", "oil"]}]
+    task = {
+        "name": "row", "scene": {"objects": objects, "variation": NOISE}, "goal": goal,
+        "success": goal,
+    }  # fmt: skip
+    options = PlanOptions(task=write(task, tmp_path), jobs=1, seed=seed, vary=True)
+    report = plan_task(options).report
+    assert report.status == SearchStatus.FEASIBLE.value
+    assert len(report.plan) == 4
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("at", "count"), [(RIGHT, 2), (WRONG, 4)])
 def test_the_robot_moves_it_where_it_does_not_stand_right(
     at: list[float], count: int, tmp_path: Path

@@ -132,3 +132,85 @@ def test_a_small_ball_leaves_room_for_a_large_one(seed: int, tmp_path: Path) -> 
     }
     goal = [{"on": ["small", "plate"]}, {"on": ["large", "plate"]}]
     planned("two_balls", goal, {"plate": plate, **balls}, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_several_things_share_one_opening(seed: int, tmp_path: Path) -> None:
+    rng = random.Random(seed)
+    block = {"kind": "box", "size": [0.04, 0.05, 0.04], "mass": 0.06}
+    places = ([0.32, rng.uniform(-0.30, -0.25)], [0.42, rng.uniform(-0.2, -0.15)])
+    blocks = {f"block_{i}": block | {"at": at} for i, at in enumerate(places)}
+    goal = [*({"inside": [name, "chest"]} for name in blocks), {"closed": "chest"}]
+    objects = {"chest": chest(rng.uniform(0.25, 0.27)), **blocks}
+    report = planned("one_opening", goal, objects, tmp_path)
+    assert (report.plan[0], report.plan[-1]) == ("[OPEN, chest]", "[CLOSE, chest]")
+    assert len(report.plan) == 6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("seed", range(2))
+def test_what_would_be_covered_comes_out_first(seed: int, swapped: bool, tmp_path: Path) -> None:
+    """Beside the other ball the fingers have no room in a cup of twice its width."""
+    rng = random.Random(seed)
+    y, wide = rng.uniform(0.18, 0.22), rng.uniform(0.088, 0.091)
+    cup = {"kind": "cup", "diameter": wide, "height": 0.06, "mass": 0.2}
+    ball = {"kind": "sphere", "diameter": wide / 2, "mass": 0.03}
+    objects = {
+        "left": cup | {"at": [0.42, y]}, "right": cup | {"at": [0.42, -y]},
+        "nut": ball | {"inside": "left"}, "egg": ball | {"inside": "right"},
+    }  # fmt: skip
+    away = {"inside": ["egg", "left"]} if swapped else {"on": ["egg", "desk"]}
+    goal = [{"inside": ["nut", "right"]}, away]
+    report = planned("covered", goal, objects, tmp_path)
+    assert len(report.plan) == (6 if swapped else 4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+def test_cabinets_change_their_contents(seed: int, tmp_path: Path) -> None:
+    """Neither has room for both, and both are closed at the start."""
+    rng = random.Random(seed)
+    y = rng.uniform(0.255, 0.27)
+    cabinet = {"kind": "cabinet", "yaw_deg": 180, "size": [0.18, 0.20, 0.24], "mass": 5}
+    objects = {
+        name: cabinet | {"at": [0.58, side * y], "door": {"hinge": hinge, "handle": {}}}
+        for name, side, hinge in (("left", 1, "right"), ("right", -1, "left"))
+    }
+    can = {"kind": "cylinder", "mass": 0.2, "diameter": rng.uniform(0.048, 0.058)}
+    objects |= {"flask": can | {"inside": "left", "height": 0.12}}
+    objects |= {"jar": can | {"inside": "right", "height": 0.09}}
+    goal = [{"inside": ["flask", "right"]}, {"inside": ["jar", "left"]}]
+    goal += [{"closed": "left"}, {"closed": "right"}]
+    planned("two_cabinets", goal, objects, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_what_may_stand_elsewhere_leaves_the_very_point(seed: int, tmp_path: Path) -> None:
+    rng = random.Random(seed)
+    x, y = rng.uniform(0.34, 0.36), rng.uniform(-0.21, -0.20)
+    objects = {
+        "vase": {"kind": "cylinder", "at": [x, y], "diameter": 0.07, "height": 0.14, "mass": 0.3},
+        "book": {"kind": "box", "at": [0.36, 0.27], "size": [0.12, 0.075, 0.03], "mass": 0.25},
+    }
+    goal = [{"at": ["vase", "centre"]}, {"at": ["book", [x, y]]}]
+    report = planned("very_point", goal, objects, tmp_path)
+    assert len(report.plan) == 4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+def test_a_vessel_stays_where_it_was_filled(seed: int, tmp_path: Path) -> None:
+    """Its support went elsewhere, and nobody wants it on that."""
+    rng = random.Random(seed)
+    at = [0.42, rng.uniform(0.10, 0.14)]
+    objects = {
+        "key": {"kind": "box", "at": at, "size": [0.06, 0.03, 0.03], "mass": 0.05},
+        "box": {"kind": "box", "on": "key", "at": at, "size": [0.08, 0.078, 0.03], "mass": 0.12},
+        "mug": {"kind": "cup", "on": "box", "at": at, "diameter": 0.1, "height": 0.07, "mass": 0.2},
+    }  # fmt: skip
+    goal = [{"inside": ["key", "mug"]}, {"on": ["box", "desk"]}]
+    report = planned("two_layers", goal, objects, tmp_path)
+    assert len(report.plan) == 6

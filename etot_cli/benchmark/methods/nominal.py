@@ -115,7 +115,9 @@ def _place(scene: SceneState, name: str, action: Action) -> tuple[float, float]:
         if not _said(scene, name, action, (x, y)):
             continue
         chosen = chosen or (x, y)
-        free = all(math.dist((x, y), (d.x, d.y)) >= d.radius + own for d in action.keepout) and all(
+        free = all(
+            math.dist((x, y), (d.x, d.y)) >= d.radius + own for d in action.keepout if not d.soft
+        ) and all(
             math.dist((x, y), state.position[:2]) >= radius(scene.infos[other]) + own
             for other, state in scene.states.items()
             if other not in riders and other != owner_of(action.target)

@@ -27,6 +27,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     in_final_order,
 )
+from etot_cli.reasoning.builtin.openings import closed_by_others, shared
 from etot_cli.reasoning.builtin.ordering import Placement, supports_first
 from etot_cli.reasoning.builtin.resuming import Course, what_is_left
 from etot_cli.reasoning.builtin.rules import check_plan
@@ -164,6 +165,7 @@ def _branch(
     behind = course.behind(steps, choice)
     lasting = {put.name: place for place, row in choice.placements.items() for put in row}
     to_shut: dict[str, PartInfo] = {}
+    closed_in_words: list[tuple[str, int]] = []
     for index, (step, pose) in enumerate(zip(steps, poses, strict=True)):
         if isinstance(step, Pick):
             _shut(sketch, to_shut, in_hand)
@@ -201,12 +203,21 @@ def _branch(
             for part in choice.parts(step, scene):
                 if (index, part.address) not in behind:
                     sketch.close(part, in_hand)
+                    closed_in_words.append((part.address, len(sketch.actions)))
                     words.append(f"close {part.address}")
     _shut(sketch, to_shut, in_hand)
     if not in_hand and course.fetched(scene.holding):
         sketch.put_down()
+    filled = {
+        put.target
+        for place, row in choice.placements.items()
+        for put in row
+        if put.relation is Relation.INSIDE and lasting[put.name] == place
+    }
+    actions = shared(sketch.actions, filled, closed_in_words)
+    kept_open.update(closed_by_others(actions, scene))
     reason = ", ".join(dict.fromkeys(words))
-    return Branch(tuple(sketch.actions), reason), frozenset(kept_open)
+    return Branch(actions, reason), frozenset(kept_open)
 
 
 def _bring_back(

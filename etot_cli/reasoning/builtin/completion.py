@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.choices import address_of
 from etot_cli.reasoning.builtin.goal import Goal, Near, Open, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.openings import closed_by_others
 from etot_cli.reasoning.builtin.relations import container_address, is_open
 from etot_cli.reasoning.builtin.revision import Actions, purpose
 from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
@@ -60,7 +61,7 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
     actions = tuple(sketch.actions)
     if shut_too_early and actions[-1] != last:
         actions = (*actions, last)
-    opened = left_open(failed.branch.actions, start)
+    opened = (*left_open(failed.branch.actions, start), *closed_by_others(actions, start))
     if actions == revised.actions or check_plan(actions, start, opened):
         return revised
     return replace(revised, actions=actions)
@@ -113,7 +114,12 @@ def _filled_elsewhere(name: str, actions: Sequence[Action], start: SceneState) -
         return []  # what is put into it is what it stood on
     if state.inside is not None:
         return [(Relation.INSIDE, container_address(start, state.inside) or state.inside, ())]
-    return [(Relation.ON, address, ()) for address in state.on[:1] if address != DESK]
+    return [
+        (Relation.ON, address, ())
+        for address in state.on[:1]
+        # What bore it and is elsewhere now takes its place along.
+        if address != DESK and not Sketch(start, actions).is_moved(owner_of(address))
+    ]
 
 
 def _wanted_from_start(name: str, goals: Iterable[Goal], start: SceneState) -> list[_Home]:

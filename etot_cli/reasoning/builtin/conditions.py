@@ -9,6 +9,7 @@ from itertools import chain, islice, product
 
 from etot_cli.errors import InstructionError, UnsatisfiableError
 from etot_cli.reasoning.builtin.branching import MAX_ALTERNATIVES
+from etot_cli.reasoning.builtin.circles import circle
 from etot_cli.reasoning.builtin.drafts import BESIDE, STANCES, Atom, Draft, contradiction
 from etot_cli.reasoning.builtin.goal import (
     Goal,
@@ -16,22 +17,13 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.builtin.surfaces import CONVERSE
 from etot_cli.specs.task import BESIDE_KEYS, Condition
-from etot_cli.world.spatial import Nearby, Whereabouts, whereabouts
+from etot_cli.world.spatial import Whereabouts, whereabouts
 from etot_cli.world.state import DESK, SceneState, owner_of
 
 _LAST = {BESIDE: 1, **dict.fromkeys(STANCES, 2)}
 """Conditions on how something stands come after those on where."""
-_CONVERSE = {
-    Nearby.LEFT: Nearby.RIGHT,
-    Nearby.RIGHT: Nearby.LEFT,
-    Nearby.FRONT: Nearby.BEHIND,
-    Nearby.BEHIND: Nearby.FRONT,
-    Nearby.NEXT_TO: Nearby.NEXT_TO,
-    Nearby.NEAR: Nearby.NEAR,
-    Nearby.AWAY: Nearby.AWAY,
-}
-"""What holds of a landmark and a thing where the key holds of the thing and the landmark."""
 
 
 def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, ...]:
@@ -80,7 +72,8 @@ def _without_implied(atoms: Sequence[Atom], scene: SceneState) -> list[Atom]:
     stands on a plate in a cupboard is in the cupboard, and not on the desk.
 
     Raises:
-        UnsatisfiableError: one object is to be at two places, in two ways, or on or in itself.
+        UnsatisfiableError: one object is to be at two places, in two ways, or on or in itself, or
+            an order is a circle.
     """
     wanted = [atom for atom in atoms if atom.key in ("on", "inside") and not atom.denied]
     places = {a.names[0]: [b for b in wanted if b.names[0] == a.names[0]] for a in wanted}
@@ -91,6 +84,9 @@ def _without_implied(atoms: Sequence[Atom], scene: SceneState) -> list[Atom]:
             raise contradiction(atom.names[0], "it cannot both stand and lie")
         if atom.key == "lying" and Atom("in_hand", atom.names) in atoms:
             raise contradiction(atom.names[0], "what is held does not lie anywhere")
+    beside = [(atom.names[0], atom.where) for atom in atoms if atom.where is not None]
+    if order := circle(beside):
+        raise contradiction(order.partition(" ")[0], f"the order is a circle: {order}")
     for name in places:
         # What bears it now and goes nowhere itself is freed of it before.
         if name in map(owner_of, _around(name, places)):
@@ -187,8 +183,8 @@ def _beside(
     where = replace(where, denied=denied)
     found = [Atom(BESIDE, (name,), where=where)]
     info = scene.infos.get(name)
-    if where.relation in _CONVERSE and info is not None and not info.movable:
-        turned = replace(where, relation=_CONVERSE[where.relation], landmarks=(name,))
+    if where.relation in CONVERSE and info is not None and not info.movable:
+        turned = replace(where, relation=CONVERSE[where.relation], landmarks=(name,))
         found.append(Atom(BESIDE, where.landmarks, where=turned))
     return [(atom,) for atom in found]
 

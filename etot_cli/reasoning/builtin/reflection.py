@@ -12,7 +12,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.fetching import fetched_first
-from etot_cli.reasoning.builtin.regrasping import grasped_anew, regrasped
+from etot_cli.reasoning.builtin.keepouts import kept_away
+from etot_cli.reasoning.builtin.openings import closed_alike, closed_by_others, reopened_at_once
+from etot_cli.reasoning.builtin.regrasping import grasped_anew, grasped_for, regrasped
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
     carriers,
@@ -32,6 +34,7 @@ from etot_cli.reasoning.builtin.relocation import (
     other_places,
     relocated,
     set_aside,
+    set_down_elsewhere,
     shut_meanwhile,
     without_reopening,
 )
@@ -47,10 +50,11 @@ from etot_cli.reasoning.builtin.revision import (
     purpose,
     reachable_throughout,
     relocations,
+    taken_at_once,
     without_idle,
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
-from etot_cli.reasoning.builtin.sharing import lowered, side_by_side
+from etot_cli.reasoning.builtin.sharing import come_since, lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import (
@@ -86,13 +90,16 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
     if case.action.verb is Verb.OPEN:
         opened = (*opened, case.action.target)
     seen = {case.actions}
-    for found, change in case.corrections():
-        actions = without_idle(found, failed.start)
-        if actions in seen:
-            continue
-        seen.add(actions)
-        if case.serves(actions, aim) and not check_plan(actions, failed.start, opened):
-            yield Branch(actions, f"{change}, because {cause.text}")
+    for found, change, anew in case.corrections():
+        alike = closed_alike(found, case.actions)
+        whole = without_idle(alike, failed.start, reopened_at_once(case.actions))
+        for actions in (*([] if anew else taken_at_once(whole, case.actions)), whole):
+            if actions in seen:
+                continue
+            seen.add(actions)
+            may_stay = (*opened, *closed_by_others(actions, failed.start))
+            if case.serves(actions, aim) and not check_plan(actions, failed.start, may_stay):
+                yield Branch(actions, f"{change}, because {cause.text}")
 
 
 class _Case:
@@ -183,6 +190,10 @@ class _Case:
         if put is None or put.safe or pick not in own or self.index in own:
             return
         actions = moved_before(self.actions, own, failing.start)
+        at = failing.start + pick + 1 - own.start
+        discs = {*put.keepout, *kept_away(actions[at + 1 :], put, self.scene)}
+        there = replace(put, keepout=tuple(sorted(discs)))
+        actions = (*actions[:at], there, *actions[at + 1 :])
         yield Correction(
             reachable_throughout(actions, self.start),
             f"{name} is put where it belongs before it is in the way",
@@ -264,7 +275,10 @@ class _Case:
             placed = placed_by(self.actions, name, self.index)
             if placed is not None and name not in self.cause.objects:
                 yield from self._earlier(placed, name)
+        for name, placed in come_since(self.failed):
+            yield from self._earlier(placed, name)
         yield from regrasped(self.failed, self.index, self.cause.kind)
+        yield from set_down_elsewhere(self.failed, self.action.target)
 
     def _taken_before_opening(self, owner: str) -> Iterator[Correction]:
         """The picked object is taken to a safe place before what now covers it was opened."""
@@ -349,6 +363,8 @@ class _Case:
         if pick is not None:
             yield from regrasped(self.failed, pick, self.cause.kind)
         yield from grasped_anew(self.failed, pick, self.cause.kind)
+        if not self._culprits() or self._is_furniture_alone():
+            yield from grasped_for(self.failed, pick, self.cause)
 
     def _is_furniture_alone(self) -> bool:
         """Whether only what cannot be moved is in the way."""

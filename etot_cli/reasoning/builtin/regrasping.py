@@ -13,13 +13,15 @@ from etot_cli.skills.action import PUTS, Action, GraspPose, Verb
 from etot_cli.specs.footprint import rotated
 from etot_cli.world.spatial import Nearby, Whereabouts
 from etot_cli.world.stance import can_lie, has_top
-from etot_cli.world.state import CauseKind, owner_of
+from etot_cli.world.state import Cause, CauseKind, owner_of
 
 _NO_ROOM_ABOVE = frozenset(
     {CauseKind.NO_ROOM, CauseKind.NO_GRASP, CauseKind.UNREACHABLE,
      CauseKind.BLOCKED, CauseKind.COLLISION}
 )  # fmt: skip
 """Causes that a roof above the place may be behind: no room for the hand, or hardly any."""
+_AS_HELD = frozenset({CauseKind.NO_ROOM, CauseKind.UNREACHABLE})
+"""Causes of a failed put that lie in how the object is held, where no other object is to blame."""
 _STANDS = 0.5
 """A rod stands in the hand rather than lies while it rises by more than this (sine; 30°)."""
 
@@ -65,13 +67,42 @@ def grasped_anew(failed: FailedStep, pick: int | None, cause: CauseKind) -> Iter
     _, down = set_aside(failed, name)
     for pose, how in ways:
         anew = inserted(actions, taken, (down, replace(grasp, pose=pose)))
-        yield Correction(anew, f"{name} is set down and grasped {how}")
+        yield Correction(anew, f"{name} is set down and grasped {how}", anew=True)
     level = grasp.pose is GraspPose.HORIZONTAL
     if level and _is_roofed(failed) and _may_lie(failed, name):
         # The hand that lays it down is above it; the one that takes it as it lies goes in level.
         laid = replace(down, where=(Whereabouts(Nearby.LYING),))
         anew = inserted(actions, taken, (laid, grasp))
-        yield Correction(anew, f"{name} is laid down and grasped as it lies")
+        yield Correction(anew, f"{name} is laid down and grasped as it lies", anew=True)
+
+
+def grasped_for(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[Correction]:
+    """What does not go to its place as it is held is grasped so that it does: where it was, or,
+    where no such grasp is to be had there, after it has been set down.
+
+    Args:
+        failed: the failed put.
+        pick: place in the branch of the action that grasped the object; None where it was in the
+            hand from the start.
+        cause: of the failure.
+    """
+    actions, name = failed.branch.actions, failed.record.before.holding
+    put = actions[failed.index]
+    misfit = cause.kind is CauseKind.NO_ROOM and cause.objects[:1] == (name,)
+    if name is None or put.safe or misfit or cause.kind not in _AS_HELD:
+        return
+    grasp = Action(Verb.PICK_UP, name) if pick is None else actions[pick]
+    if grasp.onward is not None:
+        return
+    suited = replace(grasp, onward=put)
+    change = f"grasped so that it goes to {put.target}"
+    if pick is not None:
+        posed = (*actions[:pick], suited, *actions[pick + 1 :])
+        yield Correction(posed, f"{name} is {change}")
+    if not relocations(actions, name):
+        _, down = set_aside(failed, name)
+        anew = inserted(actions, 0 if pick is None else pick + 1, (down, suited))
+        yield Correction(anew, f"{name} is set down and {change}", anew=True)
 
 
 def _may_lie(failed: FailedStep, name: str) -> bool:
@@ -96,8 +127,8 @@ def _other_poses(
     What is pressed out of the fingers at a front has slipped in a hand that came from above as
     likely as in a level one, so that both are tried; the level one gets in.
     """
-    if grasp.pose is not None:
-        return []
+    if grasp.pose is not None or grasp.onward is not None:
+        return []  # who looked ahead has looked at all poses
     above, level = (GraspPose.VERTICAL, "from above"), (GraspPose.HORIZONTAL, "from the side")
     if cause is CauseKind.SLIP:
         is_put = failed.branch.actions[failed.index].verb in PUTS

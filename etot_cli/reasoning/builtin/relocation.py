@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
-from etot_cli.reasoning.builtin.keepouts import keepouts_of
+from etot_cli.reasoning.builtin.keepouts import keepouts_of, needed_later
 from etot_cli.reasoning.builtin.relations import carriers, container_address, is_closed, is_inside
 from etot_cli.reasoning.builtin.revision import (
     Actions,
@@ -15,6 +15,7 @@ from etot_cli.reasoning.builtin.revision import (
     cycle_of,
     hand_free_at,
     inserted,
+    opened_before,
     reachable_throughout,
     relocations,
 )
@@ -30,15 +31,20 @@ WIDE_OPEN = 0.98
 
 
 class Correction(NamedTuple):
-    """A revised branch and what was changed, in words."""
+    """A revised branch and what was changed, in words.
+
+    ``anew``: what is set down at a safe place and taken again at once is to be grasped anew there.
+    """
 
     actions: Actions
     change: str
+    anew: bool = False
 
 
 def set_aside(failed: FailedStep, name: str) -> Actions:
     """Taking an object to where it is out of the way of what failed."""
-    put = Action(Verb.PUT_ON, DESK, safe=True, keepout=keepouts_of(failed, name))
+    discs = (*keepouts_of(failed, name), *needed_later(failed, name))
+    put = Action(Verb.PUT_ON, DESK, safe=True, keepout=tuple(sorted(discs)))
     return Action(Verb.PICK_UP, name), put
 
 
@@ -110,13 +116,24 @@ def _safe_put(actions: Actions, name: str, before: int) -> int | None:
 
 def _further_off(failed: FailedStep, name: str, put: int) -> Iterator[Correction]:
     """The relocation with a place that also keeps clear of where the object is in the way."""
+    yield from _kept_clear(failed, name, put)
+    yield from other_places(failed, put)
+
+
+def set_down_elsewhere(failed: FailedStep, name: str) -> Iterator[Correction]:
+    """The branch with another safe place for what cannot be picked up again from the one it got."""
+    put = _safe_put(failed.branch.actions, name, failed.index)
+    if put is not None:
+        yield from _kept_clear(failed, name, put)
+
+
+def _kept_clear(failed: FailedStep, name: str, put: int) -> Iterator[Correction]:
     actions = failed.branch.actions
     discs = {*actions[put].keepout, *keepouts_of(failed, name, HAND_ROOM)}
     keepout: tuple[Keepout, ...] = tuple(sorted(discs))
     if keepout != actions[put].keepout:
         further = replace(actions[put], keepout=keepout)
         yield Correction(_replaced(actions, put, further), f"{name} goes further off")
-    yield from other_places(failed, put)
 
 
 def other_places(failed: FailedStep, put: int) -> Iterator[Correction]:
@@ -160,7 +177,12 @@ def shut_meanwhile(failed: FailedStep, name: str) -> Iterator[Correction]:
     """
     scene, actions = failed.record.before, failed.branch.actions
     cycle = cycle_of(actions, failed.index)
-    if actions[failed.index].verb in (Verb.OPEN, Verb.CLOSE) and cycle.start < failed.index:
+    within = opened_before(actions, failed.index)
+    closings = {
+        action.target for action in actions[failed.index + 1 :] if action.verb is Verb.CLOSE
+    }
+    amid = cycle.start < failed.index or any(actions[at].target in closings for at in within)
+    if actions[failed.index].verb in (Verb.OPEN, Verb.CLOSE) and amid:
         cycle = Cycle(failed.index, failed.index + 1)  # it is done in the midst of another one
     own = actions[cycle.start : cycle.end]
     filled = {action.target for action in own if action.verb not in (Verb.PICK_UP, Verb.PUT_ON)}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -93,11 +93,10 @@ def _insertion_end(actions: Sequence[Action], start: int) -> int | None:
         for index in range(start + 1, len(actions)):
             action = actions[index]
             if action.target == first.target and action.verb is Verb.CLOSE:
-                inserted = any(
-                    item.verb is Verb.PUT_INTO and item.target == first.target
-                    for item in actions[start:index]
-                )
-                return index + 1 if inserted else None
+                # An opening that several of them share belongs to none.
+                puts = [item for item in actions[start:index] if item.verb in PUTS]
+                lasting = [(item.verb, item.target) for item in puts if not item.safe]
+                return index + 1 if lasting == [(Verb.PUT_INTO, first.target)] else None
             if action.target == first.target and action.verb is Verb.OPEN:
                 return None
         return None
@@ -151,10 +150,10 @@ def moved_before(actions: Actions, cycle: Cycle, index: int) -> Actions:
     )
 
 
-def without_idle(actions: Actions, scene: SceneState) -> Actions:
+def without_idle(actions: Actions, scene: SceneState, turned: Collection[str] = ()) -> Actions:
     """The branch without openings of closed parts that are closed again at once, and the other way
     round, without closing what is closed or opening what has been opened, and without waits
-    elsewhere that end at once.
+    elsewhere that end at once. What is ``turned`` to and fro by request stays so.
     """
     for index, action in enumerate(actions):
         again = [(other.verb, other.target) for other in actions[index : index + 3 : 2]]
@@ -162,23 +161,38 @@ def without_idle(actions: Actions, scene: SceneState) -> Actions:
         puts = actions[index + 1 : index + 4 : 2]
         stands = any(where.relation.is_stance for one in puts for where in one.where)
         # Else it is grasped anew.
-        if waits and action.pose is actions[index + 2].pose and not stands:
-            return without_idle((*actions[:index], *actions[index + 2 :]), scene)
+        if waits and action == actions[index + 2] and not stands:
+            return without_idle((*actions[:index], *actions[index + 2 :]), scene, turned)
         part = scene.part(action.target)
         if action.verb not in (Verb.OPEN, Verb.CLOSE) or part is None:
             continue
         before = [other.verb for other in actions[:index] if other.target == action.target]
         turns = [verb for verb in before if verb in (Verb.OPEN, Verb.CLOSE)]
         closed = before[-1] is Verb.CLOSE if before else is_closed(scene, part)
-        opened = before[-1] is Verb.OPEN if before else is_open(scene, part)
+        opened = turns[-1] is Verb.OPEN if turns else is_open(scene, part)
+        if before[-1:] == [Verb.PUT_INTO] and action.target in turned:
+            opened = False
         following = actions[index + 1 : index + 2]
         undone = following and following[0].target == action.target
         # What stands half open at the start may be opened wider, once.
         if (closed and action.verb is Verb.CLOSE) or turns[-1:] == [action.verb]:
-            return without_idle((*actions[:index], *actions[index + 1 :]), scene)
+            return without_idle((*actions[:index], *actions[index + 1 :]), scene, turned)
         if undone and following[0].verb is not action.verb and (closed or opened):
-            return without_idle((*actions[:index], *actions[index + 2 :]), scene)
+            return without_idle((*actions[:index], *actions[index + 2 :]), scene, turned)
     return actions
+
+
+def taken_at_once(actions: Actions, before: Actions) -> Iterator[Actions]:
+    """A revised branch without the first of the objects set down that only are to be grasped anew:
+    after other actions than ``before`` the object may well be grasped so at once.
+    """
+    for index in range(len(actions) - 2):
+        pick, put, again = actions[index : index + 3]
+        grasps = (pick.verb, again.verb) == (Verb.PICK_UP, Verb.PICK_UP)
+        waits = grasps and pick.target == again.target and put.safe
+        if waits and actions[: index + 3] != before[: index + 3]:
+            yield (*actions[:index], *actions[index + 2 :])
+            return
 
 
 def brought_before(actions: Actions, index: int, before: int) -> Actions | None:

@@ -8,10 +8,17 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.keepouts import room_for
-from etot_cli.reasoning.builtin.relations import bearers, is_inside, radius
+from etot_cli.reasoning.builtin.relations import (
+    bearers,
+    contents,
+    enclosing,
+    is_inside,
+    radius,
+)
 from etot_cli.reasoning.builtin.relocation import Correction, relocated
 from etot_cli.reasoning.builtin.revision import brought_before, placed_by, reachable_throughout
 from etot_cli.reasoning.protocol import FailedStep
+from etot_cli.skills.action import Action
 from etot_cli.world.state import DESK, PartInfo, owner_of
 
 
@@ -37,15 +44,40 @@ def side_by_side(failed: FailedStep, index: int, name: str, other: str) -> Itera
     if swapped is not None and larger:
         ordered = reachable_throughout(swapped, failed.start)
         yield Correction(ordered, f"{name}, which is larger, comes before {other}")
-    if not put.where and not put.keepout:
+    if not (put.keepout or _point_of(put)):
         # Once: further spots made no difference in 26 problems with just enough room, and where
         # there is too little for all there is no end of them.
-        kept = replace(put, keepout=(room_for(scene, other, name),))
+        room = room_for(scene, other, name, _point_of(actions[failed.index]))
+        kept = replace(put, keepout=(room,))
         changed = (*actions[: before + 1], kept, *actions[before + 2 :])
         yield Correction(changed, f"{other} leaves room for {name} in {put.target}")
     if swapped is not None and not larger:
         ordered = reachable_throughout(swapped, failed.start)
         yield Correction(ordered, f"{name} comes before {other}")
+
+
+def come_since(failed: FailedStep) -> list[tuple[str, int]]:
+    """What the branch has put beside the object that it picks up into the same container, the first
+    one first, each with the place of its PICK UP: it takes room from the hand, or has pushed the
+    object to a wall, though only that wall is named. What is named is left out.
+    """
+    actions, scene = failed.branch.actions, failed.record.before
+    cause = failed.verdict.cause or failed.record.cause
+    target = actions[failed.index].target
+    around = enclosing(scene, target)
+    beside = contents(scene, around[0]) if around else ()
+    placed = ((name, placed_by(actions, name, failed.index)) for name in beside)
+    since = [
+        (name, index)
+        for name, index in placed
+        if index is not None and name != target and (cause is None or name not in cause.objects)
+    ]
+    return sorted(since, key=lambda item: item[1])
+
+
+def _point_of(put: Action) -> tuple[float, float] | None:
+    """The very point at which something is to be put down, if one was named."""
+    return next((item.point for item in put.where if not item.denied and item.point), None)
 
 
 def lowered(failed: FailedStep, placed: int, name: str, part: PartInfo) -> Iterator[Correction]:

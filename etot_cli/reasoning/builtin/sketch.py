@@ -137,6 +137,9 @@ class Sketch:
         owner = owner_of(action.target)
         if action.verb in (Verb.OPEN, Verb.CLOSE) or owner not in self.scene.states:
             return True
+        part = self.scene.part(action.target) if action.verb is Verb.PUT_INTO else None
+        if part is not None and not self._accessible[part.address]:
+            return False
         return all(self._accessible[part.address] for part in self._parts_around(owner))
 
     def is_accessible(self, address: str) -> bool:

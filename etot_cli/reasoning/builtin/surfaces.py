@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import chain
 from typing import NamedTuple
 
@@ -11,12 +12,24 @@ from etot_cli.reasoning.builtin.ordering import Placement
 from etot_cli.reasoning.builtin.relations import bearers, container_address
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.world import spatial
+from etot_cli.world.spatial import Nearby, Whereabouts
 from etot_cli.world.state import DESK, ObjectState, SceneState, owner_of
 
 Rows = tuple[tuple[Placement, ...], ...]
 """The placements of each step that puts something."""
 _At = tuple[Relation, str]
 """On or in what something is."""
+
+CONVERSE = {
+    Nearby.LEFT: Nearby.RIGHT,
+    Nearby.RIGHT: Nearby.LEFT,
+    Nearby.FRONT: Nearby.BEHIND,
+    Nearby.BEHIND: Nearby.FRONT,
+    Nearby.NEXT_TO: Nearby.NEXT_TO,
+    Nearby.NEAR: Nearby.NEAR,
+    Nearby.AWAY: Nearby.AWAY,
+}
+"""What holds of a landmark and a thing where the key holds of the thing and the landmark."""
 
 
 class Way(NamedTuple):
@@ -70,9 +83,28 @@ class Surfaces:
             if stands is None or not self._sensible(marked, stands):
                 yield None
                 continue
-            puts = iter(stand.put for stand in stands)
+            puts = iter(self._come_to(stand, stands) for stand in stands)
             rows = tuple(tuple(next(puts) for _ in row) for row in placed)
             yield Way(rows, frozenset(stand.put.name for stand in stands if stand.left))
+
+    def _come_to(self, stand: _Stand, stands: Sequence[_Stand]) -> Placement:
+        """A placement, on the right side of what is left on the same surface: beside a landmark
+        that is brought there stays only what that is put on the other side of. At a very point
+        there is no choice of sides.
+        """
+        put = stand.put
+        if stand.left or self._sketch.holds(*put) or any(item.point for item in put.where):
+            return put
+        here = (put.relation, put.target)
+        wanted = [
+            replace(item, relation=CONVERSE[item.relation], landmarks=(other.put.name,))
+            for other in stands
+            if other.left and self._home[other.put.name] == here
+            for item in other.put.where
+            if item.landmarks == (put.name,) and item.relation in CONVERSE and not item.denied
+        ]
+        fresh: list[Whereabouts] = [item for item in wanted if item not in put.where]
+        return put._replace(where=(*put.where, *fresh))
 
     def _stands(
         self,

@@ -173,9 +173,13 @@ def _several(noun: str) -> str:
 def _as_written(aside: str, instruction: str) -> str:
     """An aside in the instruction's own words, so far as these are found in it."""
     begun = " ".join(aside.split()[:2])
-    for wanted in (re.escape(aside), rf"{re.escape(begun)}\b[^.,:;!?\n]*"):
+    # A clause of its own, and not what is put somewhere in another one
+    alike = (
+        rf"(?:^|[.,:;!?\n]|\b(?:so|but|because|since|as)\b)\s*({re.escape(begun)}\b[^.,:;!?\n]*)"
+    )
+    for wanted in (f"({re.escape(aside)})", alike):
         if found := re.search(wanted, instruction, re.IGNORECASE):
-            return found[0].strip()
+            return found[1].strip()
     return aside
 
 

@@ -10,10 +10,11 @@ import numpy as np
 
 from etot_cli.skills.action import Action, GraspPose
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.foresight import Foresight
 from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.candidates import fingertip_grasps, sample_grasps
 from etot_cli.skills.grasps.ranking import Grasp, GraspSet
-from etot_cli.skills.grasps.refusals import explain, too_wide
+from etot_cli.skills.grasps.refusals import explain, goes_nowhere, too_wide
 from etot_cli.skills.grasps.variants import spun, variants
 from etot_cli.skills.motion.motion import (
     GRIP_TIME,
@@ -49,12 +50,14 @@ def pick_motions(
 
     The grasp of a ``rehearsed`` motion comes first, where the object now is. Last come those that
     touch the object on the way to it, where physics decides whether it gives way or stops the hand,
-    and those that pin what is in it to its wall, where one finger is at that.
+    and those that pin what is in it to its wall, where one finger is at that. Where it is taken for
+    a PUT, grasps with which it does not go there are left out.
     """
     name = action.target
     blockers = Blockers(belief.world)
     prepared: list[PreparedGrasp] = []
     unreachable = 0
+    foresight = None if action.onward is None else Foresight(belief, name, action.onward)
 
     @cache
     def found() -> GraspSet:
@@ -76,6 +79,8 @@ def pick_motions(
             if result is None:
                 unreachable += 1
             elif isinstance(result, PreparedGrasp):
+                if foresight is not None and not foresight.approves(result):
+                    continue
                 if result.pinned or result.grazes:
                     doubtful.append(result)
                 else:
@@ -91,7 +96,11 @@ def pick_motions(
             continue
         prepared.append(result)
         yield motion
-    if not prepared:
+    if prepared:
+        return
+    if action.onward is not None and foresight is not None and foresight.refused:
+        yield goes_nowhere(name, action.onward, foresight.refused)
+    else:
         yield explain(belief, name, found(), blockers, unreachable)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.ranking import GraspSet
@@ -48,6 +49,16 @@ def explain(
         CauseKind.NO_GRASP,
         [*suspects, name],
         f"the hand has no room at any grasp of {name} (opening {opening * 1000:.0f} mm)",
+    )
+
+
+def goes_nowhere(name: str, put: Action, count: int) -> SkillOutcome:
+    """Why no grasp does that is to serve for a PUT, of ``count`` that were looked at."""
+    how = "on" if put.verb is Verb.PUT_ON else "into"
+    return failed(
+        CauseKind.NO_ROOM,
+        [name],
+        f"by none of {count} grasps is {name} held so that it goes {how} {put.target}",
     )
 
 

@@ -77,7 +77,7 @@ class Quality(IntEnum):
     DROPPED = 1
     """On the floor, but the hand has to open higher up."""
     SWEPT = 2
-    """On the desk, where a door or a drawer passes."""
+    """On the desk, where a door or a drawer passes, or what else is done needs room."""
     PILED = 3
     """On top of something else or over an edge, and stable there."""
     STICKS_OUT = 4
@@ -301,7 +301,10 @@ class Judge:
         radius = float(np.hypot(*turned.object.cells.T).max()) * relief.cell
         for disc in request.keepout:
             distance = np.hypot(turned.points[:, 0] - disc.x, turned.points[:, 1] - disc.y)
-            kind = np.where(distance < disc.radius + radius + DESK_GAP, -1, kind)
+            touched = distance < disc.radius + radius + DESK_GAP
+            if disc.soft:
+                touched &= (kind >= 0) & (kind < Quality.SWEPT)
+            kind = np.where(touched, Quality.SWEPT if disc.soft else -1, kind)
         swept = to_sweep < DESK_GAP
         kind = np.where(swept & (kind >= 0), -1 if request.strict else Quality.SWEPT, kind)
         return np.where(np.isfinite(cost), kind, -1)

@@ -25,7 +25,8 @@ LEVEL_TRIES = 40
 """Where a floor has so many places, who stands on it is in the way before anything is put on top:
 three mugs for a cupboard were piled up, and toppled."""
 ALL_TRIES = 200
-"""Places that are looked at before an object is blamed, close to each other: half a second."""
+"""Places that are looked at before an object is blamed, close to each other: half a second. Where
+the arm reached none of those before, which takes longest to find out, no more than before."""
 SAME_PLACE = 0.012
 """Where something is in the way, it is so for the same turn this far around [m]."""
 APART = 0.02
@@ -44,7 +45,7 @@ def placements(
     tally: Tally,
     stamps: Stamps | None = None,
     *,
-    thoroughly: bool = False,
+    closely: int | None = None,
 ) -> Iterator[Placement]:
     """Prepared placements, the best first; worked out as they are asked for.
 
@@ -54,12 +55,12 @@ def placements(
         tally: takes note of what becomes of the places.
         stamps: undersides known from looking at the same floor before. Whoever has them looks
             again, and more briefly.
-        thoroughly: look at many more places, none left out between others.
+        closely: look at so many places, none left out between others.
     """
     finder = PlaceFinder(belief, request, stamps)
     tries = MAX_TRIES if stamps is None else TRIES_AGAIN
-    if thoroughly:
-        tries = ALL_TRIES
+    if closely is not None:
+        tries = closely
     done: list[_Mark] = []
     found, upright, passed, far = 0, 0, 0, np.inf
     for place in finder.places(as_held=stamps is not None):
@@ -74,7 +75,7 @@ def placements(
         radius = float(np.hypot(*position[:2]))
         if radius > far or any(mark.covers(position, rotation) for mark in done):
             continue
-        spread = tally.looked_at >= BEST_TRIES and not thoroughly
+        spread = tally.looked_at >= BEST_TRIES and closely is None
         if spread and any(mark.covers(position, rotation, SPREAD) for mark in done):
             passed += 1
             continue

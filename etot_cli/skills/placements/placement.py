@@ -169,25 +169,26 @@ class _Way:
         self._met = []
         self._let_go = self._target.moved(UP * raised)
         tool = self._let_go @ attached.in_tool.inverse()
-        at_place = arm.reach(tool, belief.commanded)
-        self.reached |= at_place.reached
-        if not at_place.reached or self._is_hit(at_place.joints, self._bearers):
-            return None
-        release = self._release(tool, at_place.joints)
-        if release is None:
-            return None
         # From high above where the arm gets there, else from as high as it does.
         poses = straight(tool, tool.moved(UP * hover), LOWER_STEP)
-        up, count = arm.line(poses, at_place.joints)
         needed = hover if self._support.is_container else HOVER / 2
-        if count < len(poses) and count * LOWER_STEP < needed:
-            self.reached = False
-            return None
-        rows = [up[-1], up[count // 2]] if not self._support.is_container else up[::-1]
-        if any(self._is_hit(row, self._bearers) for row in rows):
-            return None
-        down = np.vstack([up[-2::-1], at_place.joints])
-        return Placement(up[-1], down, *release, self._place.drop + raised, self._place)
+        for at_place in self._bends(tool):
+            self.reached = True
+            if self._is_hit(at_place, self._bearers):
+                return None
+            release = self._release(tool, at_place)
+            if release is None:
+                return None
+            up, count = arm.line(poses, at_place)
+            if count < len(poses) and count * LOWER_STEP < needed:
+                self.reached = False
+                continue  # bent otherwise it may be farther from the ends of its joints
+            rows = [up[-1], up[count // 2]] if not self._support.is_container else up[::-1]
+            if any(self._is_hit(row, self._bearers) for row in rows):
+                return None
+            down = np.vstack([up[-2::-1], at_place])
+            return Placement(up[-1], down, *release, self._place.drop + raised, self._place)
+        return None
 
     def through_front(self) -> Placement | None:
         """Level in through the front, and back out the same way; let go a little higher up where
@@ -234,7 +235,7 @@ class _Way:
     def _bends(self, tool: Pose) -> Iterator[Vector]:
         """Joint values (n,) at a tool pose: those next to where the arm is; then, if the hand has
         room there, bent otherwise: so the arm may pass beside what stands before a front, or get
-        further out from there.
+        further out or higher up from there.
         """
         belief, arm = self._belief, self._belief.arm
         nearest = arm.reach(tool, belief.commanded)

@@ -37,6 +37,23 @@ def put_places(
     go in rehearsal first; a rod stands in a vessel where it must. The reason as the only item where
     there is none.
     """
+    request = request_for(belief, action, name, rehearsed)
+    if isinstance(request, SkillOutcome):
+        yield request
+        return
+    tally = Tally(belief.world)
+    found = False
+    for placement in placements(belief, request, tally):
+        found = True
+        yield placement
+    if not found:
+        yield why_no_place(belief, request, tally)
+
+
+def request_for(
+    belief: Belief, action: Action, name: str, rehearsed: Pose | None = None
+) -> Request | SkillOutcome:
+    """What an action asks for with the held object ``name``; why that makes no sense, if so."""
     target = action.target
     on = action.verb is Verb.PUT_ON
     at = tuple(
@@ -53,15 +70,13 @@ def put_places(
             text = f"{how} and takes nothing in"
         elif not on:
             text = "is no container"
-        yield failed(CauseKind.PRECONDITION, [target], f"{target} {text}")
-        return
+        return failed(CauseKind.PRECONDITION, [target], f"{target} {text}")
     lying = any(where.relation is Nearby.LYING for where in action.where)
     if lying and not can_lie(belief.world.entries[name].info):
-        yield failed(CauseKind.PRECONDITION, [name], f"{name} cannot be laid down: {NO_SIDE}")
-        return
+        return failed(CauseKind.PRECONDITION, [name], f"{name} cannot be laid down: {NO_SIDE}")
     if on and not support.from_front and not points_down(belief):
         support = _under_overhang(belief, support, at, name) or support
-    request = Request(
+    return Request(
         belief.attach(name),
         support,
         action.keepout,
@@ -72,13 +87,6 @@ def put_places(
         rehearsed=rehearsed,
         stance=next((w.relation for w in action.where if w.relation.is_stance), None),
     )
-    tally = Tally(belief.world)
-    found = False
-    for placement in placements(belief, request, tally):
-        found = True
-        yield placement
-    if not found:
-        yield why_no_place(belief, request, tally)
 
 
 def _under_overhang(

@@ -10,7 +10,7 @@ import numpy as np
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Quality, Request
-from etot_cli.skills.placements.looking import BEST_TRIES, placements
+from etot_cli.skills.placements.looking import ALL_TRIES, BEST_TRIES, MAX_TRIES, placements
 from etot_cli.skills.placements.placement import Placement, Tally, placement_at
 from etot_cli.skills.placements.places import PlaceFinder
 from etot_cli.skills.placements.relief import relief
@@ -35,6 +35,8 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     if request.at and not request.support.inside(request.support.local(np.array(request.at))).any():
         text = f"there is no {address}{_at(request)}"
         return failed(CauseKind.NO_ROOM, [name, *owner], text)
+    if not tally.obstructed and (missed := _missed(belief, request, tally)) is not None:
+        return missed
     if tally.unreached and not tally.obstructed:
         # No object had a part in that, so none need be taken away to see.
         return failed(
@@ -68,12 +70,9 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         return overlooked[0]
     if not guilty and fastened and len(everybody) > 1 and helps(everybody):
         guilty = _least(everybody, helps)
+    if tally.obstructed and (missed := _missed(belief, request, tally)) is not None:
+        return missed
     if guilty:
-        if tally.looked_at > BEST_TRIES:  # those after them were spread over the floor
-            whole = Tally(belief.world)
-            missed = next(placements(belief, request, whole, thoroughly=True), None)
-            if missed is not None:
-                return missed
         return failed(
             CauseKind.NO_ROOM,
             [*guilty, name],
@@ -94,12 +93,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             for other in tally.blockers.most(excluding=[name])
             if not belief.world.entries[other].free
         ]
-        text = f"neither {name} nor the hand that holds it as it does gets"
-        return failed(
-            CauseKind.NO_ROOM,
-            [*(fixed or owner), name],
-            f"{text} {'into' if request.support.is_container else 'onto'} {address}",
-        )
+        return failed(CauseKind.NO_ROOM, [*(fixed or owner), name], _as_held(request, tally, fixed))
     if _has_good_place(belief, replace(cleared, bare=True), stamps):
         return failed(
             CauseKind.UNREACHABLE,
@@ -110,6 +104,28 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         CauseKind.NO_ROOM,
         [name, *owner],
         f"{name} does not fit {_preposition(request)} {address}{_at(request)}",
+    )
+
+
+def _missed(belief: Belief, request: Request, tally: Tally) -> Placement | None:
+    """A placement between the places that were looked at, which were spread over the floor after
+    the best of them.
+    """
+    if tally.looked_at <= BEST_TRIES:
+        return None
+    tries = ALL_TRIES if tally.obstructed else MAX_TRIES
+    return next(placements(belief, request, Tally(belief.world), closely=tries), None)
+
+
+def _as_held(request: Request, tally: Tally, fixed: list[str]) -> str:
+    """That an object does not go there as it is held, where no other object has a part in that."""
+    name, address = request.attached.name, request.support.address
+    if not tally.unreached or not fixed:
+        how = "into" if request.support.is_container else "onto"
+        return f"neither {name} nor the hand that holds it as it does gets {how} {address}"
+    return (
+        f"with {name} held as it is the arm does not reach {tally.unreached} of {tally.looked_at} "
+        f"places {_preposition(request)} {address}, and at the others {_listed(fixed)} in the way"
     )
 
 

@@ -233,6 +233,19 @@ def leave_among(context: Context, themes: Sequence[int]) -> None:
             referents[index] = replace(referents[index], options=options, distinct_from=apart)
 
 
+def tell_not_there(context: Context, theme: int, places: Sequence[Place]) -> None:
+    """Notes that a thing that is to stay somewhere is not there by now."""
+    discourse = context.discourse
+    referent = discourse.referents[theme]
+    at = [place.where for place in places if place.where is not None and not place.beside]
+    surfaces, options = discourse.things(*at), referent.options
+    known = len(options) == 1 and theme not in discourse.put and len(at) == len(places) > 0
+    if known and not any(
+        touches(thing, surface, context.scene) for thing in options[0] for surface in surfaces
+    ):
+        discourse.notes.append(f"{referent.text!r} is not there yet, and is put there")
+
+
 def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
     """What is left somewhere is there already, or is put there.
 

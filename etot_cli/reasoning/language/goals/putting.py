@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     choose_by_place,
     leave_there,
     tell_apart,
+    tell_not_there,
     without_riders,
 )
 from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of
@@ -191,6 +192,8 @@ def put(
         others = [i for i in themes if clause.stays and referents[i].distinct_from]
         for index in others if wherever else themes:
             choose_by_place(context, index, places, stays=clause.stays)
+        for index in themes if wherever and clause.stays else ():
+            tell_not_there(context, index, places)
         if clause.stays:
             leave_there(context, themes, places)
         if grouping is Grouping.SEPARATELY:
@@ -320,6 +323,9 @@ def _condition(
             raise ReferenceProblem(text, "it is not put anywhere here", 1)
     else:
         places = context.places.of(condition.destinations, subjects)
+    if condition.kept:
+        for subject in subjects:
+            choose_by_place(context, subject, places, stays=True)
     if stance := stance_in(condition.destinations):
         places = with_stance(context, subjects, places, stance)
     for subject in subjects:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Put, Relation
@@ -29,6 +30,7 @@ from etot_cli.reasoning.language.words.lexicon import STATES
 from etot_cli.reasoning.language.words.places import Prep
 
 _HOLDING = {Prep.CONTAINING: Toward.INSIDE, Prep.BEARING: Toward.ON}
+_CONTAINING = re.compile(r" (?:containing|holding) ")
 
 
 def closed_with(context: Context, clause: MoveClause) -> tuple[MoveClause, list[State]]:
@@ -49,7 +51,7 @@ def told_by_contents(context: Context, state: State) -> tuple[State, list[State]
         return state, []
     subjects, inside = [], list[State]()
     for np in state.subjects:
-        plain, held = _and_contents(context, np, Role.THEME)
+        plain, held = _and_contents(context, np, Role.THEME, wanted=True)
         if held is not None and plain != np:
             context.discourse.notes.append(f"{np.text!r}: so in the end")
             inside.append(held)
@@ -85,12 +87,18 @@ def put_on_closed(context: Context, clause: PutClause) -> tuple[PutClause, list[
     return replace(clause, groups=tuple(groups)), shut
 
 
-def _and_contents(context: Context, np: NounPhrase, role: Role) -> tuple[NounPhrase, State | None]:
+def _and_contents(
+    context: Context, np: NounPhrase, role: Role, *, wanted: bool = False
+) -> tuple[NounPhrase, State | None]:
     """A phrase that tells a thing by what is in or on it, without that where it is not so by now,
-    and that it is so; None where the phrase says no such thing.
+    and that it is so; None where the phrase says no such thing. Where a state is ``wanted``, what
+    something is "containing" may be so in the end, too.
     """
-    held = [m for m in np.modifiers if m.prep in _HOLDING and not m.denied]
-    if not (len(held) == 1 and " with " in np.text and all(map(_is_the_one, held[0].phrases))):
+    contains = wanted and bool(_CONTAINING.search(np.text))
+    holding = _HOLDING | ({Prep.WITH: Toward.INSIDE} if contains else {})
+    held = [m for m in np.modifiers if m.prep in holding and not m.denied]
+    so = contains or " with " in np.text
+    if not (len(held) == 1 and so and all(map(_is_the_one, held[0].phrases))):
         return np, None
     try:
         context.phrases.meaning(np, role)
@@ -100,7 +108,7 @@ def _and_contents(context: Context, np: NounPhrase, role: Role) -> tuple[NounPhr
         np = np.without_modifier(held[0])
         if [len(option) for option in context.phrases.meaning(np, role).options] != [1]:
             raise
-    return np, State(held[0].phrases, (Destination(_HOLDING[held[0].prep], (np,)),))
+    return np, State(held[0].phrases, (Destination(holding[held[0].prep], (np,)),))
 
 
 def _is_the_one(np: NounPhrase) -> bool:

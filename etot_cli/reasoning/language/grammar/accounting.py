@@ -123,12 +123,23 @@ _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 _LAST_FIRST = re.compile(r"\b(first|before|beforehand)(?: that)?(?: ~comma| please)*$")
 
 
+_ALLOWED_LATER = re.compile(
+    r"(?:^|~comma |\b(?:and|but|then) )later(?: on)? (?:~comma )?(?:(?!~comma|\band\b|\bbut\b).)*"
+    r"\b(?:may|can|could|might)\b(?! (?:you|i|we)\b)"
+    r"|\b(?:may|can|could|might)\b(?! (?:you|i|we)\b)"
+    r"(?:(?!~comma|\band\b|\bbut\b|\bthen\b).)* later\b"
+)
+"""What may be done some time is not asked for now."""
+
+
 def unaccounted(words: Sequence[str], reading: tuple[Spoken, ...]) -> str | None:
     """The first word of a sentence that its reading has read over, None when there is none."""
     left = Counter(_traces(reading))
     text = " ".join(words)
     if _NOT_BOTH.search(text) and any(isinstance(said.clause, AvoidClause) for said in reading):
         return "both"  # one of them may go there
+    if _ALLOWED_LATER.search(text):
+        return "later"
     if _is_first_alone(reading) and (said := _LAST_FIRST.search(text)):
         return said[1]  # nothing is left that comes after it
     for word in _telling(words):

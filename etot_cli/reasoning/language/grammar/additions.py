@@ -46,12 +46,21 @@ GROUPING = either(
     phrase(manner.SEPARATELY, Grouping.SEPARATELY),
 )
 BY_COLOR = phrase(manner.BY_COLOR, ("color", ()))
+
+
+def _still_so(nps: tuple[NounPhrase, ...], still: bool, predicate: Any) -> State | None:
+    """How things are to be; "still" so they are by now, or it is told that they are not."""
+    state = state_of(nps, predicate)
+    return replace(state, kept=True) if state and still and state.destinations else state
+
+
 CONDITION = sequence(
     "with",
     NP_LIST,
-    silent(optional("still, [still] (standing|lying|sitting|resting)")),
+    optional(phrase("still [standing|lying|sitting|resting]", True), False),
+    silent(optional("standing, lying, sitting, resting")),
     SO,
-    build=state_of,
+    build=_still_so,
 )
 _CONDITIONS = sequence(
     "with",

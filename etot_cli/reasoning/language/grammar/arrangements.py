@@ -130,6 +130,12 @@ def _kept_upright(things: Things) -> ReorientClause:
     return ReorientClause(things, Nearby.UPRIGHT, meanwhile=again)
 
 
+def _held_upright(things: Things) -> ReorientClause | None:
+    """What "hold it upright" says of what is put somewhere; else it asks for something in the hand."""
+    again = all(np.pronoun for np in things.phrases)
+    return _upright_meanwhile(things) if again else None
+
+
 def turned(things: Things, how: tuple[Nearby | None, bool]) -> ReorientClause:
     """Things that are turned, to stand or as they have to be."""
     stance, to_fit = how
@@ -174,6 +180,7 @@ REORIENT = either(
         build=_stood_up,
     ),
     sequence(verbs.KEEP, THINGS, f"{manner.UPRIGHT}, {manner.TURNED_UP}", build=_kept_upright),
+    sequence("hold[ing]", THINGS, f"{manner.ERECT}, level", build=_held_upright),
     sequence(
         f"{verbs.LAY}, {verbs.TIP}",
         THINGS,

@@ -26,7 +26,6 @@ from etot_cli.reasoning.language.grammar.chains import (
     joint,
 )
 from etot_cli.reasoning.language.grammar.clauses import (
-    LED_CLAUSE,
     Reading,
     plain,
 )
@@ -47,6 +46,7 @@ from etot_cli.reasoning.language.grammar.headlines import (
 )
 from etot_cli.reasoning.language.grammar.if_so import IF_ANYTHING_IS_THERE
 from etot_cli.reasoning.language.grammar.inversions import INVERTED
+from etot_cli.reasoning.language.grammar.meanwhile import MEANWHILE
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -71,7 +71,6 @@ from etot_cli.reasoning.language.grammar.states import STATE, states
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,
-    PickClause,
     PutClause,
     PutGroup,
     RemoveClause,
@@ -133,12 +132,6 @@ def _swapped(things: Things, rest: Reading) -> Reading | None:
                 return None
     swap = SwapClause(things, placed=PutClause(tuple(groups)))
     return (replace(rest[0], clause=swap),)
-
-
-def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
-    """What stays so while something else is done; nothing is done with something in the hand."""
-    held = any(isinstance(said.clause, PickClause) for said in first)
-    return None if held else (*first, *rest)
 
 
 _SO_OR_EMPTY = plain(
@@ -328,7 +321,7 @@ WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     not_so(CHAIN),
-    sequence("while [you]", LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
+    MEANWHILE,
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(manner.STARTING_WITH, noun_phrase, COMMA, CHAIN, build=_started_with),
     sequence(

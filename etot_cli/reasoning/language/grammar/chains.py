@@ -68,7 +68,9 @@ from etot_cli.reasoning.language.grammar.verbless import VERBLESS
 from etot_cli.reasoning.language.grammar.which_clauses import (
     WHICH_FIRST_GETS,
     WHICH_GOES_ON,
+    WHICH_IN_TURN_IS,
     WHICH_IS_MOVED,
+    held_by,
     named_last,
 )
 from etot_cli.reasoning.language.grammar.word_order import PLACE_AHEAD
@@ -192,9 +194,10 @@ JOINED = either(
     joint("and", COMMA, timed(_SO)),
     joint("and", COMMA, WHICH_IS_MOVED),
     joint("which", COMMA, WHICH_GOES_ON),
+    joint("which in turn", COMMA, WHICH_IN_TURN_IS),
     joint("after", COMMA, WHICH_FIRST_GETS),
     joint("and", COMMA, so_in_turn(phrase("which", (NounPhrase(pronoun="it", text="which"),)))),
-    joint("while", OPTIONAL_COMMA, "while [you]", LED_CLAUSE),
+    joint("while", OPTIONAL_COMMA, small_words.WHILE, LED_CLAUSE),
     joint(
         "then",
         OPTIONAL_COMMA,
@@ -324,8 +327,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             done = _maybe_denied(done, clause)
         if said == "before" and _is_denied(before):
             return None  # "do not put it there before …" rather asks for both
-        if said == "which":
-            goes_there = named_last(before, clause[0].clause)
+        if said in ("which", "which in turn"):
+            named = named_last if said == "which" else held_by
+            goes_there = named(before, clause[0].clause)
             if goes_there is None:
                 return None
             clause = (replace(clause[0], clause=goes_there),)

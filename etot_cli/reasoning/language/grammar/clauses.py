@@ -164,9 +164,34 @@ def _making_room(clause: PutClause, where: tuple[Destination, ...]) -> PutClause
     return replace(clause, groups=(*clause.groups, *away)) if len(at) == 1 else None
 
 
+_MEANWHILE = frozenset({"holding", "gripping", "grasping", "clutching", "clasping"})
+"""Beside something else ("holding the pen, open the drawer") they say what the hand does then."""
+_NOT_MEANWHILE = Parser(
+    lambda given, at: (
+        []
+        if given.ahead[at] in _MEANWHILE
+        and (given.words[at - 1] == COMMA if at else COMMA in given.words)
+        else [(at, NOTHING)]
+    )
+)
+
+
 _ASKED = Rule(
     either(
-        *(PICK, PUT, REMOVE, EMPTY, MOVE, ENSURE, WANTED, COVER, REORIENT, TOWER, SWAP, AVOID),
+        *(
+            sequence(_NOT_MEANWHILE, PICK),
+            PUT,
+            REMOVE,
+            EMPTY,
+            MOVE,
+            ENSURE,
+            WANTED,
+            COVER,
+            REORIENT,
+            TOWER,
+            SWAP,
+            AVOID,
+        ),
         *(
             KEEP_STILL,
             KEEP_OUT,
@@ -175,7 +200,7 @@ _ASKED = Rule(
             HAND_OVER,
             PERFORMED,
             NEEDED,
-            HOLD,
+            sequence(_NOT_MEANWHILE, HOLD),
             WISHED,
             TOLD_APART,
             BOTH_SO,
@@ -294,6 +319,16 @@ def _each(clause: Clause) -> list[Clause]:
     return [clause]
 
 
+def _is_ruled_out(clause: Clause) -> bool:
+    """Whether a clause says what is not to be done, or not to be so."""
+    match clause:
+        case AvoidClause():
+            return not clause.needless
+        case EnsureClause(states=states):
+            return any(state.denied for state in states)
+    return False
+
+
 def _in_order(
     leading: tuple[Order | bool, ...],
     at: int,
@@ -309,6 +344,8 @@ def _in_order(
     strong = [item for item in said if item is not Order.THEN]
     if len(strong) > 1:
         return None
+    if _is_ruled_out(clause) and (order is Order.FIRST or Order.BEFORE_THAT in said):
+        return None  # "do not open it before that" rules nothing out for later
     when = strong[0] if strong else (said[0] if said else Order.SAID)
     instead = instead or True in leading
     return (Spoken(clause, at, when, instead), *(Spoken(item, at) for item in avoided))

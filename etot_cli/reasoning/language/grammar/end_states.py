@@ -12,6 +12,20 @@ from etot_cli.reasoning.language.words.small_words import NAMED
 _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|ought to"
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
+_WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
+_NOTHING_ELSE = (
+    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand|end up"
+    r"|come|stay|remain|be left) (?:(?:in|on|inside) (?:there|it)|there|inside)"
+    r"|there (?:should|must|may|is to) be nothing else (?:(?:in|on|inside) (?:there|it)|there|inside)"
+    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else(?: (?:in|on) it)?)"
+    r"(?=[.;!]|$)"
+)
+_KEPT = {"out of": "in", "off": "on"}
+_IMPERATIVE = {
+    "moving": "move", "putting": "put", "setting": "set", "placing": "place",
+    "carrying": "carry", "bringing": "bring",
+}  # fmt: skip
+_MOVED = f"(?:{'|'.join((*_IMPERATIVE, *_IMPERATIVE.values(), 'take', 'stand'))})"
 _ASKED = re.compile(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
 _ALL_OF = {"any": "none", "either": "neither"}
 _LATTER = Expression(
@@ -34,6 +48,39 @@ def _nor(said: re.Match[str]) -> str:
     return f" and {them} {modal} not {be}{f' {door}' if door else ''}"
 
 
+_CONTAINER = Expression(
+    rf"(?P<what>{_SOME})(?: and|,? together with|,? along with|,? with) its "
+    rf"(?:container|vessel|receptacle), (?P<vessel>{_SOME})(?:,(?= )|(?=[.;!]|$))(?P<rest>[^!?]*)"
+)
+"""A thing and what it is to be in, which is said behind it."""
+
+
+def _with_it_inside(said: re.Match[str]) -> str:
+    """What goes somewhere with its container is in that in the end."""
+    what, vessel, rest = said["what"], said["vessel"], said["rest"]
+    if re.search(r"\bthe (?:former|latter)\b", rest):
+        return f"{what} and {vessel}{rest}"
+    what = re.sub("^both (?=the|my)", "", what)
+    rest = re.sub("^ are (?:both|all) ", " is ", rest)
+    return f"{vessel} with {what} in it{rest}"
+
+
+_LOOKED_AT = Expression(
+    rf"(?P<begun>^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:look at|look over at|see|come back to"
+    rf"|get back to)|looking at) (?P<where>{_SOME}),? (?:i|we) (?:would |should )?"
+    r"(?:want|like|expect|need|wish) to (?:see|find) "
+    r"(?P<seen>[^.;!?]*?\b(?:on|in|inside|on top of)) it\b(?! \w*in\b)(?P<rest>[^.;!?]*)"
+)
+"""What somebody wants to see when he looks at something."""
+
+
+def _seen_there(said: re.Match[str]) -> str:
+    """What is to be seen on or in something is to be there."""
+    if re.search(r"\bit\b", said["rest"]):
+        return f"{said['begun']}as for {said['where']}, i want {said['seen']} it{said['rest']}"
+    return f"{said['begun']}i want {said['seen']} {said['where']}{said['rest']}"
+
+
 def _named_again(said: re.Match[str]) -> str:
     """The things themselves for "the former" and "the latter", where but one pair was named."""
     pairs = re.findall(rf"\b{_SOME} and {NAMED}", said[0])
@@ -46,6 +93,18 @@ def _named_again(said: re.Match[str]) -> str:
         lambda which: first if which[1] == "former" else second,
         text,
     )
+
+
+def _left_there(said: re.Match[str]) -> str:
+    """What is not taken out of something is left in it, what is not taken off on it."""
+    done, _, what, away, where = said.groups()
+    return f"{done} and leave {what} {_KEPT[away]} {where}"
+
+
+def _left_while_moved(said: re.Match[str]) -> str:
+    """The same ahead of what is done with that."""
+    what, away, where, verb, place = said.groups()
+    return f"{_IMPERATIVE.get(verb, verb)} {where} {place} and leave {what} {_KEPT[away]} it"
 
 
 END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
@@ -85,6 +144,39 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"\bwith ({_SOME}) still ([^,.;]*), (?=(?:untouched|unmoved)(?:[.,;!]|$))",
         r"with \1 \2 ",
+    ),
+    # What is not taken out of a thing that goes somewhere comes along in it.
+    (
+        rf"\b({_MOVED} (?P<moved>{_SOME})\b [^.;]*?),? without "
+        rf"(?:taking|removing|lifting|getting) ({_SOME}) "
+        rf"(out of|off) (it|(?P=moved))(?=[.,;!]|$)",
+        _left_there,
+    ),
+    (
+        rf"\b(?:do not|never) (?:take|remove|lift|get) ({_SOME}) (out of|off) ({_SOME}) "
+        rf"(?:when|while|as) (?:you )?({_MOVED}) (?:\3|it) ([^.,;]*)",
+        _left_while_moved,
+    ),
+    # "Put the egg in the bowl; nothing else should be in there"
+    (
+        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? {_NOTHING_ELSE}",
+        r"\1",
+    ),
+    (
+        rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
+        rf"(in|on|into|onto|inside) ({_SOME})[.;,]? {_NOTHING_ELSE}",
+        lambda said: f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}",
+    ),
+    # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
+    (
+        rf"\bit is ({_SOME}) (?:that |which )?{_WISHED} (?:to (?:be|go) )?"
+        r"(?=(?:in|on|into|onto|inside|next to|beside|behind|between|in front of|to the) )",
+        r"\1 should be ",
+    ),
+    (
+        rf"(^|[.;] )(?:what|the (?:thing|one)(?: that)?) {_WISHED} (?:to (?:be|go) )?"
+        rf"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is ({_SOME})(?=[.,;!]|$)",
+        r"\1\3 should be \2",
     ),
     # Of two there are no more to be told.
     (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),
@@ -131,7 +223,27 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?: (?:about|around))? (?=(?:in|on) {NAMED})",
         r"\1 ",
     ),
+    (_CONTAINER, _with_it_inside),
     (_LATTER, _named_again),
+    # "The cup itself"
+    (rf"\b({NAMED} (?:(?!and\b|or\b|in\b|on\b|by\b)\w+ ){{1,3}}?)itself (?=\w)", r"\1"),
+    (_LOOKED_AT, _seen_there),
+    (
+        r"(^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:come back|get back|return|come home|look|am back"
+        r"|are back|look again)|(?:once|when) you are (?:done|finished)),? "
+        r"(?:i|we) (?:would |should )?(?:want|like|expect|need|wish) to (?:see|find|have) ",
+        r"\1i want ",
+    ),
+    (
+        rf"\b(i|we) (?:would )?(want|like|expect|wish) to find (?={_SOME} (?:on|in|inside|next to|"
+        r"beside|behind|closed|shut|open)\b)",
+        r"\1 would like to see ",
+    ),
+    # "A little tower"
+    (
+        r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
+        r"\1 a \2",
+    ),
     # "With the cup still on the tray" tells of no tray.
     (
         r"(?<=\w) with (?="

@@ -82,6 +82,23 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         rf"(?:(?:,| -) (?={WHERE})|(?=[.;!]|$))",
         r"\1 things, \2, ",
     ),
+    # "I want both on the tray: the cup, and in it the pen"
+    (
+        rf"\b(?:{_SO_MANY}|two things|the following)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
+        rf"({NAMED} [^,.;:]*?),? and,? ((?:in|on) it),? ({NAMED} [^,.;:]*)(?=[.;!]|$)",
+        r"\2 \1, and \3 \4",
+    ),
+    (
+        rf"\b(both|two things)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
+        rf"({NAMED} (?:(?!\b{WHERE}|\bbehind\b|\bbeside\b)[^,.;:])*? and "
+        rf"{NAMED} (?:(?!\b{WHERE}|\bbehind\b|\bbeside\b)[^,.;:])*)(?=[.;!]|$)",
+        r"\3 \2",
+    ),
+    (
+        rf"\b(?:both|two things)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
+        rf"({NAMED} [^,.;:]*? with {NAMED} [^,.;:]* (?:in|on) it)(?=[.;!]|$)",
+        r"\2 \1",
+    ),
     (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
     (
         rf"^({ASKED}(?:sort|arrange|organi[sz]e) (?:the|my) [^.,;:]*?) by (?=\w+ing\b)",

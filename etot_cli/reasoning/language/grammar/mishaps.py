@@ -33,6 +33,17 @@ def befalls(said: str) -> bool:
     return bool(_FULL.fullmatch(said))
 
 
+_SPARED = Expression(
+    rf"{_THING} (?:do|does|will|can|could|would|shall) not (?:{BEFALLS})"
+    rf"|nothing (?:(?:will|can|could) )?(?:{BEFALLS})"
+)
+
+
+def is_spared(said: str) -> bool:
+    """Whether a clause tells what is not to happen to a thing by itself ("it will not roll off")."""
+    return bool(_SPARED.fullmatch(said))
+
+
 _KEPT_WELL = Expression(
     r"(?:it|they) (?:stays?|keeps?|remains?) (?:nice and |nicely )?"
     r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"

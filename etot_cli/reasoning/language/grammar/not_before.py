@@ -31,6 +31,11 @@ from etot_cli.reasoning.language.words import verbs
 _UNTIL = "[but] [just] (before|until|till|as long as not)"
 _LEFT = ("leave", "keep", "let", "forget", "touch", "bother", "hesitate")
 """Behind "do not" they forbid, or forbid nothing."""
+_BEFORE_THAT = """
+    (before|until|till|prior to) (that|this|then) [(is|has been) done|has happened],
+    (before|until) you [have] (do|did|done) (so|that|this|it), before (doing|having done) (so|that|this|it)
+"""
+"""What was asked for before it has been done by then."""
 _VAGUE = frozenset({"a", "an", "any", "either", "no", "some"})
 """Of which "do not put any cup there" speaks of all."""
 
@@ -80,13 +85,13 @@ def _forbidden(word: str) -> Parser:
     )
 
 
+_NOT_YET = either(
+    sequence(verbs.DO_NOT, not_ahead(*_LEFT), LED_CLAUSE), sequence(_forbidden("not"))
+)
 NOT_BEFORE = quiet(
     either(
         sequence(
-            either(
-                sequence(verbs.DO_NOT, not_ahead(*_LEFT), LED_CLAUSE),
-                sequence(_forbidden("not")),
-            ),
+            _NOT_YET,
             OPTIONAL_COMMA,
             _UNTIL,
             DONE_BY_THEN,
@@ -102,6 +107,15 @@ NOT_BEFORE = quiet(
             build=lambda earlier, later: _only_after(later, earlier),
         ),
         sequence(_forbidden("only"), OPTIONAL_COMMA, EARLIER, build=_only_after),
+        sequence(
+            _NOT_YET, OPTIONAL_COMMA, _BEFORE_THAT, build=lambda later: _only_after(later, ())
+        ),
+        sequence(
+            _BEFORE_THAT,
+            OPTIONAL_COMMA,
+            _NOT_YET,
+            build=lambda later: _only_after(later, ()),
+        ),
     )
 )
 """What is not to be done "until" something else has been is done after that."""

@@ -9,10 +9,12 @@ from etot_cli.reasoning.language.grammar.asked_otherwise import ASKED_OTHERWISE
 from etot_cli.reasoning.language.grammar.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.grammar.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.end_states import END_STATES
+from etot_cli.reasoning.language.grammar.forbidding import FORBIDDING
 from etot_cli.reasoning.language.grammar.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.placements import PLACEMENTS
 from etot_cli.reasoning.language.grammar.remarks import PEOPLE
+from etot_cli.reasoning.language.grammar.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.said_again import SAID_AGAIN
 from etot_cli.reasoning.language.grammar.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.words.categories import CATEGORIES
@@ -57,6 +59,12 @@ _STEP = (
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 
+_NO_NOUN = (
+    "in|into|on|onto|by|to|of|from|at|beside|behind|against|within|inside|over|under|near|for|with"
+    r"|and|or|so|is|are|be|lets?|\w+ing"
+)
+
+
 _DID = Expression(
     rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
     r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
@@ -94,7 +102,9 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1put ",
     ),
     *CONTRACTIONS,
+    *FORBIDDING,
     *END_STATES,
+    *ROUNDABOUT,
     *ASKED_OTHERWISE,
     *OBSTACLES,
     *LISTINGS,
@@ -113,7 +123,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     (rf"^({ASKED}leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
     (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={NAMED}|(?:it|them)\b)", r"\1set "),
-    (r"\b(set|put|place|lay) ([^.,;]*?) aside (?=(?:on|in|next to|beside) )", r"\1 \2 "),
+    (
+        r"\b(set|put|place|lay) ([^.,;]*?) aside,? "
+        r"(?=(?:(?:any|some)where )?(?:on|in|next to|beside|near|behind|to the) )",
+        r"\1 \2 ",
+    ),
     (rf"\b((?:on|in) {NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(please |(?:could|can) you )?(without \w+ing any other [^,.;]*), ([^.;]*)", r"\1\3 \2"),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
@@ -126,11 +140,19 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         rf"^({ASKED})(?:tidy|clean)(?: up)? (?:the|my) {TABLE}(?: up)?(?:: | by (?=\w+ing ))",
         r"\1tidy up: ",
     ),
+    # "By size on the tray"
     (
-        r"\b(put|place|move|set) (the \w+(?: \w+)?)"
-        r"(?<!into)(?<!onto)(?<! in)(?<! on)(?<! by)(?<! to)(?<!beside) itself\b",
-        r"\1 \2",
+        r"\b((?:stack|pile)(?: up)? [^.,;:]*?) (by size|in order of size) (on(?:to)? [^.,;:]*)",
+        r"\1 \3 \2",
     ),
+    # "Take the blocks apart so that each block stands by itself"
+    (
+        r"(\b(\w{3,})s\b[^.;]*? (?:(?:so|such) that|until)) (?:each|every)(?: single)? \2 "
+        r"(?=(?:stands|lies|sits|rests|is)\b)",
+        r"\1 each one ",
+    ),
+    # "The box itself" is the box; "by itself", "from itself" and "inside itself" are something else.
+    (rf"\b({NAMED}(?: (?!{_NO_NOUN}\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
     (rf"\bbut none of (?={NAMED})", "but not "),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
     (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),
@@ -335,7 +357,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(\bthe|\bits|\btheir|'s) content\b(?! with)", r"\1 contents"),
     (r"\b(the|its) foot of (?=(?:the|that|this) (?:tower|stack|pile)\b)", r"\1 bottom of "),
     # A chest's top is where things stand on it
-    (r"('s) top surface\b", r"\1 top"),
     (r"\b(on|onto|to) the top surface of (?!(?:the|my) (?:desk|table)\b)", r"\1 the top of "),
     # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
     (

@@ -52,6 +52,38 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 may stay ",
     ),
     (r"\b(?:can|may|could) be (?:left|kept) (?=(?:open|closed|shut)\b)", "may stay "),
+    # Who is left out, told behind what is done with the others
+    (
+        rf",? (?:with )?({NAMED} (?:(?!and\b|or\b)\w+ ){{1,3}}?)"
+        r"(?:excepted|excluded|not included|being the exception)(?=[.,;!]|$)",
+        r", except \1",
+    ),
+    # Which of them "the two others" are
+    (
+        rf"\bthe ({'|'.join(NUMBERS)}|\d) others(?= (?:in|on|into|onto|to|go|goes|next|out|off|back|down"
+        r"|are|should|must|stay|belong|where|behind|beside|there|inside)\b|[.,;!]|$)",
+        r"the other \1",
+    ),
+    (r",? whether (?:\w+ )?or not,? (?=(?:is|are|goes?|should|must|belongs?|in|on|into|onto)\b)", " "),
+    (
+        r"((?:behind|beside|next to|in front of|(?:left|right) of) [^.,;]*?),? (?:and )?as (close|near)"
+        r" as (?=(?:you can|it gets|possible)\b)",
+        r"\1, as \2 to it as ",
+    ),
+    # "So that they all stand upright"
+    (
+        r"\b(so(?: that)?|such that|in such a way that) (?:(?:all|both|each) of them|they all|they both|all|both) "
+        r"(are |stand |lie |fit )?(?=(?:standing |lying )?(?:up|upright|flat|standing|lying|on)\b|in )",
+        r"\1 they \2",
+    ),
+    (
+        r"\b((?:so|that) they (?:are|stand|lie)) (?:all|both|each) (?=(?:standing |lying )?(?:upright|flat|standing|lying)\b)",
+        r"\1 ",
+    ),
+    (r"\bas (close|near)((?: to)? [^.,;]*?)? as (?:you can|it gets|it goes|can be)\b", r"as \1\2 as possible"),
+    # Everything that can be eaten
+    (r"\b(?:everything|anything|whatever)(?: (?:that|which))?(?: is)? (?:edible|eatable)\b", "all the food"),
+    (r"\b(all|every|each)(?: (?:of )?the)? edible (?:things?|items?|objects?)\b", r"\1 food"),
     # Two headlines of one request ("toy out. then close the drawer")
     (
         r"(^|[.;!]\s+)((?:the |my )?(?:\w+ )?\w+ out)[.;!]\s+"

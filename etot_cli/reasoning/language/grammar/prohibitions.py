@@ -148,9 +148,7 @@ _FORBIDDEN = either(
             ),
             sequence(verbs.DISTURB, THINGS, build=_undisturbed),
             sequence(phrase(verbs.UPSET, Avoid.HIT), THINGS, "off, down", build=_avoid),
-            sequence(
-                verbs.UPSET, THINGS, "over", build=partial(AvoidClause, Avoid.HIT, over=True)
-            ),
+            sequence(verbs.UPSET, THINGS, "over", build=partial(AvoidClause, Avoid.HIT, over=True)),
         ),
         WITH_IT,
         optional(small_words.TRAILING_THEN),

@@ -110,9 +110,9 @@ _SO_THAT_IT_IS = sequence(
 )
 
 
-def _got(gathered: bool, group: PutGroup) -> PutClause:
-    several = gathered and group.things.may_be_several
-    return PutClause((group,), far_fetched=0 if several else 2)
+def _got(gathered: bool, groups: tuple[PutGroup, ...]) -> PutClause:
+    several = gathered and all(group.things.may_be_several for group in groups)
+    return PutClause(groups, far_fetched=0 if several else 2)
 
 
 def _stacked(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
@@ -385,7 +385,7 @@ PUT = either(
     sequence(
         # "Get the pen in the box" is rather about the pen that is there.
         either(phrase("get[ting]", False), phrase(verbs.GATHER, True)),
-        PUT_GROUP,
+        PUT_GROUPS,
         build=_got,
     ),
     sequence(verbs.DO_NOT, verbs.PUT, THINGS, INSTEAD, build=put_to),

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.language.grammar.lacking_room import lacks_room
-from etot_cli.reasoning.language.grammar.mishaps import befalls
+from etot_cli.reasoning.language.grammar.mishaps import befalls, is_spared
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
@@ -131,6 +131,7 @@ _IN_GENERAL = Expression(
     r"^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
     r"|^it (?:is|gets|looks|feels) (?:so |very |too |"
     r"really |quite )?\w+ (?:in here|outside|out there)$"
+    r"|^(?:the |our |my )?(?:\w+ )?\w*time is (?:over|up)(?: now)?$"
     rf"|^(?:it is )?time (?:for|to) "
     rf"(?!(?:{'|'.join(sorted(VERB_WORDS))}|the|a|my)\b)\w+(?: up| out)?$"
     r"|^(?:that|this|it) is where (?:i|we|it|they) "
@@ -242,7 +243,7 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
         return bool(_SO_PEOPLE.match(said) or home) and not named
     if _SO_PEOPLE.match(said) or (_SO_NOTHING.match(said) and not named):
         return True
-    if _SO_OF_ITSELF.match(said) or is_made_possible(said):
+    if _SO_OF_ITSELF.match(said) or is_made_possible(said) or is_spared(said):
         return True
     told_of = told_of_thing(said, is_name)
     return bool(told_of and re.search(r" (?:is|are|looks?|seems?|feels?) ", said))
@@ -273,10 +274,16 @@ def is_comment(said: str, is_name: IsName) -> bool:
     return bool(_COMMENT.match(said)) and _is_idle(said, is_name)
 
 
+_YOU_DO = Expression(r"^you (?:then )?(\w+)")
+
+
 def is_reason(said: str, is_name: IsName) -> bool:
     """Whether this may stand behind "because" and asks for nothing itself."""
     said = _GONE_WRONG.sub(" fails", said)
     words = {*said.split()}
+    asked = _YOU_DO.match(said)
+    if asked and asked[1] in VERB_WORDS - OTHER_VERBS and any(map(is_name, words)):
+        return False  # "as you move the cup over there, keep it upright"
     if not is_of_people(said):
         return not (ASKING | CHANGING - {"to", "by", "than"} | WORK) & words
     wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words

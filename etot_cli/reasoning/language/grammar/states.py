@@ -120,7 +120,8 @@ ALWAYS = optional(phrase(small_words.ALL_ALONG, True), False)
 def _staying(nps: tuple[NounPhrase, ...], said: str, predicate: Any, always: bool) -> State | None:
     """What stays so; of what "may" do so nothing is asked."""
     state = state_of(nps, predicate)
-    allowed = bool({"can", "may"} & {*said.split()})
+    none = all(np.determiner in NONE for np in nps)
+    allowed = bool({"can", "may"} & {*said.split()}) and not none
     return None if state is None else replace(state, kept=True, always=always, allowed=allowed)
 
 
@@ -206,8 +207,15 @@ NOT_FALLING = sequence(
     noun_phrase,
     build=lambda nps, toward, np: State(nps, (Destination(toward, (np,)),), kept=True),
 )
+_NONE_MAY_BE = sequence(
+    NP_LIST,
+    "(may|can|could|will|shall|is to|are to) (be [left|found|standing]|stand|lie)",
+    PREDICATE,
+    build=lambda nps, so: state_of(nps, so) if {np.determiner for np in nps} <= {*NONE} else None,
+)
 STATE = either(
     being(f"{verbs.BE}, {verbs.LIES}"),
+    _NONE_MAY_BE,
     STAYS,
     NOT_FALLING,
     containing("contains, holds, has, have"),
@@ -255,8 +263,8 @@ def kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> Ensu
 
 BESIDES_SO = either(
     sequence(
-        # "…: the cup, containing the pen"
-        verbs.HOLDING,
+        # "…: the cup, containing the pen"; who is "holding the pen" may be the hand
+        "containing",
         NP_LIST,
         build=lambda held: ensured(
             State(held, (Destination(Toward.INSIDE, (NounPhrase(pronoun="it", text="it"),)),))

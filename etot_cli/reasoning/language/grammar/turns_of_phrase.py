@@ -58,6 +58,12 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?=(?:into|onto|in|on) {NAMED} (?:\w+ )*?with (?:it|them){_END})",
         r"\1\2\3: ",
     ),
+    # Which of the places that were named is none of theirs
+    (
+        r", (?:and )?(?:neither|none|not one) of them (in|into|on|onto) "
+        rf"(?=(?:the|that) \w+ one{_END})",
+        r", but not \1 ",
+    ),
     (rf"\btake (it|them) (?=there{_END}|there (?:and|then)\b)", r"bring \1 "),
     (
         rf"\bha(?:s its|ve its|ve their) (?:home|place|spot)s? (?=(?:in|on|inside) {NAMED})",

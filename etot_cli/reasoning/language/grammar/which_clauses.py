@@ -24,15 +24,18 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
     Clause,
+    EnsureClause,
     MoveClause,
     PickClause,
     PutClause,
+    PutGroup,
     RemoveClause,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
+    State,
     Things,
     Toward,
 )
@@ -160,6 +163,23 @@ WHICH_GOES_ON = plain(
     )
 )
 """Where what was named last goes then; see ``named_last``."""
+_GOES = "(stands|sits|rests|lies|goes|belongs|is)"
+_TO_GO = f"(be [({verbs.DONE_WITH_IT})]|stand|sit|rest|lie|go|belong|end up)"
+WHICH_IN_TURN_IS = plain(
+    sequence(
+        "which",
+        f"(in turn|itself|then|for its part) {_GOES} [{verbs.DONE_WITH_IT}],"
+        f" {_GOES} in turn, goes [itself],"
+        f" (in turn|itself) (should|must|shall|has to|needs to|is to|ought to) {_TO_GO},"
+        f" (should|must|shall|has to|needs to|is to|ought to) (in turn|itself) {_TO_GO},"
+        f" (must|shall|has to|needs to|is to|ought to) {_TO_GO}, should (stand|sit|rest|lie|go)",
+        DESTINATIONS,
+        build=partial(put_to, _PUT_THERE),
+    )
+)
+"""Where that in or on which something goes is to be itself ("in the cup, which in turn …"); what
+"should be" there rather is so by now.
+"""
 
 
 def _received(first: Things, more: tuple[Things, ...]) -> tuple[PutClause, ...]:
@@ -187,6 +207,18 @@ WHICH_FIRST_GETS: Parser = located(
     _one_after_another,
 )
 """What goes into what was named last before anything is done with that."""
+
+
+def held_by(before: Clause, clause: Clause) -> Clause | None:
+    """What goes on, with a name for "which": what something goes into or onto before it."""
+    match before:
+        case EnsureClause(states=(State(destinations=(where,), denied=False) as state,)):
+            before = put_to(Things(state.subjects), (where,))
+        case PutClause(groups=(PutGroup(destinations=(where,)),)):
+            pass
+        case _:
+            return None
+    return named_last(before, clause) if where.targets and not where.denied else None
 
 
 def named_last(before: Clause, clause: Clause) -> Clause | None:

@@ -67,9 +67,7 @@ def _its_own(things: Things, place: NounPhrase) -> PutClause | None:
     return put_to(things, (Destination(Toward.TO, (place,), FILLED),)) if own else None
 
 
-def _in_company(
-    things: Things, np: NounPhrase, where: tuple[Destination, ...]
-) -> PutClause | None:
+def _in_company(things: Things, np: NounPhrase, where: tuple[Destination, ...]) -> PutClause | None:
     """What joins a thing where that is, or what is to be with it at a place."""
     if not where:
         return put_to(things, (Destination(Toward.WITH, (np,), "join"),))

@@ -41,6 +41,14 @@ _ITS_OWNER = NounPhrase(pronoun="it", text="the contents")
 """Of "the contents" of what was spoken of."""
 
 
+_EACH_OF = [["each", "of", "the"], ["every", "one", "of", "the"], ["both", "of", "the"]]
+
+
+def _is_utmost(word: str) -> bool:
+    """Whether a word tells those of some things that are so more than the others."""
+    return word.endswith(("est", "most")) and (word in SIZES or word in SIDES)
+
+
 def is_robot(phrase: NounPhrase) -> bool:
     """Whether a phrase means the robot itself, as a landmark."""
     number = phrase.determiner.split()[-1:]
@@ -67,6 +75,10 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         # "Either one of the two cups"
         determiner = f"{phrase.determiner} {phrase.words[0]}"
         return usual_form(replace(phrase, determiner=determiner, words=phrase.words[1:]))
+    *each, number = phrase.determiner.split() or [""]
+    if each in _EACH_OF and number in NUMBERS and any(map(_is_utmost, phrase.words[:-1])):
+        # "Each of the two biggest cups", of which there may be more
+        return usual_form(replace(phrase, determiner=f"all {number}"))
     last = phrase.head
     if last in GENERAL and len(phrase.words) == 1:
         determiner = GENERAL[last]

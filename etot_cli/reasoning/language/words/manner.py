@@ -190,9 +190,11 @@ IN_THIS_ORDER = """
 """
 _UPRIGHT = f"(upright|vertical|vertically|on (end|its end)|{_RIGHT_WAY_UP})"
 ERECT = f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation)"
+_SO = "so [that]|such that|in such a way that"
 STANDS = f"""
-    (so [that]|such that) (it|they) (stands|stand|is|are) [standing] ({_UPRIGHT}|up),
-    (so [that]|such that) (it|they) (is|are) standing,
+    ({_SO}) (it|they) [all|both|each] (stands|stand|is|are) [all|both|each] [standing]
+    ({_UPRIGHT}|up),
+    ({_SO}) (it|they) (is|are) [all|both] standing,
     {ERECT}
 """
 """How things stand, ahead of where they do."""
@@ -215,7 +217,7 @@ EITHER_WAY = """
 """
 LYING = f"""
     {LAID}, lying,
-    so [that] (it|they) (lies|lie|is lying|are lying|is|are) ([down|flat] {_ON_ITS_SIDE}|flat|down)
+    ({_SO}) (it|they) [all|both] (lies|lie|is lying|are lying|is|are) [all|both] ([down|flat] {_ON_ITS_SIDE}|flat|down)
 """
 _FITS = "(fits|fit|goes|go|slides|slide|points|point|faces|face)"
 _IF_NEEDED = "(as|if|when|where|however) [it is] (needed|necessary|required)"
@@ -227,7 +229,8 @@ ON_THE_WAY = """
     in (transit|the process)
 """
 """Behind how something is kept while it is moved."""
-LEVEL = f"{UPRIGHT}, level, straight [up], steady, standing [up|upright]"
+LEVELED = "level, straight [up], steady, standing [up|upright]"
+LEVEL = f"{UPRIGHT}, {LEVELED}"
 """How a thing is kept that must not be tilted."""
 FITTING = """
     so [that] (it|they) (fits|fit) [in|inside] [there|it], to fit [in|inside] [there|it],

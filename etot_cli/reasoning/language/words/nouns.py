@@ -86,7 +86,11 @@ MATCHING = f"""
     (that|which) (has|have|is of|are of) ([the|a] ({_SAME})|its|their) ({_COLOR}),
     matching (its|their) ({_COLOR}), matching (it|them) [in ({_COLOR})],
     whose ({_COLOR}) (matches|match|(is|are) the same as|corresponds to|correspond to)
-    [it|them|its|theirs|its own|their own|that of the (block|thing|item|object)]
+    [it|them|its|theirs|its own|their own|that of the (block|thing|item|object)],
+    [that|which] (it|they) (shares|share) [(a|the|its|their)] ({_COLOR}) with,
+    with which (it|they) (shares|share) [(a|the|its|their)] ({_COLOR}),
+    (that|which) (shares|share) [(a|the|its|their)] ({_COLOR}) [with (it|them)],
+    whose ({_COLOR}) (it|they) (shares|share|has|have|matches|match), whose ({_COLOR}) is the same
 """
 SAME_COLOR = """
     (of|with|in) the same (color|colour) as,

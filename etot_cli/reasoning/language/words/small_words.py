@@ -26,10 +26,11 @@ _HOLDING = """
     (approach|grasp|grip|gripper|grasping) (direction|pose|orientation|angle|side)
 """
 WITHOUT_MEANING = f"""
-    [pretty] please, kindly, ta, 
+    [pretty] please, kindly, ta,
     ~comma there is a ((good|dear|clever) (boy|girl|lad|lass|chap|robot)|dear|love|darling),
     [very|really] (carefully|gently|safely|cautiously),
-    also, too, as well, just, simply, now, though,
+    also, too, as well, just, simply, now, though, of course, obviously, naturally, evidently,
+    needless to say, somehow [or other], in some way [or other], one way or another,
     again,
     immediately, right away, right now, for me, fully, completely, all the way,
     the rest of the way, wide, there after,
@@ -69,7 +70,7 @@ WITHOUT_MEANING = f"""
     is (easier|easiest|best) [for you]|seems best [to you]],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
-    if possible, of course, obviously, naturally, somehow, by all means,
+    if possible, by all means,
     [and|but] whatever (you do|happens) [~comma],
     properly, neatly, directly, straight,
     ~comma if you would [be so (kind|good|nice)], ~comma shall we, behind you, after you,
@@ -101,6 +102,7 @@ ALL_ALONG = "at all times, (all|the (whole|entire)) [the] time, throughout"
 """Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
 """A sentence alone, after one that left it open anyway."""
+WHILE = "while [you [are]], whilst [you [are]], as you [are]"
 ANNOUNCED = "(two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)]"
 """Before what is to be done."""
 TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
