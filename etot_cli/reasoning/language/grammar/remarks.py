@@ -40,7 +40,7 @@ _OWN = (
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
     r"(?:i|we|you|he|she|nobody|no one|somebody|someone|everybody|everyone|people"
-    r"|grand(?:ma|pa)|granny|mum|mom|dad"
+    r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
     rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)"

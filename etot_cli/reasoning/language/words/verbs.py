@@ -193,6 +193,7 @@ MODAL = f"""
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie|live), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
+    (need|needs|want|wants) (putting|placing|storing|stowing|moving|bringing|returning) [away|back|down],
     move[s] [up|down|over|back], find[s] (its|their) way [back], (is|are) [now|still|also] (wanted|needed|required)
 """
 _STAND_THERE = f"""
@@ -236,12 +237,15 @@ RELATIONS = """
 """
 WANT = """
     (i|we) [just|really|also] (want|need|prefer) [to (have|see)], need,
+    (i|we) (could|can) do with,
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
     i d like, (can|could|may|might) (i|we) (have|get), let (us|me) have,
     (would|is) it [be] possible to have,
     it would be [really|so] (great|nice|lovely|good) to (see|have),
     (i|we) would rather (have|see),
-    (what|all [that]) (i|we) [really|just] (want|need|would like) [to (have|see)] is
+    (what|all [that]) (i|we) [really|just] (want|need) [to (have|see)] is,
+    (what|all [that]) (i|we) would [really|just] (like|love) [to (have|see)] is,
+    [what] (i am|we are) [really|just] after [is]
 """
 _SOMEBODY = f"{RELATIONS}|lady|gentleman|woman|man|person|visitor|shopper|diner|friend"
 OTHERS_WANT = f"""
