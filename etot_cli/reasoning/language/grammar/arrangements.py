@@ -131,7 +131,7 @@ def _kept_upright(things: Things) -> ReorientClause:
 
 
 def _held_upright(things: Things) -> ReorientClause | None:
-    """What "hold it upright" says of what is put somewhere; else it asks for something in the hand."""
+    """What "hold it upright" says of what is put somewhere; else it is to be in the hand."""
     again = all(np.pronoun for np in things.phrases)
     return _upright_meanwhile(things) if again else None
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.aside_clauses import GRANTED, Clause, clauses_of
 from etot_cli.reasoning.language.grammar.displeasure import dislikes, in_state, is_answered
+from etot_cli.reasoning.language.grammar.going import goes_to_it
 from etot_cli.reasoning.language.grammar.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.left_open import (
     is_desk_wish,
@@ -203,6 +204,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or (
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
+    told = told or goes_to_it(aside.said, "", first=True)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -296,6 +298,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         or goes_there(clause.said, is_name)
     )
     if at == 0 and exclaims(clause.said, is_name):
+        return True
+    if at + 1 < len(clauses) and goes_to_it(clause.said, behind, first=at == 0):
         return True
     if _is_whole(clauses, at) and tells_of_others(clause.said, is_name, before_so=so):
         return True

@@ -342,6 +342,7 @@ WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     not_so(CHAIN),
+    MEANWHILE,
     sequence(
         # "Once turned, the pen goes in the mug": "it" is what comes next
         phrase(manner.TURNED_AS_NEEDED),
@@ -349,7 +350,6 @@ WITH_MORE_BEFORE_IT = either(
         CHAIN,
         build=_turned_before,
     ),
-    MEANWHILE,
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(manner.STARTING_WITH, noun_phrase, COMMA, CHAIN, build=_started_with),
     sequence(

@@ -36,7 +36,7 @@ STANDS_OUT = f"""
 STANDING_OUT = f"({_STICKING}) (out|up), protruding"
 STUCK = "(is|are|got) [still] (stuck|jammed|wedged|caught)"
 TOO_FAR = (
-    "[a bit|much|far] too (far|high|much), at the top, a (bit|little)"
+    "[a bit|much|far] too (far|high|much), at the top, a (bit|little), over the (top|edge|rim)"
 )
 TOO_BIG = "(is|are) [a bit|far|much] too (tall|big|large|high|long|wide|thick) [for it]"
 IS_THERE = """

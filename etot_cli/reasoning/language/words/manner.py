@@ -188,7 +188,7 @@ SWEEPS = {
 }
 """In which direction, or by which size, several things are taken one after the other."""
 IN_THIS_ORDER = """
-    in (this|that) order, in the (given|same|stated) order,
+    in [exactly|precisely] (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order
 """
 _UPRIGHT = f"(upright|vertical|vertically|on (end|its end)|{_RIGHT_WAY_UP})"
@@ -230,7 +230,8 @@ EITHER_WAY = """
 """
 LYING = f"""
     {LAID}, lying,
-    ({_SO}) (it|they) [all|both] (lies|lie|is lying|are lying|is|are) [all|both] ([down|flat] {_ON_ITS_SIDE}|flat|down)
+    ({_SO}) (it|they) [all|both] (lies|lie|is lying|are lying|is|are) [all|both]
+    ([down|flat] {_ON_ITS_SIDE}|flat|down)
 """
 _FITS = "(fits|fit|goes|go|slides|slide|points|point|faces|face)"
 _IF_NEEDED = (
