@@ -116,9 +116,7 @@ def _at_side(said: str) -> Modifier:
 
 
 PLAIN_MODIFIER = either(
-    sequence(
-        optional(phrase(small_words.EXACTLY), ""), PREPOSITION, noun_phrase, build=_rightly
-    ),
+    sequence(optional(phrase(small_words.EXACTLY), ""), PREPOSITION, noun_phrase, build=_rightly),
     sequence(
         EXACTLY,
         one_of(places.ON_SIDE),
