@@ -111,7 +111,7 @@ def check_counted(context: Context, phrases: Sequence[NounPhrase], places: Seque
             for at in context.discourse.things(*where)
             if touches(thing, at, context.scene)
         ]
-        if there and len(alike) > quantity.count:
+        if there and len(alike) > (quantity.count or 0):
             why = f"{' and '.join(there)} is there already; say which are to be there"
             raise ReferenceProblem(phrase.text, why, 4, word=first)
 
