@@ -26,7 +26,13 @@ from etot_cli.reasoning.language.viewpoint import without_viewpoint
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, opening_words
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, NUMBERS, singular, word_set
+from etot_cli.reasoning.language.words.lexicon import (
+    DESK_NOUNS,
+    LEVELS,
+    NUMBERS,
+    singular,
+    word_set,
+)
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings, words_of
 from etot_cli.reasoning.protocol import ReasonerStopped
@@ -53,6 +59,9 @@ _REFERRING = word_set(
 """Below a heading they may speak of what that is about, which is not read."""
 _SWEEPING = word_set("other others rest else everything anything")
 """Of a desk."""
+_PUT = words_of((verbs.PUT, verbs.BRING))
+_WITHIN = word_set("in on into onto inside")
+"""A heading by which things are put into or onto others says where, which is to be read."""
 _BUILT = words_of((verbs.BUILD,)) | {"on", "in", "onto"}
 """With "stack" they say what is to become of things."""
 _DECLARED = frozenset({"is", "are"})
@@ -61,6 +70,13 @@ _OF_ITS_OWN = re.compile(
     r"|(?<= )(?:all|both) (?=(?:go|are|should|belong|must|need)\b)"
 )
 """Such words before a noun, or between that and its verb, speak of what it names."""
+
+
+_OF_SEVERAL_PARTS = re.compile(
+    r"^(?:(?!\bone\b).)*\b(?:board|drawer|shelf|level|compartment)\b"
+    rf"(?:(?!\bone\b).|\b(?:{'|'.join(LEVELS)}) one\b)*$"
+)
+"""After a part was named "the upper one" is another one of these."""
 
 
 def goal_of(instruction: str, scene: SceneState) -> Goal:
@@ -129,12 +145,16 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     counted = {*spellings(STACK)} & {*words} and (_BUILT | {*NUMBERS}) & {*words}
     if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:
         raise UnreadableError(instruction, "")
+    if words[0] in _PUT and _WITHIN & {*words[1:]} - {*DESK_NOUNS}:
+        raise UnreadableError(instruction, "")  # "put both on the book: the pen on the left, …"
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(_is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
     heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()
     below = {*words_in(_OF_ITS_OWN.sub("", normalized(said[2])))}
     if any(_is_name(word, vocabulary) for word in {*words} & {*below, *map(_several, below)}):
         below -= {"one"}  # "bring the mugs together: put the blue mug next to the red one"
+    if _OF_SEVERAL_PARTS.search(normalized(said[2])):
+        below -= {"one"}  # "restock the shelf: the soup on the top board, the milk on the low one"
     if not heading or (_REFERRING if named else _SWEEPING if on_desk else set()) & below:
         raise UnreadableError(said[2], "")
     if _reads(said[1], scene, vocabulary):

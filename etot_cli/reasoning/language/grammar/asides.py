@@ -7,11 +7,12 @@ only tell something are left out; what they name is spoken of before the rest.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.aside_clauses import GRANTED, Clause, clauses_of
 from etot_cli.reasoning.language.grammar.displeasure import dislikes, in_state, is_answered
+from etot_cli.reasoning.language.grammar.going import goes_to_it
 from etot_cli.reasoning.language.grammar.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.left_open import (
     is_desk_wish,
@@ -73,6 +74,7 @@ _CONFIRMED = re.compile(
     r"(?:(?:then|so|if (?:so|yes|it can|possible|you can)|well|ok|okay|good|please),? )*"
     r"(?:please )?do (?:it|that|so)(?:,? (?:then|please|now|right away|for me))*"
 )
+_WHICH_ONE = re.compile(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
 _PRONOUNS = word_set("it they them that this those these he him she her")
@@ -131,7 +133,11 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     kept = (
         said
         for part in parted
-        for said in (_named(part.before, is_name), part.rest, _named(part.after, is_name))
+        for said in (
+            _named(_of_which(part.before, rest), is_name),
+            part.rest,
+            _named((item.said for item in part.after), is_name),
+        )
     )
     return Plain(
         ". ".join(said.replace(f" {COMMA}", ",") for said in kept if said),
@@ -198,6 +204,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or (
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
+    told = told or goes_to_it(aside.said, "", first=True)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -292,6 +299,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     )
     if at == 0 and exclaims(clause.said, is_name):
         return True
+    if at + 1 < len(clauses) and goes_to_it(clause.said, behind, first=at == 0):
+        return True
     if _is_whole(clauses, at) and tells_of_others(clause.said, is_name, before_so=so):
         return True
     if dislikes(clause.said) or is_hindering(clause.said):
@@ -313,12 +322,20 @@ def _is_whole(clauses: Sequence[Clause], at: int) -> bool:
     return alone or asked
 
 
-def _named(asides: Sequence[Clause], is_name: IsName) -> str:
+def _of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:
+    """What asides say; where it is left open which of several things is meant, "one" of the rest is
+    one of these.
+    """
+    one = any("one" in said.split() for said in rest)
+    for aside in asides:
+        open_one = one and is_left_open(aside.whole) and _WHICH_ONE.match(aside.whole)
+        yield f"the {open_one[1]}s" if open_one else aside.said
+
+
+def _named(asides: Iterable[str], is_name: IsName) -> str:
     """What asides name in the scene, as a remark."""
     phrases = [
-        in_state(aside.said, phrase)
-        for aside in asides
-        for phrase in _phrases(aside.said.split(), is_name)
+        in_state(said, phrase) for said in asides for phrase in _phrases(said.split(), is_name)
     ]
     return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""
 

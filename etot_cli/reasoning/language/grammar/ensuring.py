@@ -124,6 +124,8 @@ _TOGETHER = either(
 
 def _may_be(nps: tuple[NounPhrase, ...], may: str, state: str) -> EnsureClause | None:
     """What can be closed by then is to be closed; "may be closed" asks for it or not, who knows."""
+    if _none(nps):
+        return ensured(state_of(nps, state))
     alone = any(is_only(np.determiner) for np in nps)
     if alone or (may == "may be" and state != "open"):
         return None

@@ -33,7 +33,8 @@ _LEFT = ("leave", "keep", "let", "forget", "touch", "bother", "hesitate")
 """Behind "do not" they forbid, or forbid nothing."""
 _BEFORE_THAT = """
     (before|until|till|prior to) (that|this|then) [(is|has been) done|has happened],
-    (before|until) you [have] (do|did|done) (so|that|this|it), before (doing|having done) (so|that|this|it)
+    (before|until) you [have] (do|did|done) (so|that|this|it),
+    before (doing|having done) (so|that|this|it)
 """
 """What was asked for before it has been done by then."""
 _VAGUE = frozenset({"a", "an", "any", "either", "no", "some"})

@@ -60,29 +60,58 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # Which of them "the two others" are
     (
-        rf"\bthe ({'|'.join(NUMBERS)}|\d) others(?= (?:in|on|into|onto|to|go|goes|next|out|off|back|down"
-        r"|are|should|must|stay|belong|where|behind|beside|there|inside)\b|[.,;!]|$)",
+        rf"\bthe ({'|'.join(NUMBERS)}|\d) others(?= (?:in|on|into|onto|to|go|goes|next|out|off|back"
+        r"|down|are|should|must|stay|belong|where|behind|beside|there|inside)\b|[.,;!]|$)",
         r"the other \1",
     ),
-    (r",? whether (?:\w+ )?or not,? (?=(?:is|are|goes?|should|must|belongs?|in|on|into|onto)\b)", " "),
     (
-        r"((?:behind|beside|next to|in front of|(?:left|right) of) [^.,;]*?),? (?:and )?as (close|near)"
-        r" as (?=(?:you can|it gets|possible)\b)",
+        r",? whether (?:\w+ )?or not,? "
+        r"(?=(?:is|are|goes?|should|must|belongs?|in|on|into|onto)\b)",
+        " ",
+    ),
+    (
+        r"((?:behind|beside|next to|in front of|(?:left|right) of) [^.,;]*?),? (?:and )?"
+        r"as (close|near) as (?=(?:you can|it gets|possible)\b)",
         r"\1, as \2 to it as ",
     ),
     # "So that they all stand upright"
     (
-        r"\b(so(?: that)?|such that|in such a way that) (?:(?:all|both|each) of them|they all|they both|all|both) "
-        r"(are |stand |lie |fit )?(?=(?:standing |lying )?(?:up|upright|flat|standing|lying|on)\b|in )",
+        r"\b(so(?: that)?|such that|in such a way that) "
+        r"(?:(?:all|both|each) of them|they all|they both|all|both) "
+        r"(are |stand |lie |fit )?(?=(?:standing |lying )?(?:upright|flat|standing|lying)\b)",
         r"\1 they \2",
     ),
     (
-        r"\b((?:so|that) they (?:are|stand|lie)) (?:all|both|each) (?=(?:standing |lying )?(?:upright|flat|standing|lying)\b)",
+        r"\b((?:so|that) they (?:are|stand|lie)) (?:all|both|each) "
+        r"(?=(?:standing |lying )?(?:upright|flat|standing|lying)\b)",
         r"\1 ",
     ),
-    (r"\bas (close|near)((?: to)? [^.,;]*?)? as (?:you can|it gets|it goes|can be)\b", r"as \1\2 as possible"),
+    (
+        r"\bas (close|near)((?: to)? [^.,;]*?)? as (?:you can|it gets|it goes|can be)\b",
+        r"as \1\2 as possible",
+    ),
+    # "Stack the books, black over blue"
+    (
+        rf"(\b(?:stack|pile|tower|build)\b[^.;]*?[,:] (?:with )?)({_COLOR}) (?:over|above) "
+        rf"({_COLOR})(?=[.,;]| and\b| once\b| after\b|$)",
+        r"\1\2 on \3",
+    ),
+    (
+        r"\b(to|on|at|in) the (?:immediate|direct) "
+        r"(?=(?:left|right|front|back|rear|left (?:hand )?side|right (?:hand )?side) of\b)",
+        r"immediately \1 the ",
+    ),
+    # As many things are different ones anyway
+    (
+        rf"\b((?:put|place|move|bring|take|pick up|get|grab|fetch|set) (?:{'|'.join(NUMBERS)}) )"
+        r"(?:different|distinct|arbitrary|random) (?=(?!colou?r|kind|sort)\w+s\b)",
+        r"\1",
+    ),
     # Everything that can be eaten
-    (r"\b(?:everything|anything|whatever)(?: (?:that|which))?(?: is)? (?:edible|eatable)\b", "all the food"),
+    (
+        r"\b(?:everything|anything|whatever)(?: (?:that|which))?(?: is)? (?:edible|eatable)\b",
+        "all the food",
+    ),
     (r"\b(all|every|each)(?: (?:of )?the)? edible (?:things?|items?|objects?)\b", r"\1 food"),
     # Two headlines of one request ("toy out. then close the drawer")
     (
