@@ -26,6 +26,14 @@ COUNTED = frozenset({"exactly", "just", "only"})
 """Before a number: no more than so many."""
 
 
+def counted_by(determiner: str) -> str:
+    """The word that says "no more than so many" ("exactly two"), empty where there is none."""
+    first, *more = determiner.split() or [""]
+    quantity = quantity_of(determiner)
+    so_many = first in COUNTED and more and quantity.count is not None and not quantity.definite
+    return first if so_many else ""
+
+
 def check_alone(
     context: Context,
     phrases: Sequence[NounPhrase],
@@ -93,9 +101,8 @@ def check_counted(context: Context, phrases: Sequence[NounPhrase], places: Seque
     """
     where = [place.where for place in places if place.where is not None]
     for phrase in phrases:
-        first, *more = phrase.determiner.split() or [""]
         quantity = quantity_of(phrase.determiner)
-        if first not in COUNTED or not more or quantity.count is None or quantity.definite:
+        if (first := counted_by(phrase.determiner)) == "":
             continue
         alike = context.all_called(phrase, Role.THEME)
         there = [
@@ -104,9 +111,25 @@ def check_counted(context: Context, phrases: Sequence[NounPhrase], places: Seque
             for at in context.discourse.things(*where)
             if touches(thing, at, context.scene)
         ]
-        if there and len(alike) > quantity.count:
+        if there and len(alike) > (quantity.count or 0):
             why = f"{' and '.join(there)} is there already; say which are to be there"
             raise ReferenceProblem(phrase.text, why, 4, word=first)
+
+
+def check_so_many_to_turn(context: Context, phrase: NounPhrase, *, opens: bool) -> None:
+    """Whether "open exactly one drawer" leaves it open whether those that are open count.
+
+    Raises:
+        ReferenceProblem: it does.
+    """
+    if (first := counted_by(phrase.determiner)) == "":
+        return
+    every = context.phrases.meaning(replace(phrase, determiner="all"), Role.PART).options[0]
+    word = "open" if opens else "closed"
+    so = [thing.address for thing in every if state_holds(word, thing, context.scene)]
+    if so and quantity_of(phrase.determiner).count != len(every):
+        why = f"{' and '.join(so)} is {word} already; say which are to be so"
+        raise ReferenceProblem(phrase.text, why, 4, word=first)
 
 
 def so_many_turned(
@@ -118,9 +141,8 @@ def so_many_turned(
     Raises:
         ReferenceProblem: another number of them is so, and which are to be is not said.
     """
-    first, *more = phrase.determiner.split() or [""]
     quantity = quantity_of(phrase.determiner)
-    if first not in COUNTED or not more or quantity.count is None or quantity.definite:
+    if (first := counted_by(phrase.determiner)) == "":
         return (), ()
     every = context.phrases.meaning(replace(phrase, determiner="all"), Role.PART).options[0]
     word = "open" if opens else "closed"

@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Place, Put, Relat
 from etot_cli.reasoning.builtin.relations import is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.again import again
+from etot_cli.reasoning.language.goals.alone import check_so_many_to_turn
 from etot_cli.reasoning.language.goals.arrangements import tower
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.grasps import grasp
@@ -119,6 +120,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             remove(context, clause)
         case MoveClause():
             context.tell_so(clause.things, opens=clause.opens)
+            for phrase in clause.things.phrases:
+                check_so_many_to_turn(context, phrase, opens=clause.opens)
             if not clause.opens:
                 clause, so = closed_with(context, clause)
                 for state in so:

@@ -9,7 +9,7 @@ from itertools import combinations, islice
 from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.goals.alone import COUNTED
+from etot_cli.reasoning.language.goals.alone import counted_by
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
@@ -24,7 +24,8 @@ from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.space import gap, touches
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.reference.vessels import goes_in
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
@@ -317,7 +318,7 @@ def _there_already(
     names = [" and ".join(thing.name for thing in several) for several in held if several[1:]]
     if names:
         why = f"{names[0]} are in the same place by now; say which of them goes where"
-        raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+        raise ReferenceProblem(phrase.text, why, 4, word=counted_by(phrase.determiner))
     return [thing for several in held for thing in several]
 
 
@@ -334,12 +335,16 @@ def _one_each(context: Context, group: PutGroup, *, in_the_end: bool) -> None:
         else:
             fitting, noun = _spoken_of(context, phrase), ""
         free = [thing for thing in fitting if thing not in targets]
+        if matches_any(phrase.head, THING_NOUNS):
+            # "An item in each bowl" is no basket.
+            fit = [t for t in free if any(goes_in([t], [at], context.scene) for at in targets)]
+            free = fit if len(fit) >= count else free
         there: list[Thing] = []
-        if phrase.determiner.split()[0] in COUNTED:
+        if counted_by(phrase.determiner):
             there = _there_already(context, phrase, free, targets)
             if there and not in_the_end:
                 why = f"{there[0].name} is there already; say whether it counts"
-                raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+                raise ReferenceProblem(phrase.text, why, 4, word=counted_by(phrase.determiner))
         rest = [thing for thing in free if thing not in there]
         chosen_ones = islice(combinations(rest, count - len(there)), MAX_OPTIONS)
         options = tuple((*there, *others) for others in chosen_ones)

@@ -251,7 +251,11 @@ def ensure(context: Context, state: State) -> None:
                 if state.denied:
                     leave_out(context, index, state.word)
                 if state.kept:
-                    one = phrase.determiner == "the" and singular(phrase.head) == phrase.head
+                    one = phrase.determiner == "the" and phrase.head == singular(phrase.head)
+                    one &= all(
+                        phrase.head != context.scene.infos[thing.name].label.split()[-1]
+                        for thing in context.discourse.things(index)
+                    )
                     keep_as_it_is(
                         context,
                         index,

@@ -53,13 +53,19 @@ SAID_AGAIN = (
         r"\1 of the \4 of \2 \3",
     ),
     (
-        r"(\b(?:should|shall|must|will|(?:is|are|has|have) to) [^.;:]*?),? (?:in|at|by) the (?:very )?"
-        r"end(?=: )",
+        r"(\b(?:should|shall|must|will|(?:is|are|has|have) to) [^.;:]*?),? (?:in|at|by) the "
+        r"(?:very )?end(?=: )",
         r"\1",
     ),
-    (r"\bunstack (the [^.,;]*?) (?=(?:onto|on to|into) )", r"put \1 "),
+    (r"\bunstack (the [^.,;:]*?) (?=(?:onto|on to|into) )", r"put \1 "),
+    (
+        # "The cup on the left side of the desk and the pen on the right": that side of it
+        r"(\b(?:on|at|to) the (left|right) side of the \w+,? and [^.,;:]*? (?:on|at|to) the (?!\2)"
+        r"(?:left|right))(?=[.;!?]|$)",
+        r"\1 side",
+    ),
     (r", all in (?=(?:exactly |precisely )?(?:that|this) order\b)", ", in "),
-    (r"\bbring over ((?:the|my|a|an|one|all|both) [^.,;]*?) (?=(?:to|onto|into) )", r"bring \1 "),
+    (r"\bbring over ((?:the|my|a|an|one|all|both) [^.,;:]*?) (?=(?:to|onto|into) )", r"bring \1 "),
     (
         rf", {_TO_BE_EXACT} (?P<again>the \w+)(?=[.,;!?]|$)",
         lambda said: f", {_without_assurance(said)}",

@@ -215,8 +215,7 @@ class Discourse:
         if not more and 0 < len(now) < len(parts):
             options = tuple((thing,) for thing in now) if len(option) == 1 else (now,)
             self.referents[referent] = replace(self.referents[referent], options=options)
-            named = self.scene.infos[option[0].name].label.split()[-1] in called.split()
-            if called and len(now) == 1 and (word == "open" or not named):
+            if called and len(now) == 1:
                 self.notes.append(f"{called!r} is {now[0].address}, which is {word}")
 
     def is_spoken(self, referent: int) -> bool:
