@@ -60,6 +60,9 @@ _REFERRING = word_set(
 """Below a heading they may speak of what that is about, which is not read."""
 _SWEEPING = word_set("other others rest else everything anything")
 """Of a desk."""
+_PUT = words_of((verbs.PUT, verbs.BRING))
+_WITHIN = word_set("in on into onto inside")
+"""A heading by which things are put into or onto others says where, which is to be read."""
 _BUILT = words_of((verbs.BUILD,)) | {"on", "in", "onto"}
 """With "stack" they say what is to become of things."""
 _DECLARED = frozenset({"is", "are"})
@@ -143,6 +146,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     counted = {*spellings(STACK)} & {*words} and (_BUILT | {*NUMBERS}) & {*words}
     if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:
         raise UnreadableError(instruction, "")
+    if words[0] in _PUT and _WITHIN & {*words[1:]} - {*DESK_NOUNS}:
+        raise UnreadableError(instruction, "")  # "put both on the book: the pen on the left, …"
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(_is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
     heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import (
     Grouping,
@@ -17,10 +18,11 @@ from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.determiners import quantity_of
 from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 
-_COUNTED = frozenset({"exactly", "just", "only"})
+COUNTED = frozenset({"exactly", "just", "only"})
 """Before a number: no more than so many."""
 
 
@@ -93,7 +95,7 @@ def check_counted(context: Context, phrases: Sequence[NounPhrase], places: Seque
     for phrase in phrases:
         first, *more = phrase.determiner.split() or [""]
         quantity = quantity_of(phrase.determiner)
-        if first not in _COUNTED or not more or quantity.count is None or quantity.definite:
+        if first not in COUNTED or not more or quantity.count is None or quantity.definite:
             continue
         alike = context.all_called(phrase, Role.THEME)
         there = [
@@ -105,6 +107,29 @@ def check_counted(context: Context, phrases: Sequence[NounPhrase], places: Seque
         if there and len(alike) > quantity.count:
             why = f"{' and '.join(there)} is there already; say which are to be there"
             raise ReferenceProblem(phrase.text, why, 4, word=first)
+
+
+def so_many_turned(
+    context: Context, phrase: NounPhrase, *, opens: bool
+) -> tuple[tuple[Thing, ...], tuple[Thing, ...]]:
+    """What is open, or closed, where "exactly one drawer" is to be so, and the others, which are to
+    be the other way round; nothing where nothing of the kind is said.
+
+    Raises:
+        ReferenceProblem: another number of them is so, and which are to be is not said.
+    """
+    first, *more = phrase.determiner.split() or [""]
+    quantity = quantity_of(phrase.determiner)
+    if first not in COUNTED or not more or quantity.count is None or quantity.definite:
+        return (), ()
+    every = context.phrases.meaning(replace(phrase, determiner="all"), Role.PART).options[0]
+    word = "open" if opens else "closed"
+    so = tuple(thing for thing in every if state_holds(word, thing, context.scene))
+    if quantity.count == len(every):
+        return every, ()
+    if quantity.count != len(so):
+        raise ReferenceProblem(phrase.text, "say which", 3, word=first)
+    return so, tuple(thing for thing in every if thing not in so)
 
 
 def _goes(context: Context, name: str) -> bool:

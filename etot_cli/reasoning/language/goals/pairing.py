@@ -9,6 +9,7 @@ from itertools import combinations, islice
 from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import container_parts
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.alone import COUNTED
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
@@ -22,7 +23,7 @@ from etot_cli.reasoning.language.reference.determiners import is_distributive, q
 from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each
 from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.space import gap
+from etot_cli.reasoning.language.reference.space import gap, touches
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
@@ -182,12 +183,16 @@ def _of_color(context: Context, thing: Thing, among: Sequence[Thing], text: str)
     return found
 
 
-def add_pairs(context: Context, clause: PutClause, group: PutGroup) -> bool:
-    """Adds the steps of a clause in which each thing gets a place of its own; whether it is one."""
+def add_pairs(
+    context: Context, clause: PutClause, group: PutGroup, *, in_the_end: bool = False
+) -> bool:
+    """Adds the steps of a clause in which each thing gets a place of its own; whether it is one.
+    ``in_the_end``: it is said how it is to be, so that what is there already is among them.
+    """
     if clause.by_color or _is_by_color(group):
         _by_color(context, group)
     elif clause.one_each or _is_one_each(group):
-        _one_each(context, group)
+        _one_each(context, group, in_the_end=in_the_end)
     elif _is_beside_each(group):
         _beside_each(context, group)
     else:
@@ -300,7 +305,23 @@ def _spoken_of(context: Context, phrase: NounPhrase) -> list[Thing]:
     return things
 
 
-def _one_each(context: Context, group: PutGroup) -> None:
+def _there_already(
+    context: Context, phrase: NounPhrase, fitting: Sequence[Thing], targets: Sequence[Thing]
+) -> list[Thing]:
+    """What is in the places by now, where "exactly one" is to be in each of them.
+
+    Raises:
+        ReferenceProblem: some of it would have to go, and it is not said which, or where to.
+    """
+    held = [[t for t in fitting if touches(t, at, context.scene)] for at in targets]
+    names = [" and ".join(thing.name for thing in several) for several in held if several[1:]]
+    if names:
+        why = f"{names[0]} are in the same place by now; say which of them goes where"
+        raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+    return [thing for several in held for thing in several]
+
+
+def _one_each(context: Context, group: PutGroup, *, in_the_end: bool) -> None:
     """Adds a step in which every place gets exactly one of the things."""
     text = group.destinations[0].targets[0].text if group.destinations[0].targets else ""
     toward, targets = _places(context, group, text)
@@ -313,7 +334,15 @@ def _one_each(context: Context, group: PutGroup) -> None:
         else:
             fitting, noun = _spoken_of(context, phrase), ""
         free = [thing for thing in fitting if thing not in targets]
-        options = tuple(islice(combinations(free, count), MAX_OPTIONS))
+        there: list[Thing] = []
+        if phrase.determiner.split()[0] in COUNTED:
+            there = _there_already(context, phrase, free, targets)
+            if there and not in_the_end:
+                why = f"{there[0].name} is there already; say whether it counts"
+                raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+        rest = [thing for thing in free if thing not in there]
+        chosen_ones = islice(combinations(rest, count - len(there)), MAX_OPTIONS)
+        options = tuple((*there, *others) for others in chosen_ones)
         if not options:
             raise ReferenceProblem(phrase.text, f"there are {len(free)} for {count} places", 2)
         chosen = Resolved(options, noun=noun)

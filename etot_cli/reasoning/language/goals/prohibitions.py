@@ -259,17 +259,23 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
 
 
 def keep_as_it_is(
-    context: Context, index: int, word: str, *, every: bool, always: bool = False
+    context: Context,
+    index: int,
+    word: str,
+    *,
+    every: bool,
+    always: bool = False,
+    called: str = "",
 ) -> None:
     """What is open or closed by now, and is to stay so, must not be moved in between; what is
     closed ``always`` must not be opened at all.
 
     Of a chest of drawers that was spoken of as "the drawer" or "the drawers", only what is so by
-    now is meant; ``every``: all are.
+    now is meant, and noted where it is ``called`` one; ``every``: all are.
     """
     holds = is_open if word == "open" else is_closed
     if not every:
-        context.discourse.as_it_stands(index, holds)
+        context.discourse.as_it_stands(index, holds, called, word)
     for thing in context.discourse.things(index):
         for part in parts_of(context.scene, thing):
             if holds(context.scene, part) or (always and word == "closed"):

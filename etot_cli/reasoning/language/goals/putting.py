@@ -18,7 +18,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.goals.alone import check_alone, check_counted
+from etot_cli.reasoning.language.goals.alone import check_alone, check_counted, so_many_turned
 from etot_cli.reasoning.language.goals.choosing import (
     check_contrasted,
     check_describes,
@@ -92,7 +92,7 @@ from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.space import touches
 from etot_cli.reasoning.language.reference.states import state_holds
-from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any
+from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any, singular
 from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
@@ -119,7 +119,7 @@ def put(
     chosen: list[int] = []
     for group in clause.groups:
         stance = group.stance
-        if add_pairs(context, clause, group):
+        if add_pairs(context, clause, group, in_the_end=clause.stays or wherever):
             check_stance(group, stance)
             continue
         for phrase in group.things.phrases:
@@ -233,6 +233,15 @@ def ensure(context: Context, state: State) -> None:
         return
     if state.word:
         for phrase in state.subjects:
+            opens = state.word == "open"
+            so, others = so_many_turned(context, phrase, opens=opens)
+            for thing in (*so, *others):
+                part = context.single(thing, thing.part or thing.name)
+                context.steps.append(_made(part, opens=opens == (thing in so)))
+            if so:
+                if state.denied or state.kept or state.allowed:
+                    raise ReferenceProblem(phrase.text, "say which", 3)
+                continue
             if phrase.determiner in ("a", "an"):
                 phrase = replace(phrase, determiner="one")  # of the drawers, not the whole chest
             for index in context.phrases.refer(phrase, Role.PART):
@@ -242,9 +251,15 @@ def ensure(context: Context, state: State) -> None:
                 if state.denied:
                     leave_out(context, index, state.word)
                 if state.kept:
-                    all_of_them = quantity_of(phrase.determiner).every
-                    so = state.word
-                    keep_as_it_is(context, index, so, every=all_of_them, always=state.always)
+                    one = phrase.determiner == "the" and singular(phrase.head) == phrase.head
+                    keep_as_it_is(
+                        context,
+                        index,
+                        state.word,
+                        every=quantity_of(phrase.determiner).every,
+                        always=state.always,
+                        called=phrase.text if one else "",
+                    )
                 leave_among_turned(context, index, opens=state.word == "open")
                 context.steps.append(_made(index, opens=state.word == "open"))
                 _not_instead(context, phrase, index, opens=state.word == "open")

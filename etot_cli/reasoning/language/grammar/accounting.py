@@ -107,7 +107,7 @@ _FIXED = """
     all [that] (i|we) [really|just] (need|want|would like), all that (should|must) be,
     (thing|things|one|ones|object|objects|item|items) (left|remaining),
     all [that] (i|we) (need|want) (left|remaining), the right (way|side) up, right (way|side) up,
-    all (the (way|time)|along), not (possible|feasible|doable), (does|do|will) not work,
+    all (the (way|time|while)|along), remaining (in|on|where|there|inside), not (possible|feasible|doable), (does|do|will) not work,
     the right (home|place|spot) (for|of),
     (is|are) only [slightly|partly|partially|half|halfway|barely|a (bit|little|crack)]
 """

@@ -131,7 +131,7 @@ def _kept_upright(things: Things) -> ReorientClause:
 
 
 def _held_upright(things: Things) -> ReorientClause | None:
-    """What "hold it upright" says of what is put somewhere; else it asks for something in the hand."""
+    """What "hold it upright" says of what is put somewhere; else it is to be in the hand."""
     again = all(np.pronoun for np in things.phrases)
     return _upright_meanwhile(things) if again else None
 
@@ -157,7 +157,15 @@ REORIENT = either(
         optional(phrase(manner.IF_NEEDED, True), False),
         build=lambda things, needed: ReorientClause(things, meanwhile=needed),
     ),
-    sequence(verbs.ORIENTATION, "the (orientation|pose) of", THINGS, build=ReorientClause),
+    sequence(
+        verbs.ORIENTATION,
+        either(
+            sequence("the (orientation|pose) of", THINGS),
+            sequence(THINGS, "'s (orientation|pose)"),
+        ),
+        optional(either(phrase(manner.IF_NEEDED, True), phrase(manner.FITTING, True)), False),
+        build=lambda things, needed: ReorientClause(things, meanwhile=needed),
+    ),
     sequence(verbs.TURNING_OF, THINGS, build=ReorientClause),
     sequence(
         either(

@@ -7,7 +7,7 @@ only tell something are left out; what they name is spoken of before the rest.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.aside_clauses import GRANTED, Clause, clauses_of
@@ -74,6 +74,7 @@ _CONFIRMED = re.compile(
     r"(?:(?:then|so|if (?:so|yes|it can|possible|you can)|well|ok|okay|good|please),? )*"
     r"(?:please )?do (?:it|that|so)(?:,? (?:then|please|now|right away|for me))*"
 )
+_WHICH_ONE = re.compile(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
 _PRONOUNS = word_set("it they them that this those these he him she her")
@@ -132,7 +133,11 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     kept = (
         said
         for part in parted
-        for said in (_named(part.before, is_name), part.rest, _named(part.after, is_name))
+        for said in (
+            _named(_of_which(part.before, rest), is_name),
+            part.rest,
+            _named((item.said for item in part.after), is_name),
+        )
     )
     return Plain(
         ". ".join(said.replace(f" {COMMA}", ",") for said in kept if said),
@@ -317,12 +322,20 @@ def _is_whole(clauses: Sequence[Clause], at: int) -> bool:
     return alone or asked
 
 
-def _named(asides: Sequence[Clause], is_name: IsName) -> str:
+def _of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:
+    """What asides say; where it is left open which of several things is meant, "one" of the rest is
+    one of these.
+    """
+    one = any("one" in said.split() for said in rest)
+    for aside in asides:
+        open_one = one and is_left_open(aside.whole) and _WHICH_ONE.match(aside.whole)
+        yield f"the {open_one[1]}s" if open_one else aside.said
+
+
+def _named(asides: Iterable[str], is_name: IsName) -> str:
     """What asides name in the scene, as a remark."""
     phrases = [
-        in_state(aside.said, phrase)
-        for aside in asides
-        for phrase in _phrases(aside.said.split(), is_name)
+        in_state(said, phrase) for said in asides for phrase in _phrases(said.split(), is_name)
     ]
     return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""
 

@@ -13,6 +13,12 @@ from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _THERE = r"(?:in|on|inside|into|onto|next to|beside|behind|between|under)\b"
 _ONE = r"(?:the|my|our) (?:(?!and\b|or\b|in\b|on\b|to\b)\w+ ){0,3}?\w+"
+_ANY = (
+    r"(?:the|my|our|an?|one of the|any|either) (?:(?!and\b|or\b|in\b|on\b|to\b|of\b)\w+ ){0,3}?"
+    r"(?!robot\b|arm\b|gripper\b)\w+"
+)
+_HOLD = dict.fromkeys(("receive", "house", "take"), "hold")
+"""Verbs for what a vessel does, put into the plain one; others say whether it is in or on it."""
 _FINE = (
     r"(?:(?:is|would be|will be|should be) (?:fine|ok|okay|good|all right|alright|best|perfect)"
     r"|(?:will|would|should) do|works)(?: (?:for|with|by) (?:me|us|now))?"
@@ -20,6 +26,10 @@ _FINE = (
 _GO_AWAY = (
     rf"(?:out of (?:the|my|our) way|aside|away(?: from {_ONE})?"
     rf"|(?:off|out of|from) (?:{_ONE}|it))"
+)
+_FROM_STATE = (
+    r"from (?:(?:half |being )?(?:open|closed|shut)|ajar) to "
+    r"(?=(?:being )?(?:fully |completely |wide )?(?:open|closed|shut)\b)"
 )
 _WISH = Expression(
     r"(?:(?<=^)|(?<=[.;!?,:] )|(?<=\b(?:and|but) ))(?:i|we) (?P<no>do not |would not )?"
@@ -88,6 +98,29 @@ def _goes_along(said: re.Match[str]) -> str:
 ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (_WISH, _stays),
     (_FROM, _counted_from),
+    # Whichever is at hand
+    (
+        r"\b(whichever (?:(?!is\b|are\b)\w+ ){1,3}?)"
+        r"(?:you (?:can|could|may) (?:reach|get to|get at|access|grasp|grab|get hold of)"
+        r"|you find|suits(?: you)?|works|comes to hand)"
+        r"(?: (?:the |more |most )?(?:easily|easier|easiest|best|better|comfortably|convenient"
+        r"|suitable|simplest|quickly|fastest|first))?(?: to (?:reach|get to|get at|access))?"
+        r"(?: for you)?(?=[.,;!]|$)",
+        r"\1you like",
+    ),
+    # "Have the cup hold the pen"
+    (
+        r"(^|[.;!?] |, |\band )((?:please |(?:could|can|would|will) you )*)"
+        rf"(?:let|have|make) ({_ANY}) "
+        rf"(hold|contain|receive|house|take|bear|carry|support) (?={NAMED})",
+        lambda said: f"{said[1]}{said[3]} should {_HOLD.get(said[4], said[4])} ",
+    ),
+    (r"\b(turn(?:ed|ing)?|swivel(?:led|ling)?)( (?:it|them))? round\b", r"\1\2 around"),
+    (
+        rf"(^|[.;!?] )((?:there is an? (?:\w+ ){{1,2}}|{NAMED} (?:\w+ ){{1,2}}(?:is|lies|stands) ))"
+        r"in the way (?=(?:in|on) (?:the|my)\b)",
+        r"\1\2",
+    ),
     # A place proposed for what is to go somewhere else
     (
         rf"\b((?:get|take|move|clear|bring|put|shift) (?:(?:{_ONE}|it|them|both|all|these|those)"
@@ -128,12 +161,64 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"(?:[.,;!?]|$| and\b| {WHERE}))",
         r"\1 ",
     ),
+    # What is asked of a thing that is named ahead
+    (
+        rf"(^|[.;!?] )(?:as (?:for|to)|regarding|concerning|with (?:regard|respect) to"
+        rf"|when it comes to) ({NAMED}[^.,;:!?]*?)[,:] (?=\w)",
+        r"\1\2: ",
+    ),
+    # "From ajar to open" is open in the end
+    (
+        rf"\b(should|must|has to|needs to|is to) (?:go|change|be (?:moved|brought|taken)) {_FROM_STATE}",
+        r"\1 be ",
+    ),
+    (rf"[,:] {_FROM_STATE}", ": "),
+    # Which things there are to be seen says nothing of them
+    (
+        rf"\b({NAMED}(?: (?!you\b|that\b|which\b|see\b)\w+)+) (?:that |which )?you (?:can )?see"
+        r"(?: (?:there|here|before you|in front of you))?(?=[.,;:!?]| (?:in|on)\b|$)",
+        r"\1",
+    ),
+    # Nothing is asked of "the other one"
+    (
+        rf"\b(the (?:\w+ ){{0,3}}?\w+(?: {WHERE} (?:the|your|my) \w+)?),? (?:and |but )?"
+        r"(?:not|rather than|instead of) the other(?: one)?(?=[.;!?]|$)",
+        r"\1",
+    ),
+    # "Should it be in the way" is "if it is"
+    (
+        rf"(^|[.;!?,:] )should ({_ONE}|it) be (?=(?:in the way|needed|necessary|blocking)\b)",
+        r"\1if \2 is ",
+    ),
+    (
+        r"\b(put|place|store|stow|set) ([^.,;:]*?) where (?:the |other )?\w+s "
+        r"(?:go|belong|live|are kept)[,:] (?:namely,? |that is,? )?(?=(?:in|into|on|onto) )",
+        r"\1 \2 ",
+    ),
+    (
+        rf"\blet (it|them|{_ONE}) down (?=(?:in|into|on|onto)\b)",
+        r"put \1 down ",
+    ),
     # Putting down what is held
     (
         rf"\b(?:release|let go of) (it|them|{_ONE}) (?={_THERE}|(?:at|over|above) )",
         r"put \1 ",
     ),
     (rf"\blet (it|them|{_ONE}) go (?={_THERE})", r"put \1 "),
+    # "Your choice which goes where"
+    (
+        r", (?:it is )?(?:your|my|the robot 's) (?:choice|decision|call) "
+        r"(?=(?:which|what|where|how|in which)\b)",
+        ", no matter ",
+    ),
+    (r"\bas you (?:see fit|think best|think fit|deem fit|please|find best)\b", "as you like"),
+    (
+        rf"^({_ONE}) (?:and|or) ({_ONE}) are the only (?:places|spots|containers|ones) "
+        rf"(?:(?:where|in which|that|to which) ({_ONE}(?: and {_ONE})?) (?:may|can|could|should"
+        r"|(?:is|are) allowed to) (?:go|be|be put|end up)(?: in| into)?"
+        rf"|for ({_ONE}(?: and {_ONE})?))[.;:,!] (?:so )?(?:please )?put (?:them|it) there\b",
+        lambda said: f"put {said[3] or said[4]} in {said[1]} or {said[2]}",
+    ),
     (
         rf"^({ASKED})make (?:some |more |a little |a bit of )?(?:room|space) (?:on|at|in) "
         r"the (?:left|right|front|back)(?: side| half| part)?(?: of (?:the|my) \w+)? "

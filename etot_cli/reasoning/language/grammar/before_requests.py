@@ -52,6 +52,7 @@ from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
     optional,
+    phrase,
     sequence,
     silent,
     some,
@@ -67,6 +68,7 @@ from etot_cli.reasoning.language.grammar.prohibitions import (
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.reaching import SEPARATING
+from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.states import STATE, states
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
@@ -74,6 +76,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
     PutGroup,
     RemoveClause,
+    ReorientClause,
     SwapClause,
     Turns,
     put_to,
@@ -92,6 +95,7 @@ from etot_cli.reasoning.language.grammar.topics import (
     FREEING,
     MAKING_ROOM,
     NAMED,
+    SEEING,
     about,
     any_of_them,
     done_there,
@@ -132,6 +136,22 @@ def _swapped(things: Things, rest: Reading) -> Reading | None:
                 return None
     swap = SwapClause(things, placed=PutClause(tuple(groups)))
     return (replace(rest[0], clause=swap),)
+
+
+def _opened_for(seen: Reading, rest: Reading) -> Reading | None:
+    """What somebody wants to look into is opened, and whatever is done besides."""
+    first = rest[0].clause
+    opens = isinstance(first, MoveClause) and first.opens
+    return (*seen, *rest) if opens else None
+
+
+def _turned_before(said: str, rest: Reading) -> Reading | None:
+    """What has been turned by the time that it goes somewhere."""
+    first = rest[0].clause
+    if not isinstance(first, PutClause | EnsureClause) or "it" in said.split():
+        return None
+    turned = ReorientClause(Things((NounPhrase(pronoun="it", text="it"),)), meanwhile=True)
+    return (rest[0], Spoken(turned, rest[0].position), *rest[1:])
 
 
 _SO_OR_EMPTY = plain(
@@ -224,6 +244,7 @@ WITH_MORE_BEFORE_IT = either(
     TOLD_BEHIND,
     sequence(TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
     sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by", CHAIN, build=add),
+    sequence(plain(SEEING), "[~comma] by, ~comma, ~colon", CHAIN, build=_opened_for),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
@@ -322,6 +343,13 @@ WITH_MORE_BEFORE_IT = either(
     ),
     not_so(CHAIN),
     MEANWHILE,
+    sequence(
+        # "Once turned, the pen goes in the mug": "it" is what comes next
+        phrase(manner.TURNED_AS_NEEDED),
+        OPTIONAL_COMMA,
+        CHAIN,
+        build=_turned_before,
+    ),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(manner.STARTING_WITH, noun_phrase, COMMA, CHAIN, build=_started_with),
     sequence(

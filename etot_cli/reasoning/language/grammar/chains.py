@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.passives import (
     ALSO_DONE,
     BEFORE_PLACED,
+    THEN_HELD,
     THEN_PLACED,
     THEN_TURNED,
     goes_on,
@@ -47,6 +48,7 @@ from etot_cli.reasoning.language.grammar.states import (
     BESIDES_SO,
     OPEN_OR_CLOSED,
     SHUT,
+    STAYS,
     ensured,
     holding_only,
     states,
@@ -122,6 +124,7 @@ WITH_MORE_SO = either(
         plain(either(sequence(NP_LIST, SHUT, build=left_so), UNTOUCHED)),
     ),
     joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
+    joint("and", OPTIONAL_COMMA, "while", plain(sequence(STAYS, build=ensured))),
     joint(
         # "I want the box empty and the tray holding the pen only"
         "and",
@@ -162,7 +165,7 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     joint("emptied", LIST, PLACED),
-    joint("passive", timed(THEN_PLACED, THEN_TURNED, ALSO_DONE)),
+    joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
     joint(
         # "…, but first the cup on the tray"

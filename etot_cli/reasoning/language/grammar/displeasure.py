@@ -46,6 +46,23 @@ _LEFT_SO = Expression(
     rf"(?:{PEOPLE}|they|you) (?:(?:have|has|had|just|again|always|once) )*"
     rf"(?:left|leaves?|forgot|keeps? leaving) {_thing('e')}{_how('f')}"
 )
+_BUMPED = Expression(
+    rf"{PEOPLE} (?:(?:keeps?|always|constantly|often|just|have|has|had|nearly|almost) )*"
+    r"(?:bump|bang|hit|knock|hurt|stub|trip|catch|scrape|bruise|caught)\w*"
+    r"(?: (?:my|our|his|her|their) (?:\w+ )??\w+)? (?:on|into|against|over|in) "
+    rf"{_thing('g')}(?P<h>)"
+)
+_HALF_DONE = Expression(
+    rf"do not (?:just |simply )?(?:leave|keep) {_thing('i')}"
+    rf"(?: (?:only|just))?(?: (?:half|partly|slightly))? "
+    r"(?P<j>(?<=half )(?:open|closed|shut)|(?<=partly )(?:open|closed|shut)"
+    rf"|(?<=slightly )open|ajar)(?: {_SO})*"
+)
+"""What is not to be left half open is opened, or closed, by what is asked for next."""
+_MOVED_NEXT = Expression(
+    r"(?:(?:please|but|and|so|just|rather|instead|then|(?:can|could|would|will) you) )*"
+    r"(?:open|close|shut) (?:it|them|that)\b(?! one\b)"
+)
 _HELPING = word_set(
     "helps lets makes needs wants asks tells gets keeps allows means matters is has"
 )
@@ -76,6 +93,8 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
     found = _found(said)
     if found is None:
         return True
+    if _HALF_DONE.fullmatch(said):  # "…, open the other one" leaves this as it is
+        return any(map(_MOVED_NEXT.match, rest[:1]))
     thing, state = found
     words = {word for text in rest for word in text.replace(",", "").split()}
     return bool((_PRONOUNS | {thing}) & words) and not (state and not _MOVING & words)
@@ -83,7 +102,7 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
 
 def _found(said: str) -> tuple[str, str] | None:
     """What a clause is about, and whether it says that it is open or closed."""
-    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO):
+    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _BUMPED, _HALF_DONE):
         if found := pattern.fullmatch(said):
             told = found.groupdict()
             if told.get("does") in _HELPING:

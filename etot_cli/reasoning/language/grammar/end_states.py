@@ -13,11 +13,13 @@ _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
 _WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
+_IN_THERE = r"(?:(?:in|on|inside) (?:there|it)|there|inside)"
 _NOTHING_ELSE = (
-    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand|end up"
-    r"|come|stay|remain|be left) (?:(?:in|on|inside) (?:there|it)|there|inside)"
-    r"|there (?:should|must|may|is to) be nothing else (?:(?:in|on|inside) (?:there|it)|there|inside)"
-    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else(?: (?:in|on) it)?)"
+    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
+    rf"|end up|come|stay|remain|be left) {_IN_THERE}"
+    rf"|there (?:should|must|may|is to) be nothing else {_IN_THERE}"
+    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
+    r"(?: (?:in|on) it)?)"
     r"(?=[.;!]|$)"
 )
 _KEPT = {"out of": "in", "off": "on"}
@@ -61,7 +63,8 @@ def _with_it_inside(said: re.Match[str]) -> str:
     if re.search(r"\bthe (?:former|latter)\b", rest):
         return f"{what} and {vessel}{rest}"
     what = re.sub("^both (?=the|my)", "", what)
-    rest = re.sub("^ are (?:both|all) ", " is ", rest)
+    rest = re.sub("^ are both ", " is ", rest)
+    rest = re.sub("^ (should|must|shall|have to|need to|belong|go) both ", r" \1 ", rest)
     return f"{vessel} with {what} in it{rest}"
 
 
@@ -79,6 +82,21 @@ def _seen_there(said: re.Match[str]) -> str:
     if re.search(r"\bit\b", said["rest"]):
         return f"{said['begun']}as for {said['where']}, i want {said['seen']} it{said['rest']}"
     return f"{said['begun']}i want {said['seen']} {said['where']}{said['rest']}"
+
+
+_AT_THE_END = Expression(
+    rf"^with (?P<what>{_SOME}) (?P<state>closed|shut|open) (?:(?:at|in) the end|when all is done|"
+    r"afterwards), (?P<rest>[^.;!?]*)"
+)
+
+
+def _so_when_done(said: re.Match[str]) -> str:
+    """How something is to be "at the end", which is said ahead of all else."""
+    what, rest = said["what"], said["rest"]
+    if len(re.findall(r"\b(?:it|its)\b", rest)) > 1:
+        return said[0]
+    rest = re.sub(r"\bit\b", what, rest)
+    return f"{rest}, and {what} should be {said['state']} in the end"
 
 
 def _named_again(said: re.Match[str]) -> str:
@@ -175,9 +193,11 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (
         rf"(^|[.;] )(?:what|the (?:thing|one)(?: that)?) {_WISHED} (?:to (?:be|go) )?"
-        rf"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is ({_SOME})(?=[.,;!]|$)",
+        r"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is "
+        rf"({_SOME})(?=[.,;!]|$)",
         r"\1\3 should be \2",
     ),
+    (rf"\bit is ({_SOME}) (?:that |which )?({_WISHED})(?=[.;!]|$)", r"\2 \1"),
     # Of two there are no more to be told.
     (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),
     # Which one it is not, said behind it
@@ -224,9 +244,8 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 ",
     ),
     (_CONTAINER, _with_it_inside),
+    (_AT_THE_END, _so_when_done),
     (_LATTER, _named_again),
-    # "The cup itself"
-    (rf"\b({NAMED} (?:(?!and\b|or\b|in\b|on\b|by\b)\w+ ){{1,3}}?)itself (?=\w)", r"\1"),
     (_LOOKED_AT, _seen_there),
     (
         r"(^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:come back|get back|return|come home|look|am back"

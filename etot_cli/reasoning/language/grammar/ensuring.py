@@ -124,6 +124,8 @@ _TOGETHER = either(
 
 def _may_be(nps: tuple[NounPhrase, ...], may: str, state: str) -> EnsureClause | None:
     """What can be closed by then is to be closed; "may be closed" asks for it or not, who knows."""
+    if _none(nps):
+        return ensured(state_of(nps, state))
     alone = any(is_only(np.determiner) for np in nps)
     if alone or (may == "may be" and state != "open"):
         return None
@@ -147,6 +149,11 @@ def _none_left(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
     return ensured(state_of(nps, word)) if _none(nps) else None
 
 
+def _meant_for(nps: tuple[NounPhrase, ...], where: NounPhrase) -> State:
+    """That things are in what they are for."""
+    return State(nps, (Destination(Toward.INSIDE, (where,)),))
+
+
 _ARE_STILL = sequence(
     NP_LIST, silent(optional("[to be] [left|kept]")), OPEN_OR_CLOSED, build=not_left
 )
@@ -165,9 +172,19 @@ ENSURE = either(
         NP_LIST,
         "is for, are for",
         noun_phrase,
-        build=lambda nps, where: EnsureClause(
-            (State(nps, (Destination(Toward.INSIDE, (where,)),)),)
+        build=lambda nps, where: EnsureClause((_meant_for(nps, where),)),
+    ),
+    sequence(
+        # "The butter is for the white bowl and the cheese for the black one"
+        NP_LIST,
+        "is for, are for",
+        noun_phrase,
+        some(
+            sequence(LIST, NP_LIST, "[is|are] for", noun_phrase, build=_meant_for),
+            least=1,
+            most=4,
         ),
+        build=lambda nps, where, more: EnsureClause((_meant_for(nps, where), *more)),
     ),
     sequence(
         # "The beaker is for the red vial and the marker"

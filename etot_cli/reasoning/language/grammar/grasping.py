@@ -306,7 +306,19 @@ GRASP = quiet(
             ),
             sequence(_BY_THE_HAND, POSES, build=_so),
             sequence(
-                "approach[ing]", THINGS, POSES, build=lambda things, poses: _so(poses, things)
+                f"approach[ing], {_COME_AT}",
+                THINGS,
+                POSES,
+                build=lambda things, poses: _so(poses, things),
+            ),
+            # "If it cannot be done from the side, do it from above"
+            sequence(
+                f"if (it|this|that) ({_IMPOSSIBLE.replace(',', '|')})",
+                _POSE,
+                OPTIONAL_COMMA,
+                f"[then] (do|try|{verbs.PICK.replace(',', '|')}) (it|so) [up]",
+                _POSE,
+                build=lambda better, worse: None if better is worse else _so((better, worse)),
             ),
             sequence("approach[ing]", _told(POSES), build=_so),
             sequence(
@@ -324,6 +336,7 @@ GRASP = quiet(
                     sequence(ALL_THINGS, OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA),
                 ),
                 f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
+                OPTIONAL_COMMA,
                 POSES,
                 build=_asked,
             ),

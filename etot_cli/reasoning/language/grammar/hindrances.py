@@ -88,7 +88,10 @@ def _kept(patterns: str) -> Parser:
     return valued(phrase(patterns), lambda said: tuple(said.split()))
 
 
-_OF_IT = sequence(either("of, from, in, on", _kept("[of] the top of")), noun_phrase)
+_OF_IT = sequence(
+    either("of, from, in, on, over the (edge|rim|top|side) of", _kept("[of] the top of")),
+    noun_phrase,
+)
 _TOO_FAR = optional(_kept(words.TOO_FAR))
 _FOR_IT_TO_MOVE = sequence("for", noun_phrase, _kept(words.TO_MOVE))
 _IS_WHY = either(

@@ -18,7 +18,7 @@ _I = r"(?:i|we)"
 _NOT_CARING = (
     rf"(?:{_I} (?:really )?do not (?:really |much )?(?:care|mind)(?: much)?"
     r"|it (?:really )?does not (?:really )?matter|no matter"
-    r"|it is (?:not important|unimportant|up to you|your choice|all the same)"
+    r"|it is (?:not important|unimportant|up to you|your (?:choice|decision)|all the same)"
     r"|it makes no difference)(?: to (?:me|us))?"
 )
 _NO_MATTER = (
@@ -40,7 +40,8 @@ _OF_THEM = r"(?: one| of (?:them|these|those|the \w+))?"
 _WHAT = (
     rf"(?:(?:where|how){_BOTH}?{_WORDS}+|how|where"
     rf"|(?:in )?(?:what|which) order(?! you [^~]* (?:in|on|into|onto) (?:the|my|a)\b){_WORDS}*"
-    rf"|(?:what|which) (?:\w+ ){{0,3}}?(?:it|they|you)\b{_WORDS}*"
+    rf"|(?:what|which) (?:\w+ ){{0,4}}?(?:it|they|you)\b{_WORDS}*"
+    r"|(?:what|which) (?:\w+ ){0,4}?to (?:use|choose|take|pick)"
     rf"|(?:what|which) (?:\w+ )??\w+ (?:is|are|gets?) (?:used|chosen|taken|picked)"
     rf"|which{_OF_THEM}(?: (?:goes|go|ends? up|is put) (?:where|in which))?"
     rf"|what (?:happens to|becomes of){_WORDS}+|whether(?! you\b| i\b| we\b){_WORDS}+|{_WHETHER})"

@@ -22,6 +22,15 @@ _ALL_NAMED = Expression(
 _BOARDS = {"below": "lower", "above": "upper"}
 
 
+_ONE = r"(?:the|my|our) (?:(?!and\b|or\b|in\b|on\b|to\b)\w+ ){0,3}?\w+"
+_ITEM = r"(?:(?:the|my|our) )?(?!the\b|my\b|our\b|each\b)\w+(?: (?!and\b|or\b)\w+){0,2}?"
+
+
+def _named(item: str) -> str:
+    """One of several things that are listed, with the article that lists leave out."""
+    return item if re.match(r"(?:the|my|our)\b", item) else f"the {item}"
+
+
 def _one_by_one(said: re.Match[str]) -> str:
     """A list whose order was announced ("these in this order: the cup, the plate")."""
     asked, where, items = said.groups()
@@ -84,8 +93,9 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
     ),
     # "I want both on the tray: the cup, and in it the pen"
     (
-        rf"\b(?:{_SO_MANY}|two things|the following)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
-        rf"({NAMED} [^,.;:]*?),? and,? ((?:in|on) it),? ({NAMED} [^,.;:]*)(?=[.;!]|$)",
+        rf"\b(?:{_SO_MANY}|two things|the following)(?: of them| things)? "
+        rf"({WHERE} {NAMED} [^,.;:]*)[:,] ({NAMED} [^,.;:]*?),? and,? "
+        rf"((?:in|on) it),? ({NAMED} [^,.;:]*)(?=[.;!]|$)",
         r"\2 \1, and \3 \4",
     ),
     (
@@ -98,6 +108,22 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         rf"\b(?:both|two things)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
         rf"({NAMED} [^,.;:]*? with {NAMED} [^,.;:]* (?:in|on) it)(?=[.;!]|$)",
         r"\2 \1",
+    ),
+    # "Into one of these: bowl, box"
+    (
+        rf"\b(in|into|on|onto|inside) (?:either )?(?:one|any|either) of (?:the following|these)"
+        rf"(?: \w+)?: (?:either )?({_ITEM})(?:,| or|, or) ({_ITEM})(?=[.;!]|$)",
+        lambda said: f"{said[1]} {_named(said[2])} or {_named(said[3])}",
+    ),
+    (
+        rf"\beach of (?:these|the following)(?: (?:two|three))?(?: \w+)?[,:] "
+        rf"({_ITEM}) and ({_ITEM}), (?={WHERE})",
+        lambda said: f"each of {_named(said[1])} and {_named(said[2])} ",
+    ),
+    (
+        rf"^({ASKED}(?:put|place|move|set|store|stow) )each of (?:these|the following)"
+        rf"(?: (?:two|three))?(?: \w+)? ({WHERE} {_ONE}): ({_ITEM})(?:,| and) ({_ITEM})(?=[.;!]|$)",
+        lambda said: f"{said[1]}{_named(said[3])} and {_named(said[4])} {said[2]}",
     ),
     (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
     (

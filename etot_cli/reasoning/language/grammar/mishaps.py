@@ -40,7 +40,7 @@ _SPARED = Expression(
 
 
 def is_spared(said: str) -> bool:
-    """Whether a clause tells what is not to happen to a thing by itself ("it will not roll off")."""
+    """Whether a clause tells what is not to happen to a thing ("it will not roll off")."""
     return bool(_SPARED.fullmatch(said))
 
 

@@ -54,6 +54,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     matches_any,
     singular,
 )
+from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -74,6 +75,16 @@ def _with_prep(prep: Prep, np: NounPhrase) -> Modifier | None:
     side = np.words and all(text in SIDES or text in LEVELS for text in np.words)
     mutual = np.text in ("each other", "one another")
     return None if mutual or (prep is Prep.NEXT_TO and side) else Modifier(prep, (np,))
+
+
+_DIRECTLY = spellings("right, directly, immediately, straight")
+
+
+def _rightly(how: str, prep: Prep, np: NounPhrase) -> Modifier | None:
+    """A relation to a thing; what is directly on it does not stand on what stands there."""
+    found = _with_prep(prep, np)
+    direct = prep is Prep.ON and how in _DIRECTLY
+    return None if found is None else replace(found, direct=direct)
 
 
 BETWEEN = sequence(
@@ -105,7 +116,7 @@ def _at_side(said: str) -> Modifier:
 
 
 PLAIN_MODIFIER = either(
-    sequence(EXACTLY, PREPOSITION, noun_phrase, build=_with_prep),
+    sequence(optional(phrase(small_words.EXACTLY), ""), PREPOSITION, noun_phrase, build=_rightly),
     sequence(
         EXACTLY,
         one_of(places.ON_SIDE),

@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.corners import TABLE
+
 _WHAT = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
 _AWAY = r"(?:out of the way(?! of\b)|aside|away(?! from\b))"
 _FROM_THE_FRONT = r"(?:away )?from (?:in front|the front) of\b"
@@ -15,6 +17,7 @@ _NOT_TO_BE = (
     r"(?:(?:must|should|may|can|shall) not (?:be|stand|get|stay|remain|lie)"
     r"(?: left| standing| lying)?|(?:is|are|has|have) not to be)"
 )
+_WAY = r"(?:way|path|swing|sweep)"
 _ENDS = r"(?=[,.;!?]| (?:and|then|so)\b|$)"
 _BLOCKS = (
     r"(?:(?:is |are )?(?:blocking|obstructing)|blocks|obstructs"
@@ -46,6 +49,17 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"({_HINDERS}[^.;!?]*(?:[.;!?]+|,) (?:so |and |then |please )*(?:move|shift) (?:it|them))"
         r"(?=(?: first| beforehand| before\b[^.;!?]*)?(?:[.;!?,]| (?:and|then)\b|$))",
         r"\1 out of the way",
+    ),
+    (rf"\bout of ({_WHAT})(?:'s| 's) {_WAY}\b", r"out of the way of \1"),
+    (rf"\b(?:out of|from) (?:the|its) {_WAY} of (?={_WHAT})", "out of the way of "),
+    (
+        rf"\b(?:clear|take|get|bring) ({_WHAT}|it|them) (?=out of the way of\b)",
+        r"move \1 ",
+    ),
+    (
+        rf"\b(out of the way(?: of {_WHAT})?),? (?:and|then|and then) (?:set|put|place|lay)"
+        rf" (?:it|them)(?: down)? (?:elsewhere|somewhere else)(?: on (?:the|my) {TABLE})?{_ENDS}",
+        r"\1",
     ),
     (rf"\bclear ({_WHAT}|it|them) (?={_AWAY}{_ENDS}|{_FROM_THE_FRONT})", r"move \1 "),
     (

@@ -89,6 +89,19 @@ def _in_turn(said: re.Match[str]) -> str:
 
 
 _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"\bpretty (?=please\b)", ""),
+    # Behind what is asked for: "…, won't you?"
+    (
+        r", (?:(?:wo|would|could|ca|should|ought|must)n't|(?:would|could|should|ought|must) not"
+        r"|will not|can not) (?:you|it|they|we|he|she)\b(?= ?[?.!]|$)",
+        "",
+    ),
+    (r"(?<=[.!] )(?:all )?done(?=[.!]*$)", "that is all"),
+    (
+        rf"(^|[.;!] )(?:how|what) about (?={NAMED} (?:\w+ ){{0,2}}?\w+ (?:in|on|into|onto|inside|"
+        rf"next to|beside) {NAMED})",
+        r"\1put ",
+    ),
     *CONTRACTIONS,
     *FORBIDDING,
     *END_STATES,
@@ -103,7 +116,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (_WISHED, _as_asked),
     (
         r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood"
-        r"|(?:would|will|could|can) you(?: please)?)(?:\?|(?=[.!]*$))",
+        r"|(?:would|will|could|can) you(?: (?:please|love|dear|darling|mate))?)(?:\?|(?=[.!]*$))",
         ".",
     ),
     (
@@ -140,7 +153,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"(?=(?:stands|lies|sits|rests|is)\b)",
         r"\1 each one ",
     ),
-    # "The box itself" is the box; "by itself", "from itself" and "inside itself" are something else.
+    # "The box itself" is the box; "by itself" and "inside itself" are something else.
     (rf"\b({NAMED}(?: (?!{_NO_NOUN}\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
     (rf"\bbut none of (?={NAMED})", "but not "),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
@@ -410,7 +423,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
     (r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1"),
     (
-        r"(?:^|(?<=[.!?;]\s))(?:(?:do|can) you )?see (?=the |that |those )([^.!?;]*?)"
+        r"(?:^|(?<=[.!?;]\s))(?:(?:(?:do|can) you )?see|(?:have you|has any(?:one|body)) seen) (?=the |that |those )([^.!?;]*?)"
         r"(?: (?:(?:up|over|down|out) )?(?:there|here))?\?",
         r"look at \1,",
     ),

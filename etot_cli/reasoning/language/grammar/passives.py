@@ -103,6 +103,19 @@ THEN_TURNED = sequence(
     build=lambda how: turned(Things((NounPhrase(pronoun=UNSAID, text="it"),)), how),
 )
 """How what was taken is turned before it goes anywhere ("picked up, turned and placed …")."""
+THEN_HELD = sequence(
+    _ON,
+    optional(f"{verbs.TO_BE_DONE}, be, to be"),
+    EMPTY_WORDS,
+    either(
+        sequence(f"{verbs.TAKEN_UP}, lifted", optional(SOURCE, "")),
+        phrase("held [up] [(in the (air|gripper|hand))]", ""),
+    ),
+    build=lambda source: PickClause(
+        Things((NounPhrase(pronoun=UNSAID, text="it"),)).taken_from(source or None)
+    ),
+)
+"""What was taken is in the hand then ("grasped and lifted")."""
 BEFORE_PLACED = sequence(
     OPTIONAL_COMMA, "before being", phrase(verbs.BROUGHT), DESTINATIONS, build=_put_on
 )
@@ -125,7 +138,9 @@ ALSO_DONE = sequence(
 
 def goes_on(before: Any, clause: Any) -> bool:
     """Whether a clause without its verb goes on what is asked for in the passive."""
-    unsaid = isinstance(clause, PutClause | ReorientClause) and UNSAID in pronouns(clause)
+    unsaid = isinstance(clause, PutClause | ReorientClause | PickClause) and UNSAID in pronouns(
+        clause
+    )
     taken = isinstance(before, PickClause | RemoveClause | ReorientClause) and not is_emptying(
         before
     )

@@ -10,6 +10,14 @@ from etot_cli.reasoning.language.grammar.arrangements import HELD_MEANWHILE
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.emptying import ANYTHING, stays_empty
+from etot_cli.reasoning.language.grammar.falling import (
+    NOTHING_HARMED,
+    OFF_THE_DESK,
+    UNHARMED,
+    neither_of,
+    not_dropped,
+    unharmed,
+)
 from etot_cli.reasoning.language.grammar.instruments import (
     LET_MEET,
     MEETING,
@@ -27,14 +35,15 @@ from etot_cli.reasoning.language.grammar.parsing import (
     phrase,
     separated,
     sequence,
+    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
+    Clause,
     EnsureClause,
-    ReorientClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -45,9 +54,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.spatial import Nearby
 
 
 def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
@@ -64,25 +72,6 @@ def _not_wanted(things: Things) -> AvoidClause | None:
     """What is to be left alone; "any cups on the tray" are not to be there."""
     places = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
     return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
-
-
-def _unharmed(things: Things) -> AvoidClause:
-    """What is not to come to harm; whatever "it" may be, nothing is to."""
-    again = all(np.pronoun for np in things.phrases)
-    return AvoidClause(Avoid.HARM, None if again else things)
-
-
-def _not_dropped(things: Things) -> AvoidClause | None:
-    """What is not to be let fall; "do not drop the cup on the tray" says where not."""
-    return None if any(np.modifiers for np in things.phrases) else _unharmed(things)
-
-
-def _not_toppled(things: Things, said: str) -> AvoidClause | ReorientClause:
-    """What is not to fall: nothing knocks it over, and "it", which is put somewhere, stands."""
-    if not all(np.pronoun for np in things.phrases):
-        return AvoidClause(Avoid.HIT, things)
-    over = {"over", "topple"} & {*said.split()}
-    return ReorientClause(things, Nearby.UPRIGHT, meanwhile=True) if over else _unharmed(things)
 
 
 def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
@@ -102,12 +91,6 @@ def _neither(nps: tuple[NounPhrase, ...]) -> Things | None:
     return Things(nps) if nps[1:] else None
 
 
-def _neither_of(words: tuple[str, ...]) -> Things:
-    """Both of two things."""
-    several = words if singular(words[-1]) != words[-1] else (*words[:-1], f"{words[-1]}s")
-    return Things((NounPhrase("both", several, text=f"neither {' '.join(words)}"),))
-
-
 def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause | None:
     """What stays where it is, with where that is ("leave the cup where it is on the tray")."""
     if len(things.phrases) > 1 or any(item.prep not in (Prep.ON, Prep.IN) for item in at):
@@ -116,17 +99,15 @@ def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause |
     return None if np.pronoun else _avoid(Avoid.MOVE, replace(things, phrases=(np,)))
 
 
-_NOTHING_HARMED = AvoidClause(Avoid.HARM, None)
-_WILL_NOT = "(does|do|will|can|may|should|must|shall) not"
-_UNHARMED = either(
-    sequence(THINGS, f"{_WILL_NOT} ({verbs.TO_THE_FLOOR})", build=_unharmed),
-    sequence(THINGS, phrase(f"{_WILL_NOT} ({verbs.TOPPLE.replace(',', '|')})"), build=_not_toppled),
-    phrase(
-        f"nothing ({verbs.FALLS_DOWN}), nothing (should|must|may|shall) ({verbs.FALL_DOWN})",
-        _NOTHING_HARMED,
-    ),
-)
-"""What is not to happen to things on the way."""
+def _not_falling_off(nps: tuple[NounPhrase, ...], np: NounPhrase) -> Clause:
+    """What is not to fall off something stays there; what falls off the desk, wherever on that it
+    is, comes to harm.
+    """
+    if np.head in DESK_NOUNS:
+        return unharmed(Things(nps))
+    return EnsureClause((State(nps, (Destination(Toward.ON, (np,)),), kept=True),))
+
+
 _FORBIDDEN = either(
     sequence(
         one_of(
@@ -155,13 +136,19 @@ _FORBIDDEN = either(
         build=with_it,
     ),
     LET_MEET,
-    sequence("drop[ping]", THINGS, build=_not_dropped),
-    sequence("let[ting]", THINGS, verbs.TO_THE_FLOOR, build=_unharmed),
-    sequence("let[ting]", "anything", verbs.FALL_DOWN, build=lambda: _NOTHING_HARMED),
+    sequence("drop[ping]", THINGS, build=not_dropped),
+    sequence("let[ting]", THINGS, f"{verbs.TO_THE_FLOOR}, {OFF_THE_DESK}", build=unharmed),
+    sequence(
+        "drop[ping], throw[ing], knock[ing], push[ing], roll[ing]",
+        THINGS,
+        "[off the (desk|table)] [down] (on|onto|to) the (floor|ground)",
+        build=unharmed,
+    ),
+    sequence("let[ting]", "anything", verbs.FALL_DOWN, build=lambda: NOTHING_HARMED),
     sequence(
         "drop[ping], spill[ing], break[ing], knock[ing] over",
         "anything",
-        build=lambda: _NOTHING_HARMED,
+        build=lambda: NOTHING_HARMED,
     ),
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
     sequence("let[ting]", THINGS, verbs.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
@@ -169,6 +156,7 @@ _FORBIDDEN = either(
     sequence(
         "leav(e|ing)",
         THINGS,
+        silent(optional("lying, standing, sitting")),
         DESTINATIONS,
         build=lambda things, where: AvoidClause(Avoid.PUT, things, where, not_left=True),
     ),
@@ -189,7 +177,13 @@ AVOID = either(
         DESTINATIONS,
         build=lambda *said: AvoidClause(Avoid.PUT, ANYTHING, said[-1], negated=True),
     ),
-    sequence(optional(verbs.ENSURE), either(NOT_MET, _UNHARMED)),
+    sequence(optional(verbs.ENSURE), either(NOT_MET, UNHARMED)),
+    sequence(
+        # "Mind the apple"
+        "mind, watch out for, (be|being) (careful|gentle|cautious) with",
+        THINGS,
+        build=not_dropped,
+    ),
     sequence("hands off, paws off", THINGS, build=partial(AvoidClause, Avoid.TOUCH)),
     sequence(
         THINGS,
@@ -237,13 +231,34 @@ AVOID = either(
         one_of({Avoid.TOUCH: verbs.TOUCHED, Avoid.MOVE: verbs.DISTURBED, Avoid.HIT: verbs.WAS_HIT}),
         build=_none_disturbed,
     ),
+    sequence(
+        # "Neither the cup nor the can may be moved"
+        "neither",
+        sequence(separated(noun_phrase, sequence(OPTIONAL_COMMA, "nor")), build=_neither),
+        either(
+            sequence(
+                f"({verbs.MAY}) be [ever]",
+                one_of(
+                    {
+                        Avoid.TOUCH: verbs.TOUCHED,
+                        Avoid.MOVE: verbs.DISTURBED,
+                        Avoid.HIT: verbs.WAS_HIT,
+                        Avoid.OPEN: "opened",
+                        Avoid.CLOSE: "closed, shut",
+                    }
+                ),
+            ),
+            phrase(f"({verbs.MAY}) move", Avoid.MOVE),
+        ),
+        build=lambda things, avoid: AvoidClause(avoid, things, negated=True),
+    ),
     sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
     sequence(
         # "Move neither the cup nor the can", "touch neither cup"
         one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.MOVE: verbs.SHIFT}),
         either(
             sequence("neither", separated(noun_phrase, "nor"), build=_neither),
-            sequence("neither [of the]", WORDS, build=_neither_of),
+            sequence("neither [of the]", WORDS, build=neither_of),
         ),
         build=lambda avoid, things: AvoidClause(avoid, things, negated=True),
     ),
@@ -317,10 +332,28 @@ WITHOUT = sequence(
                 (State(nps, (Destination(Toward.ON, (np,)),), kept=True),)
             ),
         ),
+        sequence(
+            verbs.WITHOUT,
+            either(
+                sequence(NP_LIST, f"[ever] ({verbs.FALLING}) [down] (off [of]|from), leaving"),
+                sequence("let[ting]", NP_LIST, f"{verbs.FALL} (off [of]|from)"),
+            ),
+            noun_phrase,
+            build=_not_falling_off,
+        ),
+        sequence(
+            verbs.WITHOUT,
+            either(
+                sequence(THINGS, verbs.FALLING_TO_THE_FLOOR),
+                sequence("drop[ping]", THINGS, "(on|onto|to) the (floor|ground)"),
+            ),
+            build=unharmed,
+        ),
         sequence(verbs.WITHOUT, MEETING),
-        sequence(small_words.SO_THAT, either(NOT_MET, _UNHARMED)),
+        sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
         HELD_MEANWHILE,
         sequence(verbs.WITHOUT, THINGS, verbs.TOPPLING, build=partial(AvoidClause, Avoid.HIT)),
+        sequence(verbs.WITHOUT, THINGS, verbs.GETTING_TO_THE_FLOOR, build=unharmed),
         sequence(verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
         sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
         _AVOIDED,

@@ -33,11 +33,14 @@ _RELATIONS = (
     "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
     "patients?|grand(?:ma|pa)|granny|grandad|uncle|aunt|cousin|niece|nephew|parents|toddler|grandchild(?:ren)?|lady|ladies|gentlem[ae]n|wom[ae]n|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
 )
-_OWN = "hands?|feet|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|bus|train|taxi|shift"
+_OWN = (
+    "hands?|feet|foot|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|shins?|elbows?|toes?|hips?"
+    "|ankles?|wrists?|shoulders?|bus|train|taxi|shift"
+)
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
     r"(?:i|we|you|he|she|nobody|no one|somebody|someone|everybody|everyone|people"
-    r"|grand(?:ma|pa)|granny|mum|mom|dad"
+    r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
     rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)"
@@ -281,8 +284,8 @@ def is_reason(said: str, is_name: IsName) -> bool:
     """Whether this may stand behind "because" and asks for nothing itself."""
     said = _GONE_WRONG.sub(" fails", said)
     words = {*said.split()}
-    asked = _YOU_DO.match(said)
-    if asked and asked[1] in VERB_WORDS - OTHER_VERBS and any(map(is_name, words)):
+    asked = _YOU_DO.match(said)  # "even if you have to move it" asks for nothing
+    if asked and asked[1] in VERB_WORDS - OTHER_VERBS - {"have"} and any(map(is_name, words)):
         return False  # "as you move the cup over there, keep it upright"
     if not is_of_people(said):
         return not (ASKING | CHANGING - {"to", "by", "than"} | WORK) & words

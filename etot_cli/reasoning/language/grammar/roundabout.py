@@ -8,7 +8,7 @@ from collections.abc import Callable
 from etot_cli.reasoning.language.grammar.corners import TABLE
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import SIZES
+from etot_cli.reasoning.language.words.lexicon import LEVELS, SIZES, is_descriptive
 from etot_cli.reasoning.language.words.small_words import NAMED
 
 _CATEGORY = "|".join(CATEGORIES)
@@ -21,11 +21,20 @@ _FREE = (
     r"|there is (?:still )?(?:room|space)|it is (?:free|empty))"
 )
 
+
+def _of_one_sort(said: re.Match[str]) -> str:
+    """Neither of two things of which but the second has its noun ("neither the blue nor the …")."""
+    first, word, second, other, noun = said.groups()
+    told = all(is_descriptive(item) or item in LEVELS or item in SIZES for item in (word, other))
+    return f"neither {first} {noun} nor {second} {noun}" if told else said[0]
+
+
 ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "There is fruit in the bowl; the bigger piece …"
     (rf"\b(the (?:{_COMPARED}) )(?:piece|item|article) of (?=(?:{_CATEGORY})\b)", r"\1"),
     (
-        rf"\b((?P<sort>{_CATEGORY})\b[^.;]*[.;] [^.;]*?\bthe (?:{_COMPARED}) )(?:piece|one)\b(?! of\b)",
+        rf"\b((?P<sort>{_CATEGORY})\b[^.;]*[.;] [^.;]*?\bthe (?:{_COMPARED}) )(?:piece|one)\b"
+        r"(?! of\b)",
         lambda said: f"{said[1]}{said['sort']}",
     ),
     # "Blocks of every colour but red"
@@ -36,7 +45,8 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "No vial other than the red one is allowed there, so put that one there"
     (
-        r"(^|[.;] )only (the|my) (\w+) (\w+) (?:is|are) (?=(?:allowed|permitted|welcome) (?:in|on)\b)",
+        r"(^|[.;] )only (the|my) (\w+) (\w+) (?:is|are) "
+        r"(?=(?:allowed|permitted|welcome) (?:in|on)\b)",
         r"\1no \4 other than \2 \3 one is ",
     ),
     (
@@ -61,11 +71,24 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1\3 \2",
     ),
     # "To the chest's top", "in the desk's far right corner"
-    (rf"\b(on|onto|to) ({_NOUN})'s top(?: surface)?{_END}", r"\1 the top of \2"),
+    (rf"\b(on|onto|to) ({_NOUN}) ?'s top(?: surface)?{_END}", r"\1 the top of \2"),
     (
-        rf"\b(the|my) ({TABLE})'s ((?:(?:far|near|front|back|rear|left|right|upper|lower|hand) ?)+"
+        rf"\b(the|my) ({TABLE}) ?'s "
+        r"((?:(?:far|near|front|back|rear|left|right|upper|lower|hand) ?)+"
         r"(?:corner|edge|side|end|half))\b",
         r"the \3 of \1 \2",
+    ),
+    (
+        r"\bon(to)? (?=the (?:(?:far|near|front|back|rear|left|right) )*corner\b)",
+        lambda said: "to " if said[1] else "at ",
+    ),
+    (r"\bneither (the (\w+)) nor (the (\w+)) (\w+)\b", _of_one_sort),
+    # "Out of the cup and onto the left side of the table"
+    (
+        rf"(\b(?:out of|off|from) (?:{NAMED}) (?:\w+ ){{0,3}}?\w+),? and (?:then )?"
+        r"(?=(?:onto|into|to|on|in|at) the (?:(?:far|near|front|back|rear|left|right) )+"
+        r"(?:corner|side|half|edge|end|part)\b)",
+        r"\1 ",
     ),
     # "In front of the cup, on the side facing the robot"
     (

@@ -33,7 +33,33 @@ def _only_that(said: re.Match[str]) -> str:
     return f"{said['before']}only the {noun} {said['rest']}"
 
 
+def _state_again(said: re.Match[str]) -> str:
+    """What is so of another thing, or is not, with the state that it leaves out."""
+    denied = " not" if said["other_not"] else ""
+    return f"{said['first']}{said['joint']}{said['other']} is{denied} {said['state']}"
+
+
 SAID_AGAIN = (
+    (
+        # "The drawer is not open, the door is"
+        r"(?P<first>\bthe [^.,;:]*? is (?P<not>not )?(?P<state>open|closed|shut)(?: again)?)"
+        r"(?P<joint>,? (?:and|but) |, )(?P<other>the (?:\w+ ){0,3}?\w+) is(?P<other_not> not)?"
+        r"(?=[.,;!?]|$| and\b| but\b)",
+        _state_again,
+    ),
+    (
+        r"\b(each|every one|all|both|either|any|one) of (the|my) ((?:\w+ ){0,2}\w+) ?'s "
+        r"((?:(?:two|three|four|five) )?\w+s)\b",
+        r"\1 of the \4 of \2 \3",
+    ),
+    (
+        r"(\b(?:should|shall|must|will|(?:is|are|has|have) to) [^.;:]*?),? (?:in|at|by) the (?:very )?"
+        r"end(?=: )",
+        r"\1",
+    ),
+    (r"\bunstack (the [^.,;]*?) (?=(?:onto|on to|into) )", r"put \1 "),
+    (r", all in (?=(?:exactly |precisely )?(?:that|this) order\b)", ", in "),
+    (r"\bbring over ((?:the|my|a|an|one|all|both) [^.,;]*?) (?=(?:to|onto|into) )", r"bring \1 "),
     (
         rf", {_TO_BE_EXACT} (?P<again>the \w+)(?=[.,;!?]|$)",
         lambda said: f", {_without_assurance(said)}",

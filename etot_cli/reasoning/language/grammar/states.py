@@ -36,7 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
@@ -201,11 +201,17 @@ def being(verb: str) -> Parser:
     )
 
 
+def _not_falling(nps: tuple[NounPhrase, ...], toward: Toward, np: NounPhrase) -> State | None:
+    """What stays where it is rather than fall; what falls off the desk comes to harm."""
+    lost = toward is Toward.ON and np.head in DESK_NOUNS
+    return None if lost else State(nps, (Destination(toward, (np,)),), kept=True)
+
+
 NOT_FALLING = sequence(
     either(sequence(NP_LIST, verbs.NOT_FALL), sequence(verbs.DO_NOT, "let", NP_LIST, verbs.FALL)),
     one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
     noun_phrase,
-    build=lambda nps, toward, np: State(nps, (Destination(toward, (np,)),), kept=True),
+    build=_not_falling,
 )
 _NONE_MAY_BE = sequence(
     NP_LIST,
@@ -277,6 +283,14 @@ BESIDES_SO = either(
         ALL_SO,
         silent(optional("instead")),
         build=lambda nps, said: ensured(*said(nps)),
+    ),
+    sequence(
+        "with",
+        NP_LIST,
+        "staying, remaining, (kept|left) [standing|lying|sitting]",
+        PREDICATE,
+        small_words.ALL_ALONG,
+        build=lambda nps, said: ensured(_staying(nps, "", said, True)),
     ),
     sequence(
         "with",

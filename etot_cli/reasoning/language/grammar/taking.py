@@ -42,7 +42,7 @@ def _pick(
         return None
     poses = tuple(dict.fromkeys(before or after or ()))
     gathered = verb in _GATHERED and things.may_be_several and things.phrases[-1].modifiers
-    got = things.taken_from(ahead or source)
+    got = things.taken_from(ahead or source or None)
     return PickClause(got, poses, far_fetched=int(bool(gathered)), fetched=verb in _FETCHED)
 
 
@@ -66,7 +66,14 @@ PICK = sequence(
     phrase(verbs.PICK),
     THINGS,
     optional("up"),
-    optional(either(SOURCE, sequence("(from|off [of]) the top of", noun_phrase)), None),
+    optional(
+        either(
+            SOURCE,
+            sequence("(from|off [of]) the top of, clear of", noun_phrase),
+            phrase(places.FROM_THERE, ""),
+        ),
+        None,
+    ),
     silent(optional(manner.BY_HAND)),
     optional(GRASPED, None),
     silent(optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")),

@@ -184,6 +184,18 @@ FREEING = spanned(
 )
 
 
+SEEING = spanned(
+    sequence(
+        "let (me|us) (see|check|look at) what is (in|inside),"
+        "let (me|us) [have|take] [a] (look|peek|peep) (in|inside|into),"
+        "show (me|us) (what is (in|inside)|the (inside|contents) of)",
+        ALL_THINGS,
+    ),
+    lambda said, things: ReorientClause(things, only_named=True, remark=said),
+)
+"""What somebody wants to see, which what is asked for next lets him."""
+
+
 def _stands_there(np: NounPhrase, said: Modifier) -> ReorientClause | None:
     """What is in or on something; "the vase is off limits" is no such thing."""
     there = said.prep in (Prep.IN, Prep.ON) and not said.denied

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.remarks import PEOPLE
 from etot_cli.reasoning.language.words.small_words import NAMED
 from etot_cli.world.colors import BASIC_COLORS
 
@@ -24,6 +25,9 @@ _AFTERWARDS = (
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
+_TO_GO = (
+    rf"{NAMED} (?:\w+ ){{1,3}}?(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
+)
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -143,6 +147,11 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?:, (?:both|either|each) (?:is|are|would be) (?:equally )?{_FINE})?{_END}",
         r"the \3 \1 or the \4 \1\2",
     ),
+    (
+        rf"\b(?:an?|one|any|either) (\w+),? \(?(?:either )?(?:the )?({_COLOR}) or (?:the )?"
+        rf"({_COLOR})(?: one)?(?:\)|{_END})",
+        r"the \2 \1 or the \3 \1",
+    ),
     # What is to be in what "has" it, and by when; all that is so is so in the end
     (
         rf"( in it,? (?:and )?with (?:its|the) door (?:closed|shut)) {_AFTERWARDS}{_END}",
@@ -174,9 +183,45 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"\1",
     ),
     (
-        rf"(^|[.;!,] )i am afraid(?: that)?,? (?={NAMED} (?:\w+ ){{1,3}}?"
-        r"(?:has to|have to|needs? to|must|should|belongs?|goes?|will have to)\b)",
+        rf"(^|[.;!,] )i am afraid(?: that)?,? (?={_TO_GO})",
         r"\1",
+    ),
+    (r"\bone of the others(?! \w)", "one of the other ones"),
+    # Of two it is said what is done with neither
+    (
+        rf"\bneither ({NAMED} [^.,;:]*?) nor ({NAMED} [^.,;:]*?) "
+        r"(?:may|must|should|can|shall|is to|are to) (?=(?:be|go|move|stand|stay|end up)\b)",
+        r"\1 and \2 must not ",
+    ),
+    # "It is not the cup but the jar that goes there"
+    (
+        rf"\bit is not ({NAMED} [^.,;:]*?) (that|which) ([^.,;:]*?),? but ({NAMED} [^.,;:]*?){_END}",
+        r"it is \4 \2 \3, not \1",
+    ),
+    (
+        rf"\bit is not ({NAMED} [^.,;:]*?),? but ({NAMED} [^.,;:]*? (?:that|which) [^.,;:]*?){_END}",
+        r"it is \2, not \1",
+    ),
+    # What is not somewhere yet and is to go there, told by one verb
+    (
+        rf"\b((?:that|which) (?:is|are) not (?:yet |already )?)((?:in|on) {NAMED} \w+(?: \w+)?)"
+        r"(?: yet| already)? ((?:now |still )?(?:should|must|shall|needs? to|has to|have to|is to"
+        r"|are to|goes|go|belongs?|can)\b(?: (?:be|go|put|placed|moved|brought|too|also))*) there"
+        rf"{_END}",
+        r"\1\2 \3 \2",
+    ),
+    (
+        rf"\b({NAMED} (?:\w+ )??\w+) (?:should|must|has to|needs to) (?:be|end up) "
+        rf"(?:free|clear|rid) of (?:any |all )?(?:the )?(\w+s)(?: in the end| afterwards)?{_END}",
+        r"remove all the \2 from \1",
+    ),
+    (rf"(^|[.;!] ){PEOPLE} (?:says?|said|thinks?|reckons?) (?:that )?(?={_TO_GO})", r"\1"),
+    (r"\bin (its|their|his|her) stead\b", r"in \1 place"),
+    (rf"\b(?:can|could|may|might) i (?:please )?trouble you for (?={NAMED})", "hand me "),
+    (
+        rf"\b(?:down|up|out) (from {NAMED} \w+(?: \w+)?) (?:and |then |and then )?"
+        r"(?=(?:into|onto) )",
+        r"\1 ",
     ),
     # How a thing is by now
     (

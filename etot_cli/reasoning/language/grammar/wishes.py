@@ -298,6 +298,11 @@ TOLD_APART = either(
         noun_phrase,
         either(
             sequence("is where", ALL_THINGS, verbs.BELONG),
+            sequence(
+                "is where you [(should|must|will|can|have to|need to|are to)]",
+                verbs.SET_DOWN,
+                ALL_THINGS,
+            ),
             sequence("is where", verbs.WANTED, ALL_THINGS, optional("to (be|go|stand|lie)")),
             sequence(
                 f"(is|would be) {_PLACE_FOR}",

@@ -200,10 +200,14 @@ class Discourse:
         return earlier < now and (again or source or swept)
 
     def as_it_stands(
-        self, referent: int, so: Callable[[SceneState, PartInfo], bool], called: str = ""
+        self,
+        referent: int,
+        so: Callable[[SceneState, PartInfo], bool],
+        called: str = "",
+        word: str = "open",
     ) -> None:
         """Of a chest of drawers that is spoken of, keeps the drawers that are so now; all, if none
-        or all of them are. Where it is ``called`` one drawer it is noted which one is open.
+        or all of them are. Where it is ``called`` one drawer it is noted which one that is.
         """
         (option, *more) = self.referents[referent].options
         parts = [part for thing in option for part in parts_of(self.scene, thing)]
@@ -211,8 +215,9 @@ class Discourse:
         if not more and 0 < len(now) < len(parts):
             options = tuple((thing,) for thing in now) if len(option) == 1 else (now,)
             self.referents[referent] = replace(self.referents[referent], options=options)
-            if called and len(now) == 1:
-                self.notes.append(f"{called!r} is {now[0].address}, which is open")
+            named = self.scene.infos[option[0].name].label.split()[-1] in called.split()
+            if called and len(now) == 1 and (word == "open" or not named):
+                self.notes.append(f"{called!r} is {now[0].address}, which is {word}")
 
     def is_spoken(self, referent: int) -> bool:
         """Whether a referent was mentioned more than once."""

@@ -75,7 +75,9 @@ class Asked:
     def nameless(self) -> bool:
         """Whether it is an "one" that stands for no noun."""
         unnamed = self.noun is None or matches_any(self.noun, THING_NOUNS)
-        return unnamed and self.words[-1] in ("one", "ones") and self.role is not Role.ANY
+        # "There is a red one" may be about anything, "beside the red one" tells a place.
+        mark = self.role is Role.ANY and (self.quantity.definite or self.noun is not None)
+        return unnamed and self.words[-1] in ("one", "ones") and not mark
 
     def problem(
         self, why: str, rank: int, word: str = "", meant: Sequence[Thing] = ()

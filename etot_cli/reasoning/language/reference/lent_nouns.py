@@ -85,7 +85,9 @@ class LentNouns(ABC):
         except ReferenceProblem as error:
             others = quantity_of(phrase.determiner).other
             counted = isinstance(error, AmbiguousReference)  # what is left of them, or a number
-            if counted or (not elliptic and (phrase.words or not others)):
+            # "There are two mugs. Put the pen in one": a pen holds nothing
+            vessel = role in TARGETS and not phrase.words and phrase.determiner in ("one", "1")
+            if counted or not (elliptic or vessel or (others and not phrase.words)):
                 raise
             problem = error
             if others and noun is not None and self._are_several(noun, role):

@@ -118,7 +118,7 @@ def modified(
         alike = len(things) == 1 or all(thing.board for thing in things)
         if bare and found == things and alike:
             raise ReferenceProblem(phrase.text, _ALONE, 2)
-        if modifier.prep in (Prep.ON, Prep.FROM) and not modifier.denied:
+        if modifier.prep in (Prep.ON, Prep.FROM) and not (modifier.denied or modifier.direct):
             whole = space.with_what_lies_on_them(found, things, scene)
             # "The two blocks on the tray" are a tower there if only one stands on it.
             found = whole if count is None or len(found) < count == len(whole) else found

@@ -220,7 +220,8 @@ class Resolver:
         if role is Role.PART and words[-1] in ("objects", "things") and not out:
             # Everything that is closed: of a chest with one drawer open the others, too.
             match = replace(match, entries=self._moving(match.entries))
-        single = quantity.every or phrase.determiner == "one" or several or out
+        one = phrase.determiner.removeprefix("exactly ") == "one"  # a drawer, not the whole chest
+        single = quantity.every or one or several or out
         if single and not match.plural:
             match = parts_of(match, words, phrase, self._vocabulary)
         several = match.plural and bool(phrase.words) and phrase.determiner in ("any", "either")

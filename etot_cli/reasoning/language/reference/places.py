@@ -302,7 +302,7 @@ class Places:
         return (Place(Relation.INSIDE, held[-1]),) if held else ()
 
     def _told_apart_from(self, themes: Sequence[int]) -> list[int]:
-        """What a clause has told its things by that can hold them, and has none of them."""
+        """Containers that a clause has told its things by, which are in none of them."""
         discourse, things = self.discourse, self.discourse.things(*themes)
         marks = dict.fromkeys(
             item.referent
@@ -312,10 +312,7 @@ class Places:
         return [
             mark
             for mark in marks
-            if all(
-                can_be(at, Role.CONTAINER, self._scene) or can_be(at, Role.SURFACE, self._scene)
-                for at in discourse.things(mark)
-            )
+            if all(can_be(at, Role.CONTAINER, self._scene) for at in discourse.things(mark))
             and not any(
                 space.touches(thing, at, self._scene)
                 for thing in things
@@ -357,15 +354,9 @@ class Places:
         except AmbiguousReference:
             raise
         except ReferenceProblem:
-            there = word == "there" and not discourse.put
-            beside = self._told_apart_from(themes) if there or word in spellings(THEREIN) else ()
+            beside = self._told_apart_from(themes) if word in spellings(THEREIN) else ()
             if len(beside) == 1:  # "the ball that is not in the bag should go in there"
-                found = tuple(in_or_on(discourse, Toward.TO, beside[0], themes) if there else ())
-                vessels = discourse.things(beside[0])
-                if not found and all(can_be(at, Role.CONTAINER, self._scene) for at in vessels):
-                    found = (Place(Relation.INSIDE, beside[0]),)
-                if found:
-                    return found
+                return (Place(Relation.INSIDE, beside[0]),)
             if word not in spellings(THEREIN) or len(before) != 1:
                 raise
             place = before[0]  # "take the milk out, put the juice in"

@@ -165,7 +165,9 @@ class Surroundings:
                     - {thing for index in themes for thing in self._discourse.things(index)},
                 )
                 # Nothing is beside a drawer, either, that something was taken out of.
-                if found and all(thing.part or thing.name in below for thing in found):
+                if found and all(
+                    thing.part or thing.board or thing.name in below for thing in found
+                ):
                     phrases[number] = told
                 elif len(found) == len(alike) == 1 and found != alike:
                     raise AmbiguousReference(phrase.text, [t.name for t in (*found, *alike)])
@@ -308,6 +310,8 @@ class Surroundings:
             things = self._discourse.things(index)
             if any(thing.name == DESK for thing in things):
                 raise ReferenceProblem(phrase.text, "beside the desk is off the desk", 2)
+            if any(thing.board for thing in things):
+                raise ReferenceProblem(phrase.text, "nothing is put beside a board", 2)
             moved = discourse.things(*discourse.put)
             kept = (self._scene.states[thing.name] for thing in things if thing not in moved)
             around = (owner_of(state.inside) for state in kept if state.inside is not None)

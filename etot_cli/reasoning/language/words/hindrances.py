@@ -28,12 +28,16 @@ DOES_NOT_MOVE = "(will|does|did|would) not (open|close|shut), (fails|refuses) to
 """What cannot be opened may rather be left so."""
 THERE = "in it, inside, in there, on it, in the way"
 AS_LONG_AS = "because, as, since, as long as, while, when"
+_STICKING = "sticking|standing|poking|jutting|peeking|peeping|looking"
 STANDS_OUT = f"""
-    (is|are) {_NOW} (sticking|standing|poking) (out|up|above), (sticks|pokes|stands) (out|up)
+    (is|are) {_NOW} ({_STICKING}) (out|up|above), (is|are) {_NOW} protruding,
+    (sticks|pokes|stands|juts|peeks|peeps) (out|up), protrudes
 """
-STANDING_OUT = "(sticking|standing|poking) (out|up)"
+STANDING_OUT = f"({_STICKING}) (out|up), protruding"
 STUCK = "(is|are|got) [still] (stuck|jammed|wedged|caught)"
-TOO_FAR = "[a bit|much|far] too (far|high|much), at the top, a (bit|little)"
+TOO_FAR = (
+    "[a bit|much|far] too (far|high|much), at the top, a (bit|little), over the (top|edge|rim)"
+)
 TOO_BIG = "(is|are) [a bit|far|much] too (tall|big|large|high|long|wide|thick) [for it]"
 IS_THERE = """
     (is|are) [still|standing|lying|sitting] (in it|inside|in there|on it|in the way|in front of it),

@@ -42,7 +42,7 @@ VERB_WORDS = words_of(
     "jam", "plant", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff",
     "whisk", "dish", "mess",
     "finger", "so", "much", "as", "even", "past", "anywhere", "brush", "watch", "look",
-    "out", "careful", "mindful", "go", "going",
+    "out", "careful", "mindful", "go", "going", "ask", "can", "could",
     *words_of((verbs.THE_ROBOT,))}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""
 OTHER_VERBS = word_set(

@@ -120,7 +120,7 @@ IN_HAND = f"""
     [held] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}, held
 """
 """Where what is picked up is in the end."""
-THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, the robot, you"
+THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, gripper, the robot, you"
 """What holds it."""
 HELD = "held"
 """The state of what is there."""
@@ -185,7 +185,7 @@ SWEEPS = {
 }
 """In which direction, or by which size, several things are taken one after the other."""
 IN_THIS_ORDER = """
-    in (this|that) order, in the (given|same|stated) order,
+    in [exactly|precisely] (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order
 """
 _UPRIGHT = f"(upright|vertical|vertically|on (end|its end)|{_RIGHT_WAY_UP})"
@@ -201,7 +201,8 @@ STANDS = f"""
 STANDING = f"{STANDS}, standing [up]"
 TURNED_UP = f"""
     {STANDING}, to [be] {_UPRIGHT}, until (it|they) (stands|stand|is|are) {_UPRIGHT},
-    (into|to) (an upright|a vertical) (position|pose|orientation)
+    (into|to) (an upright|a vertical|the upright|the vertical) (position|pose|orientation),
+    [in]to the vertical
 """
 """Behind what is turned."""
 _ON_ITS_SIDE = "[over] (on|onto|on to) (its|their) side[s]"
@@ -213,7 +214,10 @@ EITHER_WAY = """
     [either] upright or (sideways|horizontally),
     [either] from (above|[the] top) or [the] side, [either] from [the] side or (above|[the] top),
     [either] [a] side or [a] (top|top down) [grasp|grip],
-    [either] [a] (top|top down) or [a] side [grasp|grip]
+    [either] [a] (top|top down) or [a] side [grasp|grip],
+    [no matter] from (any|whichever|whatever|every) (direction|angle)
+    [you (like|want|prefer|choose|please)|suits you [best]|is (easier|easiest|best) [for you]],
+    no matter from (which|what) (direction|angle) [you (approach|come)]
 """
 LYING = f"""
     {LAID}, lying,
@@ -221,10 +225,13 @@ LYING = f"""
     ([down|flat] {_ON_ITS_SIDE}|flat|down)
 """
 _FITS = "(fits|fit|goes|go|slides|slide|points|point|faces|face)"
-_IF_NEEDED = "(as|if|when|where|however) [it is] (needed|necessary|required)"
+_IF_NEEDED = (
+    "((as|if|when|where|however) [it is] (needed|necessary|required|appropriate)|"
+    "accordingly|appropriately|suitably)"
+)
 ON_THE_WAY = """
     the (whole|entire) (time|way|while), all the (way|time), throughout, at all times,
-    on the way [(there|over|down|up|across)], all along, always,
+    on the way [(there|over|down|up|across)], all along, always, all the while,
     (while|as|when) you (move|carry|lift|put|lower|bring|do|are moving|are carrying)
     [(it|them|so|that)] [over|down|up|there], during the (move|transport),
     in (transit|the process)
@@ -240,7 +247,9 @@ FITTING = """
 FITS_INTO = f"so [that] (it|they) [can|will] {_FITS}"
 """Before what a thing that is turned is to be able to go into."""
 TURNED_AS_NEEDED = f"""
-    [after being|when] ({_TURNED}) [around|round] [({_IF_NEEDED})|first|beforehand],
+    [after [having been|being]|when|once|having been|suitably|properly|
+    appropriately|correctly] ({_TURNED}) [around|round]
+    [({_IF_NEEDED})|first|beforehand],
     (turning|rotating|reorienting|re orienting|flipping) (it|them) [around|round] [first]
     [({_IF_NEEDED})|to fit|so that it fits],
     after (turning|rotating|reorienting|re orienting|flipping) (it|them) [around|round],

@@ -11,7 +11,7 @@ DETERMINERS = f"""
     ({_THE}|this|that|a|an|another|only the),
     (the|my|your|this|that) (other|same|single|only|lone|sole|remaining|{_COUNT}),
     (the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT}),
-    another one of the, a single, one single, only a,
+    another one of the, a single, one single, only a, only (the|these|those) ({_COUNT}),
     (any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your],
     just ({_THE}|a|an),
     (any|each|every|either) (one|single) [of] [the|these|those],

@@ -53,6 +53,8 @@ class Prep(StrEnum):
     """Those that fit, without the phrases' things."""
 
 
+FROM_THERE = "from where (it|they) (is|are|stands|stand|lies|lie|sits|sit)"
+"""Behind what is picked up it says nothing."""
 SOURCE = "from, off of, off, out of, away from, from (on top of|inside)"
 _DESKS = "|".join((*DESK_NOUNS, "scene"))
 SIDE = f"""

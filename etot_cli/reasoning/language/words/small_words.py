@@ -26,7 +26,9 @@ _HOLDING = """
     (approach|grasp|grip|gripper|grasping) (direction|pose|orientation|angle|side)
 """
 WITHOUT_MEANING = f"""
-    please, kindly, [very|really] (carefully|gently|safely|cautiously),
+    [pretty] please, kindly, ta,
+    ~comma there is a ((good|dear|clever) (boy|girl|lad|lass|chap|robot)|dear|love|darling),
+    [very|really] (carefully|gently|safely|cautiously),
     also, too, as well, just, simply, now, though, of course, obviously, naturally, evidently,
     needless to say, somehow [or other], in some way [or other], one way or another,
     again,
@@ -48,8 +50,9 @@ WITHOUT_MEANING = f"""
     [of] your [own] (choice|choosing)),
     (any|whichever) ({_HOLDING}), with (any|whichever|whatever) ({_HOLDING}),
     ({_HOLDING}) (of your [own] (choice|choosing)|as you (like|please|wish|prefer)),
-    (whichever|whatever) [one] you (like|want|prefer|choose|fancy), [it is] your choice,
-    [it is|that is] up to you, you (choose|decide|pick), the choice is yours,
+    (whichever|whatever) [one|of (them|these|the two)]
+    you (like|want|prefer|choose|fancy|can reach) [best], [it is] your choice,
+    [it is|that is] up to you, you (choose|decide|pick) [which [one]], the choice is yours,
     wherever (you (like|want)|there is [some] (room|space)|it fits),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
@@ -59,6 +62,8 @@ WITHOUT_MEANING = f"""
     [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four)], whichever,
     if you can,
     (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
+    (whichever|whatever) [one|of (them|these|the two)]
+    (is (easier|easiest|better|best) [for you]|suits you [best|better]|it is),
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
     however you (like|can|want), as you (like|wish|prefer|please),
@@ -68,10 +73,10 @@ WITHOUT_MEANING = f"""
     is (easier|easiest|best) [for you]|seems best [to you]],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), without (damaging|hurting|harming|breaking) anything,
-    if possible, of course, obviously, naturally, somehow, by all means,
+    if possible, by all means,
     [and|but] whatever (you do|happens) [~comma],
     properly, neatly, directly, straight,
-    ~comma if you would, ~comma shall we, behind you, after you,
+    ~comma if you would [be so (kind|good|nice)], ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way,
@@ -96,7 +101,9 @@ DOES_NOT_MATTER = """
     (choice|decision), is not important, is (irrelevant|unimportant)
 """
 """Before or behind what is left open."""
-ALL_ALONG = "at all times, (all|the (whole|entire)) [the] time, throughout"
+ALL_ALONG = """
+    at all times, (all|the (whole|entire)) [the] (time|while), throughout, all along
+"""
 """Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
 """A sentence alone, after one that left it open anyway."""
@@ -124,10 +131,14 @@ GOAL_IS = """
 """
 """Before what is to be so in the end."""
 GREETINGS = f"""
+    [hey|hi|hello|oh|dear|my dear] (mummy|mommy|mum|mom|mama|daddy|dad|papa|grandma|grandpa|granny|
+    grandad|nan|nana|auntie|uncle|darling|love|honey|sweetheart|sweetie|boss|mate|buddy|pal|sir|
+    madam) ~comma, (quick|hurry [up]) ~comma,
     [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
     hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),
     sorry to (bother|trouble|disturb|interrupt) you [again],
+    sorry to be (a|such a) (pain|nuisance|bother|pest), [be] careful ~comma, (watch|mind) out ~comma,
     for (safety|hygiene|security) reasons, for (heaven|pete|goodness|god) 's sake,
     believe it or not, you will not believe (it|this),
     thanks for (your|the) help [(yesterday|today|earlier|last time)],
@@ -144,7 +155,8 @@ WOULD_BE_NICE = """
     (i|we) would [really] (like|love|appreciate|prefer) it,
     [it|that] would be [very|really|so]
     (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best|ideal) [of you],
-    [it|that] would make me happy
+    [it|that] would make me happy, it would help [me|us] [a lot|a great deal],
+    (i|we) would feel [much|a lot|so much] (better|safer|calmer)
 """
 """Before or behind what it would be nice if somebody did."""
 I_THINK = """
@@ -159,7 +171,8 @@ FRAMES = f"""
     (can|could|would|will) (you|u),
     (can|could|will|may|might) i [please] (ask|trouble|bother) you to,
     (would|will) you be able to, could you possibly,
-    [is there] any (chance|way) [that] you (can|could|would),
+    [is there] any (chance|way) [that] [you (can|could|would)], shall we [please],
+    (would|could|can|will) (somebody|someone|anybody|anyone), you (might|may) (want|like|wish) to,
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is,
     (all|what|the only thing) ([that] you (have|need) to do|
@@ -174,10 +187,11 @@ FRAMES = f"""
     (how|what) about [[if] you], why do not you,
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
     i (was|am) hoping [that] you (could|would),
-    (would|is) it [be] possible to, it would be (good|great|nice|better) to,
+    (would|is) it [be] possible to, it would be (good|great|nice|kind|lovely|better) [of you] to,
     i [would|must|have to|would like to] ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by, (i|we) [(really|just|still|also)] ought to, we [(really|just|still|also)] (need|have) to,
     we (had better|should|must), you are to, if i were you ~comma [i (would|d)],
+    would it be (all right|alright|ok|okay) [with you] to,
     would it be (too much|much) (trouble|bother|to ask) [for you] to, you could [(always|just)],
     [it is] [high] time [for you] to,
     (would|could) you be so (kind|good|nice) (as to|and|to), please you,

@@ -193,6 +193,7 @@ MODAL = f"""
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie|live), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
+    (need|needs|want|wants) (putting|placing|storing|stowing|moving|bringing|returning) [away|back|down],
     move[s] [up|down|over|back], find[s] (its|their) way [back], (is|are) [now|still|also] (wanted|needed|required)
 """
 _STAND_THERE = f"""
@@ -236,12 +237,15 @@ RELATIONS = """
 """
 WANT = """
     (i|we) [just|really|also] (want|need|prefer) [to (have|see)], need,
+    (i|we) (could|can) do with,
     (i|we) (would|should) (like|love) [to (have|see|find)], [i would|i d] prefer,
     i d like, (can|could|may|might) (i|we) (have|get), let (us|me) have,
     (would|is) it [be] possible to have,
     it would be [really|so] (great|nice|lovely|good) to (see|have),
     (i|we) would rather (have|see),
-    (what|all [that]) (i|we) [really|just] (want|need|would like) [to (have|see)] is
+    (what|all [that]) (i|we) [really|just] (want|need) [to (have|see)] is,
+    (what|all [that]) (i|we) would [really|just] (like|love) [to (have|see)] is,
+    [what] (i am|we are) [really|just] after [is]
 """
 _SOMEBODY = f"{RELATIONS}|lady|gentleman|woman|man|person|visitor|shopper|diner|friend"
 OTHERS_WANT = f"""
@@ -267,7 +271,7 @@ NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
     (should|must|shall|may|can|had better) (not|no longer)
     (be|stay|remain|go|lie|stand|(end|finish|wind) up|get)
-    [left|kept|put|lying|standing|sitting|placed],
+    [left|kept|put|[left] (lying|standing|sitting)|placed],
     (is|are) not to (be|go|stay|lie|stand|end up) [left|kept|put|placed],
     (does|do) not (belong|go)
 """
@@ -293,13 +297,13 @@ HOLDS_IT = f"""
     [is|are|end[s] up] (holding|gripping|grasping), holds, ends up with
 """
 """Between the hand and what is in it in the end."""
-END_WITH = f"({_MUST}) end [up] with"
+END_WITH = f"(({_MUST}) end|ends|end) [up] with"
 CONTAINED = """
     had, contained, held, has, contains, holds, could (have|contain|hold),
     (was|were|is) holding
 """
 """Between a vessel and what is to be in it."""
-STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put]"
+STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put|lying|standing|sitting]"
 STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
 """Before what something is never to be in or on."""
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
@@ -348,7 +352,7 @@ REORIENT = """
 """
 REORIENTED = "re oriented, " + ", ".join(participles(REORIENT))
 """What has been turned, in the passive."""
-ORIENTATION = "(chang(e|ing)|adjust[ing]|alter[ing]|correct[ing]|adapt[ing]|fix[ing])"
+ORIENTATION = "(chang(e|ing)|adjust[ing]|alter[ing]|correct[ing]|adapt[ing]|fix[ing]|modify[ing])"
 """Before "its orientation"."""
 TURNING_OF = """
     (do|doing|perform[ing]|execut(e|ing)|carry[ing] out) (a|the)
@@ -454,6 +458,15 @@ TO_THE_FLOOR = """
     (fall|drop|roll|slip|tumble|land|end up|hit|go|crash) [down] [(on|onto|to)] the (floor|ground)
 """
 """What no plan may let happen to anything, either."""
+GETTING_TO_THE_FLOOR = """
+    (falling|dropping|rolling|slipping|tumbling|landing|ending up|going|crashing) [down]
+    (on|onto|to) the (floor|ground), hitting the (floor|ground),
+    (falling|rolling|slipping|sliding|tumbling|dropping) (off [of]|from) the (desk|table)
+"""
+TOPPLES = """
+    falls [over|down], topples [over], tips [over], tumbles [over|down], keels over,
+    gets knocked over, is knocked over
+"""
 FALLS_DOWN = """
     (falls|drops|rolls|slips|tumbles|spills|tips|topples|breaks)
     [(out|off|over|down|away)] [(of|from) it]
@@ -467,12 +480,19 @@ DISTURB = f"""
 """
 UPSET = "knock[ing], tip[ping], push[ing], throw[ing], sweep[ing]"
 TOPPLE = """
-    fall [off|over|down], drop, topple [over], tip over, slide off, roll off, tumble [over|down],
-    keel over, get knocked over
+    fall [off|over|down], drop, topple [over], tip over, slide off, roll (off|away),
+    tumble [over|down], keel over, get knocked over
 """
 TOPPLING = """
-    falling [off|over|down], dropping, toppling [over], tipping over, sliding off, rolling off,
-    tumbling [over|down], keeling over, being knocked over
+    falling [off|over|down], dropping, toppling [over], tipping over, sliding off,
+    rolling (off|away), tumbling [over|down], keeling over, being knocked over
+"""
+FALLING = (
+    "falling|rolling|slipping|sliding|dropping|tumbling|toppling|coming|being (pushed|knocked)"
+)
+FALLING_TO_THE_FLOOR = """
+    (falling|rolling|slipping|dropping|tumbling|landing|ending up|going|crashing) [down]
+    (on|onto|to) the (floor|ground), hitting the (floor|ground)
 """
 ANYTHING_ELSE = """
     anything else, any other (object|thing|things|objects), other (objects|things),

@@ -26,6 +26,8 @@ class Modifier:
     """It is *not* so ("that is not on the tray")."""
     area: tuple[Nearby, ...] = ()
     """Where on the desk."""
+    direct: bool = False
+    """Nothing lies in between ("the blocks directly on the tray")."""
 
 
 @dataclass(frozen=True, slots=True)
