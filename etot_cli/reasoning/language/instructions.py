@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.goals.plausibility import plans_of
 from etot_cli.reasoning.language.grammar.asides import without_asides
 from etot_cli.reasoning.language.grammar.corrections import mark_in, taken_back
 from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.grammar.remarks import BEFORE_NAMES
 from etot_cli.reasoning.language.grammar.text import QUESTION, sentences_of, words_in
 from etot_cli.reasoning.language.languages import other_language
 from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
@@ -193,10 +194,10 @@ def _several(noun: str) -> str:
 def _as_written(aside: str, instruction: str) -> str:
     """An aside in the instruction's own words, so far as these are found in it."""
     begun = " ".join(aside.split()[:2])
-    # A clause of its own, and not what is put somewhere in another one
-    alike = (
-        rf"(?:^|[.,:;!?\n]|\b(?:so|but|because|since|as)\b)\s*({re.escape(begun)}\b[^.,:;!?\n]*)"
-    )
+    # What is named in a clause of its own, and not what is put somewhere in another one
+    names = begun.split()[0] in BEFORE_NAMES
+    own = r"(?:^|[.,:;!?\n]|\b(?:so|but|because|since|as)\b)\s*" if names else ""
+    alike = rf"{own}({re.escape(begun)}\b[^.,:;!?\n]*)"
     for wanted in (f"({re.escape(aside)})", alike):
         if found := re.search(wanted, instruction, re.IGNORECASE):
             return found[1].strip()
