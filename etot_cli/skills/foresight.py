@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import replace
 
 import mujoco
@@ -17,9 +18,9 @@ from etot_cli.skills.placements.put import request_for
 from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
 
-MAX_LOOKS = 12
-"""Grasps from which it is looked ahead, up to a second each: five leans of the hand at a middle and
-an end, and as much again of another sort."""
+MAX_LOOKS, MAX_ALIKE = 12, 3
+"""Grasps from which it is looked ahead, up to a second each; and of these with the same slope of
+the hand, of which there are half a dozen: at a middle and both ends."""
 SAME_POINT, SAME_TURN = 0.01, np.cos(np.radians(15))
 """Grasps this close to one that does not do [m], with object and hand turned to each other by so
 little more or less (cosine), do no better: less than from one turn of an object to the next."""
@@ -43,16 +44,20 @@ class Foresight:
         rod = belief.world.entries[name].axis is not None
         self._round = not rod and bool(np.isclose(length, width))
         self._refused: list[Pose] = []
+        self._slopes: Counter[float] = Counter()
         self.refused = 0
         """Grasps that do not serve."""
 
     def approves(self, prepared: PreparedGrasp) -> bool:
         """Whether there is a place for the object as it is in the hand by a grasp."""
         in_tool = prepared.grasp.tool.inverse() @ self._belief.object_pose(self._name)
-        if len(self._refused) < MAX_LOOKS and self._is_new(in_tool):
+        slope = round(float(prepared.grasp.tool.rotation[2, 2]), 1)
+        may = len(self._refused) < MAX_LOOKS and self._slopes[slope] < MAX_ALIKE
+        if may and self._is_new(in_tool):
             if self._goes_there(prepared):
                 return True
             self._refused.append(in_tool)
+            self._slopes[slope] += 1
         self.refused += 1
         return False
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from etot_cli.reasoning.builtin import BuiltinReasoner
-from etot_cli.reasoning.builtin.revision import without_idle
+from etot_cli.reasoning.builtin.revision import taken_at_once, without_idle
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb, format_plan, parse_plan
 from etot_cli.world.state import CauseKind, Swept
@@ -985,3 +985,65 @@ def test_what_has_been_opened_or_closed_is_not_so_again(verb: str) -> None:
     other = "CLOSE" if verb == "OPEN" else "OPEN"
     between = parse_plan(f"[{verb}, chest] {away} [{other}, chest] {away} [{verb}, chest]")
     assert without_idle(between, start) == between
+
+
+@pytest.mark.parametrize("kind", [CauseKind.NO_ROOM, CauseKind.UNREACHABLE])
+def test_what_does_not_go_there_as_it_is_held_is_grasped_so_that_it_does(kind: CauseKind) -> None:
+    start = scenes.toy_in_drawer()
+    plan = "[PICK UP, toy]{} [PUT ON, drawer]"
+    step = failed(start, plan.format(""), 1, cause(kind, "drawer", "toy"), held(start, "toy"))
+    suited = plan.format(" (to put on drawer)")
+    assert suited in revisions(step)
+    misfit = failed(start, plan.format(""), 1, cause(kind, "toy", "drawer"), held(start, "toy"))
+    assert (suited in revisions(misfit)) == (kind is not CauseKind.NO_ROOM)
+    again = failed(start, suited, 1, cause(kind, "drawer", "toy"), held(start, "toy"))
+    assert suited not in revisions(again)
+    nowhere = failed(start, suited, 0, cause(CauseKind.NO_ROOM, "toy"))
+    assert revisions(nowhere) == [
+        "[PICK UP, toy] [PUT ON, desk] [PICK UP, toy] (to put on drawer) [PUT ON, drawer]"
+    ]
+
+
+def test_what_was_set_down_to_be_grasped_anew_is_grasped_so_at_once_after_other_actions() -> None:
+    anew = "[PICK UP, mug] [PUT ON, desk] (safe place) [PICK UP, mug] (horizontal)"
+    before, other = parse_plan(f"{anew} [PUT INTO, locker]"), parse_plan("[OPEN, locker]")
+    (at_once,) = taken_at_once((*other, *before), before)
+    assert format_plan(at_once) == "[OPEN, locker] [PICK UP, mug] (horizontal) [PUT INTO, locker]"
+    assert not list(taken_at_once((*before, *other), before)), "that has been tried"
+
+
+def test_a_safe_place_keeps_clear_of_what_is_needed_later_where_it_can() -> None:
+    start = scenes.scene(
+        scenes.cabinet("locker", (0.6, 0.2), 0.0),
+        scenes.item("vase", at=(0.4, 0.1)),
+        scenes.cup("mug", (0.3, -0.3)),
+        scenes.cup("other", (0.4, -0.1)),
+    )
+    plan = "[OPEN, locker] [PICK UP, mug] [PUT INTO, locker] [CLOSE, locker]"
+    step = failed(start, plan, 0, cause(CauseKind.COLLISION, "vase"))
+    revised = first_revision(BuiltinReasoner(), step)
+    assert revised is not None
+    soft = [disc for disc in revised.actions[1].keepout if disc.soft]
+    at = {(disc.x, disc.y) for disc in soft}
+    assert (0.3, -0.3) in at and (0.4, -0.1) not in at
+    ways = [disc for disc in soft if math.hypot(disc.x, disc.y) < math.hypot(0.3, -0.3) - 0.05]
+    assert any(abs(disc.x + disc.y) < 2e-3 for disc in ways), "between the mug and the base"
+
+
+@pytest.mark.parametrize(
+    ("where", "keeps"), [("not near wax", True), ("away from wax", True), ("near mug", False)]
+)
+def test_what_is_to_keep_away_does_so_from_where_the_other_thing_gets(
+    where: str, keeps: bool
+) -> None:
+    start = scenes.scene(
+        scenes.item("tray", at=(0.5, 0.1)), scenes.item("wax", at=(0.36, -0.1)),
+        scenes.item("oil", at=(0.5, 0.1), on="tray"), scenes.cup("mug", (0.3, 0.3)),
+    )  # fmt: skip
+    plan = f"[PICK UP, wax] [PUT ON, tray] [PICK UP, oil] [PUT ON, desk] ({where})"
+    step = failed(start, plan, 1, cause(CauseKind.TOPPLED, "oil"), held(start, "wax"))
+    revised = first_revision(BuiltinReasoner(), step)
+    assert revised is not None
+    assert format_plan(revised.actions).startswith("[PICK UP, oil] [PUT ON, desk] (")
+    discs = [disc for disc in revised.actions[1].keepout if (disc.x, disc.y) == (0.5, 0.1)]
+    assert (max((disc.radius for disc in discs), default=0.0) > 0.2) == keeps

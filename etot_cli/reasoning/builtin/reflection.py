@@ -14,7 +14,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.fetching import fetched_first
 from etot_cli.reasoning.builtin.keepouts import kept_away
 from etot_cli.reasoning.builtin.openings import closed_alike, closed_by_others, reopened_at_once
-from etot_cli.reasoning.builtin.regrasping import grasped_anew, grasped_for, regrasped
+from etot_cli.reasoning.builtin.regrasping import grasped_anew, grasped_for, regrasped, set_down_for
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
     carriers,
@@ -245,6 +245,9 @@ class _Case:
                 yield from relocated(self.failed, vessel, None, self.index)
 
     def _of_pick(self) -> Iterator[Correction]:
+        if self.action.onward is not None and self.is_full:
+            yield from set_down_for(self.failed)
+            return
         culprits = self._culprits()
         # What keeps the hand from its own contents does so wherever it stands.
         vessels = carriers(self.scene, self.action.target)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.relations import carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction, set_aside
-from etot_cli.reasoning.builtin.revision import inserted, relocations
+from etot_cli.reasoning.builtin.revision import Actions, inserted, relocations
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import PUTS, Action, GraspPose, Verb
 from etot_cli.specs.footprint import rotated
@@ -77,13 +77,12 @@ def grasped_anew(failed: FailedStep, pick: int | None, cause: CauseKind) -> Iter
 
 
 def grasped_for(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[Correction]:
-    """What does not go to its place as it is held is grasped so that it does: where it was, or,
-    where no such grasp is to be had there, after it has been set down.
+    """What does not go to its place as it is held is grasped so that it does, where it was.
 
     Args:
         failed: the failed put.
         pick: place in the branch of the action that grasped the object; None where it was in the
-            hand from the start.
+            hand from the start, so that it is set down first.
         cause: of the failure.
     """
     actions, name = failed.branch.actions, failed.record.before.holding
@@ -91,18 +90,34 @@ def grasped_for(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[
     misfit = cause.kind is CauseKind.NO_ROOM and cause.objects[:1] == (name,)
     if name is None or put.safe or misfit or cause.kind not in _AS_HELD:
         return
-    grasp = Action(Verb.PICK_UP, name) if pick is None else actions[pick]
-    if grasp.onward is not None:
-        return
-    suited = replace(grasp, onward=put)
-    change = f"grasped so that it goes to {put.target}"
-    if pick is not None:
+    if pick is None:
+        yield from _set_down_for(failed, 0, Action(Verb.PICK_UP, name, onward=put))
+    elif actions[pick].onward is None and actions[pick].pose is None:
+        # Of any pose; what a given pose does not do, the branch without it does.
+        suited = replace(actions[pick], onward=put)
         posed = (*actions[:pick], suited, *actions[pick + 1 :])
-        yield Correction(posed, f"{name} is {change}")
-    if not relocations(actions, name):
-        _, down = set_aside(failed, name)
-        anew = inserted(actions, 0 if pick is None else pick + 1, (down, suited))
-        yield Correction(anew, f"{name} is set down and {change}", anew=True)
+        yield Correction(posed, f"{name} is grasped so that it goes to {put.target}")
+
+
+def set_down_for(failed: FailedStep) -> Iterator[Correction]:
+    """What is nowhere held so that it goes to its place, where it is, is set down first."""
+    actions, index = failed.branch.actions, failed.index
+    pick = actions[index]
+    first = (*actions[:index], replace(pick, onward=None), *actions[index:])
+    yield from _set_down_for(failed, index + 1, pick, first)
+
+
+def _set_down_for(
+    failed: FailedStep, at: int, suited: Action, actions: Actions | None = None
+) -> Iterator[Correction]:
+    name = suited.target
+    if relocations(failed.branch.actions, name) or suited.onward is None:
+        return
+    _, down = set_aside(failed, name)
+    extra = (down, suited) if actions is None else (down,)
+    anew = inserted(actions or failed.branch.actions, at, extra)
+    change = f"{name} is set down and grasped so that it goes to {suited.onward.target}"
+    yield Correction(anew, change, anew=True)
 
 
 def _may_lie(failed: FailedStep, name: str) -> bool:

@@ -6,11 +6,13 @@ from collections.abc import Sequence
 
 from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.belief import Belief
-from etot_cli.skills.grasps.approach import PreparedGrasp, prepare_grasp
+from etot_cli.skills.grasps.approach import NARROW_ROOMS, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.ranking import GraspSet
 from etot_cli.skills.grasps.variants import variants
+from etot_cli.skills.motion.collision import HandPart
 from etot_cli.skills.outcome import Blockers, SkillOutcome, failed
-from etot_cli.world.state import CauseKind
+from etot_cli.world.placing import object_bounds
+from etot_cli.world.state import CauseKind, owner_of
 
 MAX_SUSPECTS = 4
 """Objects that are taken away, one at a time and together, to see whether that helps."""
@@ -35,7 +37,8 @@ def explain(
         return failed(
             CauseKind.NO_GRASP,
             [*guilty, name],
-            f"every grasp of {name} is obstructed by {', '.join(guilty)}",
+            f"every grasp of {name} is obstructed by {', '.join(guilty)}"
+            + _how_deep(belief, name, found, guilty),
         )
     if not found.grasps:
         return too_wide(name, found.narrowest, opening)
@@ -50,6 +53,32 @@ def explain(
         [*suspects, name],
         f"the hand has no room at any grasp of {name} (opening {opening * 1000:.0f} mm)",
     )
+
+
+def _how_deep(belief: Belief, name: str, found: GraspSet, guilty: Sequence[str]) -> str:
+    """That it is the depth of the vessel that an object is in, where its fingers have room in there
+    and the hand behind them has none.
+    """
+    vessel = belief.scene.states[name].inside
+    if vessel is None or [vessel] != list(guilty) or not belief.world.entries[vessel].free:
+        return ""
+    checker, gripper = belief.checker, belief.world.robot.spec.gripper
+    belief.checker.freeze(belief.data)
+    for grasp in found.grasps:
+        checker.set_fingers(min(grasp.width + 2 * max(NARROW_ROOMS), gripper.opening))
+        fingers, hand = (
+            {*map(owner_of, checker.hand_hits(grasp.tool, clearance=0.0, part=part))}
+            for part in (HandPart.FINGERS, HandPart.ALL)
+        )
+        if vessel in hand - fingers:
+            rim = object_bounds(belief.world, belief.data, vessel)[1][2]
+            below = rim - object_bounds(belief.world, belief.data, name)[1][2]
+            if below > 0.0:
+                return (
+                    f", in which it lies {below * 1000:.0f} mm below the rim: the fingers have "
+                    "room there, the hand behind them has none"
+                )
+    return ""
 
 
 def goes_nowhere(name: str, put: Action, count: int) -> SkillOutcome:

@@ -423,7 +423,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
     (r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1"),
     (
-        r"(?:^|(?<=[.!?;]\s))(?:(?:(?:do|can) you )?see|(?:have you|has any(?:one|body)) seen) (?=the |that |those )([^.!?;]*?)"
+        r"(?:^|(?<=[.!?;]\s))(?:(?:(?:do|can) you )?see|(?:have you|has any(?:one|body)) seen) "
+        r"(?=the |that |those )([^.!?;]*?)"
         r"(?: (?:(?:up|over|down|out) )?(?:there|here))?\?",
         r"look at \1,",
     ),

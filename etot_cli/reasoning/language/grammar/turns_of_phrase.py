@@ -25,7 +25,10 @@ _AFTERWARDS = (
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
-_TO_GO = rf"{NAMED} (?:\w+ ){{1,3}}?(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
+_TO_GO = (
+    rf"{NAMED} (?:\w+ ){{1,3}}?"
+    r"(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
+)
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -193,11 +196,13 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     # "It is not the cup but the jar that goes there"
     (
-        rf"\bit is not ({NAMED} [^.,;:]*?) (that|which) ([^.,;:]*?),? but ({NAMED} [^.,;:]*?){_END}",
+        rf"\bit is not ({NAMED} [^.,;:]*?) (that|which) ([^.,;:]*?),? "
+        rf"but ({NAMED} [^.,;:]*?){_END}",
         r"it is \4 \2 \3, not \1",
     ),
     (
-        rf"\bit is not ({NAMED} [^.,;:]*?),? but ({NAMED} [^.,;:]*? (?:that|which) [^.,;:]*?){_END}",
+        rf"\bit is not ({NAMED} [^.,;:]*?),? "
+        rf"but ({NAMED} [^.,;:]*? (?:that|which) [^.,;:]*?){_END}",
         r"it is \2, not \1",
     ),
     # What is not somewhere yet and is to go there, told by one verb

@@ -47,8 +47,8 @@ def meant_by_them(discourse: Discourse, role: Role, text: str) -> tuple[int, ...
         if named and not {*named} & {*found}:
             return named  # "take the cup to the drawers and put it on them", of one chest
         raise AmbiguousReference(text, [item.text for item in discourse.referents])
-    if not found and role is Role.PART and len(drawers := openable(discourse)) > 1:
-        return drawers  # "a pen in each of two drawers, and close them"
+    if not found and role is Role.PART and len(openable(discourse)) > 1:
+        return openable(discourse)  # "a pen in each of two drawers, and close them"
     return found or _several_named(discourse, role)
 
 

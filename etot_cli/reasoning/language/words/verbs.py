@@ -184,7 +184,8 @@ _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
 _WELL = "good|nice|nicely|lovely|great|perfect|perfectly|fine|well"
 MODAL = f"""
     [{_IN_FACT}] ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}|found|returned|stood]|
-    find (its|their) way [back]|(end|finish|wind) up [{_BEING}]|get|(go|come|move|return) [back]|land|
+    find (its|their) way [back]|(end|finish|wind) up [{_BEING}]|get|land|
+    (go|come|move|return) [back]|
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
@@ -193,8 +194,10 @@ MODAL = f"""
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie|live), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
-    (need|needs|want|wants) (putting|placing|storing|stowing|moving|bringing|returning) [away|back|down],
-    move[s] [up|down|over|back], find[s] (its|their) way [back], (is|are) [now|still|also] (wanted|needed|required)
+    (need|needs|want|wants) (putting|placing|storing|stowing|moving|bringing|returning)
+    [away|back|down],
+    move[s] [up|down|over|back], find[s] (its|their) way [back],
+    (is|are) [now|still|also] (wanted|needed|required)
 """
 _STAND_THERE = f"""
     (be|go|stand|sit|lie|rest|(be|end up) ({_BEING}|placed|put|found|kept)|end up)
