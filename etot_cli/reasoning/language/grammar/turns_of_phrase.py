@@ -25,9 +25,7 @@ _AFTERWARDS = (
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
-_TO_GO = (
-    rf"{NAMED} (?:\w+ ){{1,3}}?(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
-)
+_TO_GO = rf"{NAMED} (?:\w+ ){{1,3}}?(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
