@@ -114,8 +114,10 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     (r"\b(turn(?:ed|ing)?|swivel(?:led|ling)?)( (?:it|them))? round\b", r"\1\2 around"),
     # What has to be turned "first" is what goes somewhere, not where that goes
     (
-        r"(?:[,;.]|,?(?= but\b| and\b))(?: but| and)? (?:it (?:needs (?:turning|rotating)"
-        r"|(?:needs|has|will have|is) to be (?:turned|rotated|reoriented))|you will have to turn it)"
+        r"(?:[,;.]|,?(?= but\b| and\b))(?: but| and)? "
+        r"(?:it (?:needs (?:turning|rotating)"
+        r"|(?:needs|has|will have|is) to be (?:turned|rotated|reoriented))"
+        r"|you will have to turn it)"
         r"(?: around)? (?:first|beforehand|before that)(?=[.;!]|$)",
         ", turning it as needed",
     ),

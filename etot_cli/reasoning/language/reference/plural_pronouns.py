@@ -43,9 +43,9 @@ def meant_by_them(discourse: Discourse, role: Role, text: str) -> tuple[int, ...
     single = len(found) == 1 and all(len(option) == 1 for option in options)
     plural = any(singular(mention.noun) != mention.noun for mention in said)  # "the pliers"
     if single and not plural and not any(item.several or item.whatever for item in said):
-        named = _several_named(discourse, role) if role in TARGETS else ()
-        if named and not {*named} & {*found}:
-            return named  # "take the cup to the drawers and put it on them", of one chest
+        plurals = _several_named(discourse, role) if role in TARGETS else ()
+        if plurals and not {*plurals} & {*found}:
+            return plurals  # "take the cup to the drawers and put it on them", of one chest
         raise AmbiguousReference(text, [item.text for item in discourse.referents])
     if not found and role is Role.PART and len(drawers := openable(discourse)) > 1:
         return drawers  # "a pen in each of two drawers, and close them"
