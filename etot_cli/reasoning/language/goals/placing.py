@@ -23,7 +23,6 @@ from etot_cli.reasoning.language.grammar.asides import ASIDE
 from etot_cli.reasoning.language.grammar.destinations import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax.clauses import CoverClause, PutGroup, ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.space import is_flat
 from etot_cli.reasoning.language.words.places import Prep
@@ -213,7 +212,7 @@ def reorient(context: Context, clause: ReorientClause) -> None:
     if isinstance(step, Put):  # "put it in the holder, rotating it as needed": what goes there
         themes = step.what if clause.stance else ()
     else:
-        themes = _turned(context, clause)
+        themes = context.phrases.things(clause.things, Role.THEME)
     for index in themes:
         lying = clause.stance is Nearby.LYING
         if clause.stance is None or not (lying or can_stand(context, index)):
@@ -244,20 +243,6 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             else:
                 place = replace(context.home(thing), beside=(near,))
                 context.steps.append(Put((context.single(thing, thing.name),), (place,)))
-
-
-def _turned(context: Context, clause: ReorientClause) -> Sequence[int]:
-    """What is turned: what was put somewhere rather than where that went ("put the pen in a cup,
-    but it needs turning first").
-    """
-    try:
-        return context.phrases.things(clause.things, Role.THEME)
-    except AmbiguousReference:
-        step = context.done[-1] if context.done else None
-        again = all(np.pronoun == "it" for np in clause.things.phrases)
-        if not again or clause.stance or not isinstance(step, Put) or len(step.what) != 1:
-            raise
-        return step.what
 
 
 def _being_there(context: Context, index: int, stance: Nearby) -> Put:

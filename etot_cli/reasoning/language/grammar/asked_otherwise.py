@@ -116,10 +116,14 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         lambda said: f"{said[1]}{said[3]} should {_HOLD.get(said[4], said[4])} ",
     ),
     (r"\b(turn(?:ed|ing)?|swivel(?:led|ling)?)( (?:it|them))? round\b", r"\1\2 around"),
+    # What has to be turned "first" is what goes somewhere, not where that goes
     (
-        rf"(^|[.;!?] )((?:there is an? (?:\w+ ){{1,2}}|{NAMED} (?:\w+ ){{1,2}}(?:is|lies|stands) ))"
-        r"in the way (?=(?:in|on) (?:the|my)\b)",
-        r"\1\2",
+        r"(?:[,;.]|,?(?= but\b| and\b))(?: but| and)? "
+        r"(?:it (?:needs (?:turning|rotating)"
+        r"|(?:needs|has|will have|is) to be (?:turned|rotated|reoriented))"
+        r"|you will have to turn it)"
+        r"(?: around)? (?:first|beforehand|before that)(?=[.;!]|$)",
+        ", turning it as needed",
     ),
     # A place proposed for what is to go somewhere else
     (
