@@ -25,9 +25,7 @@ _AFTERWARDS = (
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
-_TO_GO = (
-    rf"{NAMED} (?:\w+ ){{1,3}}?(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
-)
+_TO_GO = rf"{NAMED} (?:\w+ ){{1,3}}?(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -210,7 +208,11 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?:free|clear|rid) of (?:any |all )?(?:the )?(\w+s)(?: in the end| afterwards)?{_END}",
         r"remove all the \2 from \1",
     ),
-    (rf"(^|[.;!] ){PEOPLE} (?:says?|said|thinks?|reckons?) (?:that )?(?={_TO_GO})", r"\1"),
+    (r"\b(?:(?:may|can|could|must|would) i|i (?:would |must )?) ?ask that\b", "make sure that"),
+    (
+        rf"(^|[.;!] )(?!(?:i|we|you)\b){PEOPLE} (?:says?|said|thinks?|reckons?) (?:that )?(?={_TO_GO})",
+        r"\1",
+    ),
     (r"\bin (its|their|his|her) stead\b", r"in \1 place"),
     (rf"\b(?:can|could|may|might) i (?:please )?trouble you for (?={NAMED})", "hand me "),
     (
