@@ -32,8 +32,8 @@ _GOES_ON = word_set("in on into onto to and from inside next then")
 _RIGHT = Expression(
     r"(^|[.!?;\n]\s*)right(?: then| so)?,\s*"
     rf"(?=(?:{'|'.join(VERB_WORDS)}|please|can|could|would|will|let|now|i|you|we)\b"
-    r"|(?!.*\bleft,)(?:(?:the|my|both|all|your|every) )?\w+ (?:\w+ )?(?:in|on|into|onto|goes|go|belongs?"
-    r"|has to|needs to|should|must)\b)"
+    r"|(?!.*\bleft,)(?:(?:the|my|both|all|your|every) )?\w+ (?:\w+ )?(?:in|on|into|onto"
+    r"|goes|go|belongs?|has to|needs to|should|must)\b)"
 )
 _WELL = re.compile(
     r"(^|[.!?;\n]\s*)(?:"

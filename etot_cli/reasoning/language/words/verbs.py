@@ -192,8 +192,10 @@ MODAL = f"""
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie|live), (is|are) going [back],
     [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
-    (need|needs|want|wants) (putting|placing|storing|stowing|moving|bringing|returning) [away|back|down],
-    move[s] [up|down|over|back], find[s] (its|their) way [back], (is|are) [now|still|also] (wanted|needed|required)
+    (need|needs|want|wants)
+    (putting|placing|storing|stowing|moving|bringing|returning) [away|back|down],
+    move[s] [up|down|over|back], find[s] (its|their) way [back],
+    (is|are) [now|still|also] (wanted|needed|required)
 """
 _STAND_THERE = f"""
     (be|go|stand|sit|lie|rest|(be|end up) ({_BEING}|placed|put|found|kept)|end up)
