@@ -25,7 +25,10 @@ _AFTERWARDS = (
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
-_TO_GO = rf"{NAMED} (?:\w+ ){{1,3}}?(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
+_TO_GO = (
+    rf"{NAMED} (?:\w+ ){{1,3}}?"
+    r"(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
+)
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -188,11 +191,13 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     # "It is not the cup but the jar that goes there"
     (
-        rf"\bit is not ({NAMED} [^.,;:]*?) (that|which) ([^.,;:]*?),? but ({NAMED} [^.,;:]*?){_END}",
+        rf"\bit is not ({NAMED} [^.,;:]*?) (that|which) ([^.,;:]*?),?"
+        rf" but ({NAMED} [^.,;:]*?){_END}",
         r"it is \4 \2 \3, not \1",
     ),
     (
-        rf"\bit is not ({NAMED} [^.,;:]*?),? but ({NAMED} [^.,;:]*? (?:that|which) [^.,;:]*?){_END}",
+        rf"\bit is not ({NAMED} [^.,;:]*?),?"
+        rf" but ({NAMED} [^.,;:]*? (?:that|which) [^.,;:]*?){_END}",
         r"it is \2, not \1",
     ),
     # What is not somewhere yet and is to go there, told by one verb
@@ -210,7 +215,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     (r"\b(?:(?:may|can|could|must|would) i|i (?:would |must )?) ?ask that\b", "make sure that"),
     (
-        rf"(^|[.;!] )(?!(?:i|we|you)\b){PEOPLE} (?:says?|said|thinks?|reckons?) (?:that )?(?={_TO_GO})",
+        rf"(^|[.;!] )(?!(?:i|we|you)\b){PEOPLE} (?:says?|said|thinks?|reckons?) "
+        rf"(?:that )?(?={_TO_GO})",
         r"\1",
     ),
     (r"\bin (its|their|his|her) stead\b", r"in \1 place"),

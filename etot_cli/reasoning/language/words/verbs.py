@@ -183,7 +183,8 @@ _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
 _WELL = "good|nice|nicely|lovely|great|perfect|perfectly|fine|well"
 MODAL = f"""
     [{_IN_FACT}] ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}|found|returned|stood]|
-    find (its|their) way [back]|(end|finish|wind) up [{_BEING}]|get|(go|come|move|return) [back]|land|
+    find (its|their) way [back]|(end|finish|wind) up [{_BEING}]|get|
+    (go|come|move|return) [back]|land|
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
