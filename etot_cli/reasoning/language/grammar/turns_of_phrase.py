@@ -218,7 +218,12 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?:free|clear|rid) of (?:any |all )?(?:the )?(\w+s)(?: in the end| afterwards)?{_END}",
         r"remove all the \2 from \1",
     ),
-    (rf"(^|[.;!] ){PEOPLE} (?:says?|said|thinks?|reckons?) (?:that )?(?={_TO_GO})", r"\1"),
+    (r"\b(?:(?:may|can|could|must|would) i|i (?:would |must )?) ?ask that\b", "make sure that"),
+    (
+        rf"(^|[.;!] )(?!(?:i|we|you)\b){PEOPLE} (?:says?|said|thinks?|reckons?) "
+        rf"(?:that )?(?={_TO_GO})",
+        r"\1",
+    ),
     (r"\bin (its|their|his|her) stead\b", r"in \1 place"),
     (rf"\b(?:can|could|may|might) i (?:please )?trouble you for (?={NAMED})", "hand me "),
     (

@@ -136,8 +136,7 @@ SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], (take|taking) care that, see to it [that],
-    make it so [that], mind that, (may|can|could|must|would) i ask that, i [(would|must)] ask that,
-    (watch|look) out that, (watch|see|be careful|be mindful) that,
+    make it so [that], mind that, (watch|look) out that, (watch|see|be careful|be mindful) that,
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
