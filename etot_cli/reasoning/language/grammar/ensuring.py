@@ -29,6 +29,7 @@ from etot_cli.reasoning.language.grammar.states import (
     ALL_SO,
     ALWAYS,
     IN_OR_ON_IT,
+    IS_OPEN_OR_CLOSED,
     NONE,
     NOT_FALLING,
     OPEN_OR_CLOSED,
@@ -277,7 +278,7 @@ ENSURE = either(
                     build=lambda nps: nps if nps[1:] else None,
                 ),
             ),
-            either(OPEN_OR_CLOSED, DESTINATIONS),
+            either(IS_OPEN_OR_CLOSED, DESTINATIONS),
             optional(f"{small_words.ANY_MORE}, like (this|that)"),
             build=lambda nps, so: ensured(opposite(nps, so)),
         )

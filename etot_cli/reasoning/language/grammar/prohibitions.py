@@ -265,7 +265,14 @@ AVOID = either(
     sequence(
         THINGS,
         verbs.NOT_TO_BE,
-        one_of({Avoid.TOUCH: verbs.TOUCHED, Avoid.MOVE: verbs.DISTURBED, Avoid.HIT: verbs.WAS_HIT}),
+        one_of(
+            {
+                Avoid.TOUCH: verbs.TOUCHED,
+                Avoid.MOVE: verbs.DISTURBED,
+                Avoid.HIT: verbs.WAS_HIT,
+                Avoid.OPEN: "opened",
+            }
+        ),
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),
 )

@@ -50,8 +50,12 @@ SHUT = phrase(manner.CLOSED_STATE, "closed")
 OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
 
 
+IS_OPEN_OR_CLOSED = either(phrase(manner.IS_OPEN, "open"), SHUT)
+"""Behind "not"; what is not to be opened may be open already."""
 _NOT_SO = sequence(
-    "not [left|kept]", either(OPEN_OR_CLOSED, DESTINATIONS), build=lambda found: ("not", found)
+    "not [left|kept]",
+    either(IS_OPEN_OR_CLOSED, DESTINATIONS),
+    build=lambda found: ("not", found),
 )
 
 

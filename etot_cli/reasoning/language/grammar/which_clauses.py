@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from etot_cli.reasoning.language.grammar.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.input import Input
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
@@ -193,19 +195,25 @@ def _one_after_another(at: int, clauses: tuple[PutClause, ...]) -> Reading:
     )
 
 
-WHICH_FIRST_GETS: Parser = located(
-    sequence(
-        "which",
-        either(
-            "(must|should|has to|needs to|is to) (first|beforehand) (receive|get|be given)",
-            "first (receives|gets)",
-        ),
-        ALL_THINGS,
-        some(sequence(OPTIONAL_COMMA, "and then, then", ALL_THINGS), most=3),
-        build=_received,
+_FIRST_GETS = sequence(
+    "which",
+    either(
+        "(must|should|has to|needs to|is to) (first|beforehand) (receive|get|be given)",
+        "first (receives|gets)",
     ),
-    _one_after_another,
+    ALL_THINGS,
+    some(sequence(OPTIONAL_COMMA, "and then, then", ALL_THINGS), most=3),
+    build=_received,
 )
+
+
+def _gets_all(given: Input, at: int) -> list[tuple[int, Any]]:
+    """What comes "and then" goes in as well: it is not done after all the rest."""
+    found = list(_FIRST_GETS.find(given, at))
+    return [item for item in found if item[0] == max(end for end, _ in found)]
+
+
+WHICH_FIRST_GETS: Parser = located(Parser(_gets_all, lambda: _FIRST_GETS.first), _one_after_another)
 """What goes into what was named last before anything is done with that."""
 
 

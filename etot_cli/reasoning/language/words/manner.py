@@ -6,10 +6,10 @@ from etot_cli.reasoning.language.words.verbs import REORIENTED
 
 _TURNED = REORIENTED.replace(",", "|")
 _SWUNG = "pulled|pushed|slid|swung|eased|drawn|rolled|nudged"
-OPEN_STATE = f"""
-    [still] [{_SWUNG}|prised|flung|tugged|standing] [wide|all the way|fully|completely] open,
-    opened [up]
+IS_OPEN = f"""
+    [still] [{_SWUNG}|prised|flung|tugged|standing] [wide|all the way|fully|completely] open
 """
+OPEN_STATE = f"{IS_OPEN}, opened [up]"
 CLOSED_STATE = f"""
     [still] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight] (closed|shut)
     [behind (it|them)|tight], closed up, (pushed|slid|shoved|eased) [back] (in|to|home)
