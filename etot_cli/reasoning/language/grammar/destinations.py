@@ -300,7 +300,7 @@ WHERE = Rule(
             DESTINATIONS,
             OPTIONAL_COMMA,
             either(
-                f"{nouns.CONTRAST}, anywhere (but|except)",
+                f"{nouns.CONTRAST}, [and|but] never, anywhere (but|except)",
                 sequence(after("anywhere"), "except"),
                 sequence(after("rather", "prefer"), "than"),
             ),

@@ -263,6 +263,15 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
         r"\1 a \2",
     ),
+    # "Open the drawer while the cup stays where it is"
+    (
+        rf"(?<=\w),? (?:while|with) ({_SOME}) (?=(?:stays?|remains?) [^.,;]*(?:[.;!]|$))",
+        r", and \1 ",
+    ),
+    (
+        rf"(?<=\w),? with ({_SOME}) ending (?:up )?(?=(?:on|in|inside|next to|beside|behind)\b)",
+        r", with \1 ",
+    ),
     # "With the cup still on the tray" tells of no tray.
     (
         r"(?<=\w) with (?="

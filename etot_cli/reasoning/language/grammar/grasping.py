@@ -192,7 +192,11 @@ GRASPED = sequence(
         ),
         _NOT_WITH,
         phrase(f"with {manner.HAND_EITHER_WAY}", _BOTH),
-        sequence("whether", POSES, optional(f"[that] ({small_words.DOES_NOT_MATTER})")),
+        sequence(
+            "[no matter] whether, no matter if",
+            POSES,
+            optional(f"[that] ({small_words.DOES_NOT_MATTER})"),
+        ),
         sequence(
             "[while|by] (keeping|holding)",
             either(

@@ -90,6 +90,15 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"(?=[.;,])",
         r"\1\3 is blocking \2",
     ),
+    # "Remove whatever keeps the drawer from closing"
+    (
+        r"\b((?:please |just |first )*(?:remove|take away|take out|get rid of) )"
+        r"(?:whatever|what|anything that|everything that|the (?:thing|object) that) "
+        r"((?:is |are )?(?:keep|prevent|stop|hinder)(?:s|ing) "
+        rf"{_WHAT} (?:from )?(?:(?:open|clos|shutt)ing|being (?:opened|closed|shut)))"
+        rf"(?= (?:and|then)\b|[.;,!]|$)",
+        r"something \2. \1it",
+    ),
     (
         rf"\b(?:whatever|what|anything|everything)(?: that| which)? {_BLOCKS} (?={_WHAT})",
         "everything that is blocking ",

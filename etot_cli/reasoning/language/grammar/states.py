@@ -53,8 +53,9 @@ OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
 IS_OPEN_OR_CLOSED = either(phrase(manner.IS_OPEN, "open"), SHUT)
 """Behind "not"; what is not to be opened may be open already."""
 _NOT_SO = sequence(
-    "not [left|kept]",
+    "(not|no longer) [left|kept]",
     either(IS_OPEN_OR_CLOSED, DESTINATIONS),
+    silent(optional("anymore, any more, any longer")),
     build=lambda found: ("not", found),
 )
 

@@ -32,6 +32,24 @@ _TO_GO = (
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        r"\b(i|we) (need|want|would like) (?:easy |free |quick )?access to "
+        rf"(?:the (?:inside|interior) of )?(?={NAMED})",
+        r"\1 \2 to get into ",
+    ),
+    (
+        rf"\b((?:close|shut) {NAMED} \w+(?: \w+)??) after (it|them){_END}",
+        r"\1 behind \2",
+    ),
+    # What somebody "forgot to do", and is asked for next
+    (
+        rf"(^|[.;!] ){PEOPLE} (?:has |have )?(?:just )?(?:forgot|forgotten) to "
+        rf"((?:open|close|shut|put|place|take|move|bring) [^.;,!?]*?)[.;,!]"
+        r" (?:so )?(?:please |kindly |(?:would|do) you mind |(?:could|can|would|will) you "
+        r"(?:please )?)*(?:see(?:ing)? to|tak(?:e|ing) care of|deal(?:ing)? with|do(?:ing)?"
+        rf"|fix(?:ing)?|sort(?:ing)? out) (?:it|that|this)(?: for (?:me|us))?{_END}",
+        r"\1\2",
+    ),
     # Who finds it fine if it stays open need not have it so
     (
         rf"\bit (?:is|would be|will be) {_FINE}(?: (?:by|with|for) (?:me|us))? "

@@ -205,7 +205,9 @@ STANDING = f"{STANDS}, standing [up]"
 TURNED_UP = f"""
     {STANDING}, to [be] {_UPRIGHT}, until (it|they) (stands|stand|is|are) {_UPRIGHT},
     (into|to) (an upright|a vertical|the upright|the vertical) (position|pose|orientation),
-    [in]to the vertical
+    [in]to the vertical,
+    from [a|the] (lying|horizontal) [position|pose|orientation|down] to
+    [a|an|the] (standing|upright|vertical) [position|pose|orientation|up]
 """
 """Behind what is turned."""
 _ON_ITS_SIDE = "[over] (on|onto|on to) (its|their) side[s]"

@@ -100,7 +100,7 @@ WITHOUT_MEANING = f"""
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
 DOES_NOT_MATTER = """
-    [(it|that)] (does not matter|makes no difference|is up to you|is all the same), is your
+    [(it|that)] (does not matter|makes no difference|is up to you|is all the same) [to (me|us)], is your
     (choice|decision), is not important, is (irrelevant|unimportant)
 """
 """Before or behind what is left open."""
