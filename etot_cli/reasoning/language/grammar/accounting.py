@@ -108,7 +108,8 @@ _FIXED = """
     (thing|things|one|ones|object|objects|item|items) (left|remaining),
     all [that] (i|we) (need|want) (left|remaining), the right (way|side) up, right (way|side) up,
     all (the (way|time|while)|along), remaining (in|on|where|there|inside|open|closed|shut|put),
-    (nearly|almost) (closed|shut), no matter (from|if|whether), (is|are) all the same to (me|us),
+    (nearly|almost) (closed|shut), no matter (from|if|whether),
+    from [a|the] horizontal [position|pose|orientation] to, (is|are) all the same to (me|us),
     not (possible|feasible|doable), (does|do|will) not work,
     the right (home|place|spot) (for|of),
     (is|are) only [slightly|partly|partially|half|halfway|barely|a (bit|little|crack)]

@@ -42,6 +42,7 @@ from etot_cli.reasoning.language.grammar.remarks import (
 from etot_cli.reasoning.language.grammar.telling import (
     exclaims,
     goes_there,
+    goes_there_later,
     tells_of_others,
 )
 from etot_cli.reasoning.language.grammar.text import (
@@ -300,6 +301,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     if at == 0 and exclaims(clause.said, is_name):
         return True
     if at + 1 < len(clauses) and goes_to_it(clause.said, behind, first=at == 0):
+        return True
+    if _is_whole(clauses, at) and goes_there_later(clause.said, is_name):
         return True
     if _is_whole(clauses, at) and tells_of_others(clause.said, is_name, before_so=so):
         return True

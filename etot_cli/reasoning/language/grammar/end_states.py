@@ -263,9 +263,15 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
         r"\1 a \2",
     ),
+    (
+        rf"\b({_SOME}|it) (stays?|remains?|should stay|must stay) (where it is|put),? (?:and )?"
+        r"(?:standing |still )?upright(?=[.,;!]|$)",
+        r"\1 \2 \3, and \1 \2 upright",
+    ),
     # "Open the drawer while the cup stays where it is"
     (
-        rf"(?<=\w),? (?:while|with) ({_SOME}) (?=(?:stays?|remains?) [^.,;]*(?:[.;!]|$))",
+        rf"(?<=\w),? (?:while|with) ({_SOME}) (?=(?:stays?|remains?) "
+        r"[^.,;]*(?:, and \1 [^.,;]*)?(?:[.;!]|$))",
         r", and \1 ",
     ),
     (

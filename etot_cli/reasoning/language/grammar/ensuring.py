@@ -216,6 +216,17 @@ ENSURE = either(
         ALWAYS,
         build=kept_so,
     ),
+    sequence(
+        # "Leave the oven with its door open"
+        either(
+            sequence(verbs.KEEP, noun_phrase, "with"),
+            sequence(noun_phrase, f"{verbs.MODAL}, stay[s], remain[s]", "with"),
+            sequence(noun_phrase, "(should|must) have"),
+        ),
+        "(its|the) door[s]",
+        OPEN_OR_CLOSED,
+        build=lambda np, state: EnsureClause((State((np,), word=state),)),
+    ),
     sequence(NP_LIST, verbs.MODAL, OPEN_OR_CLOSED, small_words.ALL_ALONG, build=kept_so),
     sequence(
         # "The drawer gets closed", "the drawer ends closed"

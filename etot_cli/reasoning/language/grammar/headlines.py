@@ -61,6 +61,16 @@ def _tabled(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
     return EnsureClause((State(nps, word=word),))
 
 
+def _still_there(
+    nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]
+) -> EnsureClause | None:
+    """Where things are to stay, without a verb ("drawer open, ball still on the desk"); "there" is
+    where they are, not what was opened.
+    """
+    told = all(item.targets for item in where)
+    return EnsureClause((State(nps, where, kept=True),), 1) if told else None
+
+
 def taken_out(things: Things) -> RemoveClause | None:
     """What is taken from somewhere, without a verb; "then the one from the tray" goes on with what
     was done before.
@@ -122,6 +132,7 @@ LEFT_SO = Rule(
     timed(
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
         sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
+        sequence(NP_LIST, "still", DESTINATIONS, build=_still_there),
         sequence(ALL_THINGS, IN_HAND, build=lambda things, _: PickClause(things)),
         variants(sequence(ALL_THINGS, optional(_IS), manner.EMPTIED), to_be_empty),
         sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),

@@ -141,7 +141,7 @@ def _in_that_state(word: str, np: NounPhrase) -> EnsureClause | None:
 
 BOTH_SO = either(
     sequence(
-        small_words.GOAL_IS,
+        f"{small_words.GOAL_IS}, {small_words.TASK}",
         "a, an, the",
         OPEN_OR_CLOSED,
         noun_phrase,

@@ -136,7 +136,7 @@ _FORBIDDEN = either(
         build=with_it,
     ),
     LET_MEET,
-    sequence("drop[ping]", THINGS, build=not_dropped),
+    sequence("drop[ping], los(e|ing)", THINGS, build=not_dropped),
     sequence("let[ting]", THINGS, f"{verbs.TO_THE_FLOOR}, {OFF_THE_DESK}", build=unharmed),
     sequence(
         "drop[ping], throw[ing], knock[ing], push[ing], roll[ing]",

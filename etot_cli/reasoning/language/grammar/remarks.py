@@ -159,8 +159,6 @@ _PREDICATE = Expression(
 )
 _A_BIT = Expression(r" (?:a (?:little|bit|lot)|quite a bit)(?= |$)")
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
-_THAT_ONE = Expression(r"^th(?:at|is) one(?= (?:is|looks|feels|seems) (?:far |much |way )?too\b)")
-"""Of which no more is said than of "it"."""
 _NOT_STAYING = (
     r"(?:can|must|should|may) not (?:be (?:left|kept)|stay|remain)"
     r"(?: (?:like (?:this|that)|as (?:it is|they are)|that way|so))?"
@@ -351,7 +349,7 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
     """The words for something in the scene of which this tells what places nothing, singles nothing
     out and speaks of nothing else; none where it does not.
     """
-    words = _THAT_ONE.sub("it", _YONDER.sub("", said)).split() or [""]
+    words = _YONDER.sub("", said).split() or [""]
     end = _named_until(words, is_name)
     while words[end : end + 1] == ["and"] and words[end + 1 : end + 2] == ["the"]:
         end += 1 + _named_until(words[end + 1 :], is_name)  # "the tape and the pencil are trash"

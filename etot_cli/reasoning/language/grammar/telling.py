@@ -129,6 +129,16 @@ def _may_be_verb(word: str, subject: str) -> bool:
     return word.endswith("s") and not word.endswith(("ss", "us", "is")) and not several
 
 
+_SOON = Expression(r" (?:next|soon|later|shortly|afterwards|tonight|in a \w+)$")
+
+
+def goes_there_later(said: str, is_name: IsName) -> bool:
+    """Whether somebody tells, behind a request, what he will put there himself ("my soup goes in
+    next").
+    """
+    return bool(_SOON.search(said)) and goes_there(said, is_name)
+
+
 def goes_there(said: str, is_name: IsName) -> bool:
     """Whether somebody tells, before "so", what will soon be put where something is asked for ("my
     soup has to go in there").

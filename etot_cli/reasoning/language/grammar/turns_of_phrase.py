@@ -41,6 +41,28 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"\b((?:close|shut) {NAMED} \w+(?: \w+)??) after (it|them){_END}",
         r"\1 behind \2",
     ),
+    (rf"(?<=[.;,] )th(?:at|is) one (?=is (?:far |much |way )?too \w+{_END})", "it "),
+    (r"\b(?:gripped|grasped|held) (?:by |in )?(?=(?:whichever|whatever|any) way\b)", "in "),
+    # "Any box will do for the pen; just put it in there"
+    (
+        rf"\b(?:any|either) (\w+(?: \w+)?) (?:will|would) do for ({NAMED} \w+(?: \w+)?)[;.,:] "
+        r"((?:so |and |just |please |simply )*)(put|get|place|set|drop|stick) it "
+        r"(in|on|into|onto|inside)(?: (?:there|it|one))?(?=[.,;!?]|$| (?:without|and|then)\b)",
+        r"\3\4 \2 \5 any \1",
+    ),
+    # What several things are to be, one of them standing
+    (
+        r"\b((?:want|would like|like to see|want to see|make sure|make sure that) "
+        r"[^.;!?]*?\b(?:in|on|inside|open|closed|shut)\b[^.;!?,]*?),? and "
+        rf"({NAMED} (?:\w+ )??\w+|both (?:the |my )?\w+) (?:still )?"
+        rf"(?:standing(?: up| upright)?|upright){_END}",
+        r"\1, and \2 should be upright",
+    ),
+    (
+        r"\b(should|must|has to|have to|needs to) (?:still )?be (?:still )?standing"
+        rf"(?: up| upright)?(?= (?:in|at) the end{_END}|{_END})",
+        r"\1 be upright",
+    ),
     # What somebody "forgot to do", and is asked for next
     (
         rf"(^|[.;!] ){PEOPLE} (?:has |have )?(?:just )?(?:forgot|forgotten) to "

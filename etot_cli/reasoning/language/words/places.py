@@ -53,7 +53,10 @@ class Prep(StrEnum):
     """Those that fit, without the phrases' things."""
 
 
-FROM_THERE = "from where (it|they) (is|are|stands|stand|lies|lie|sits|sit)"
+FROM_THERE = """
+    from where (it|they) (is|are|stands|stand|lies|lie|sits|sit),
+    from (its|their) [present|current] (place|places|spot|position|location)
+"""
 """Behind what is picked up it says nothing."""
 SOURCE = "from, off of, off, out of, away from, from (on top of|inside)"
 _DESKS = "|".join((*DESK_NOUNS, "scene"))

@@ -73,7 +73,8 @@ WITHOUT_MEANING = f"""
     is (easier|easiest|best) [for you]|seems best [to you]],
     out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), until it (will|does) not go any further,
-    as far as it (goes|can [go]|will [go]), whatever it takes, no matter what, at all costs,
+    as far as it (goes|can [go]|will [go]), whatever (it|that|this) takes,
+    no matter what, at all costs,
     [in] (whichever|whatever) way (is (easiest|best|possible)|works [best]|suits you),
     without (damaging|hurting|harming|breaking) anything,
     if possible, by all means,
@@ -100,7 +101,8 @@ WITHOUT_MEANING = f"""
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
 DOES_NOT_MATTER = """
-    [(it|that)] (does not matter|makes no difference|is up to you|is all the same) [to (me|us)], is your
+    [(it|that)] (does not matter|makes no difference|is up to you|is all the same) [to (me|us)],
+    is your
     (choice|decision), is not important, is (irrelevant|unimportant)
 """
 """Before or behind what is left open."""
