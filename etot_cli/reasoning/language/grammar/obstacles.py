@@ -33,6 +33,10 @@ _FIX = (
     r"(?:(?:fix|solve|resolve|sort out|take care of|deal with|do something about|see to)"
     r" (?:it|this|that|the problem))"
 )
+_TAKE = r"((?:please |just |first )*(?:remove|take away|take out|get rid of) )"
+_WHATEVER = r"(?:whatever|what|anything that|everything that|the (?:thing|object) that)"
+_KEEPS = r"(?:is |are )?(?:keep|prevent|stop|hinder)(?:s|ing)"
+_FROM_CLOSING = r"(?:from )?(?:(?:clos|shutt)ing|being (?:closed|shut))"
 _SOMETHING = r"(?:something|a thing|an object)"
 _THERE = r"(?:is |stands )?(?:standing |sitting |lying )?(?:in front of it|in the way|blocking it)"
 
@@ -90,14 +94,20 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"(?=[.;,])",
         r"\1\3 is blocking \2",
     ),
-    # "Remove whatever keeps the drawer from closing"
+    # "Remove whatever keeps the drawer from closing": what is in it, if that is one thing
     (
-        r"\b((?:please |just |first )*(?:remove|take away|take out|get rid of) )"
-        r"(?:whatever|what|anything that|everything that|the (?:thing|object) that) "
-        r"((?:is |are )?(?:keep|prevent|stop|hinder)(?:s|ing) "
-        rf"{_WHAT} (?:from )?(?:(?:open|clos|shutt)ing|being (?:opened|closed|shut)))"
-        rf"(?= (?:and|then)\b|[.;,!]|$)",
-        r"something \2. \1it",
+        rf"\b{_TAKE}{_WHATEVER} ({_KEEPS} ({_WHAT}) {_FROM_CLOSING})(?= (?:and|then)\b|[.;,!]|$)",
+        r"the thing in \3 \2. \1it",
+    ),
+    (
+        rf"(^|[.;!] )something ({_KEEPS} ({_WHAT}) {_FROM_CLOSING})(?=[.;,!] )",
+        r"\1the thing in \3 \2",
+    ),
+    # What keeps it from opening stands before it
+    (
+        rf"\b{_TAKE}{_WHATEVER} {_KEEPS} ({_WHAT}) (?:from )?(?:opening|being opened)"
+        r"(?= (?:and|then)\b|[.;,!]|$)",
+        r"\1everything that is blocking \2",
     ),
     (
         rf"\b(?:whatever|what|anything|everything)(?: that| which)? {_BLOCKS} (?={_WHAT})",

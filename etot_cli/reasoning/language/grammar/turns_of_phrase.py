@@ -54,12 +54,14 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     (
         r"\b((?:want|would like|like to see|want to see|make sure|make sure that) "
         r"[^.;!?]*?\b(?:in|on|inside|open|closed|shut)\b[^.;!?,]*?),? and "
-        rf"({NAMED} (?:\w+ )??\w+|both (?:the |my )?\w+) (?:still )?"
+        rf"({NAMED} (?:\w+ )??\w+|both (?:the |my )?\w+)"
+        r"(?<! tower)(?<! stack)(?<! pile) (?:still )?"
         rf"(?:standing(?: up| upright)?|upright){_END}",
         r"\1, and \2 should be upright",
     ),
     (
-        r"\b(should|must|has to|have to|needs to) (?:still )?be (?:still )?standing"
+        r"(?<!tower )(?<!stack )(?<!pile )\b(should|must|has to|have to|needs to) (?:still )?"
+        r"be (?:still )?standing"
         rf"(?: up| upright)?(?= (?:in|at) the end{_END}|{_END})",
         r"\1 be upright",
     ),
