@@ -268,11 +268,11 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:standing |still )?upright(?=[.,;!]|$)",
         r"\1 \2 \3, and \1 \2 upright",
     ),
-    # "Open the drawer while the cup stays where it is"
+    # "Open the drawer while the cup stays where it is"; behind "do not" it is a condition
     (
-        rf"(?<=\w),? (?:while|with) ({_SOME}) (?=(?:stays?|remains?) "
-        r"[^.,;]*(?:, and \1 [^.,;]*)?(?:[.;!]|$))",
-        r", and \1 ",
+        r"(^|[.;!?] )((?:(?!\b(?:not|never|only|no|without|unless|if|when|until)\b)[^.;!?])*?\w),? "
+        rf"while ({_SOME}) (?=(?:stays?|remains?) [^.,;]*(?:, and \3 [^.,;]*)?(?:[.;!]|$))",
+        r"\1\2, and \3 ",
     ),
     (
         rf"(?<=\w),? with ({_SOME}) ending (?:up )?(?=(?:on|in|inside|next to|beside|behind)\b)",

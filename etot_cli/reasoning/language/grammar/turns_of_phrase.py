@@ -67,7 +67,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     # What somebody "forgot to do", and is asked for next
     (
-        rf"(^|[.;!] ){PEOPLE} (?:has |have )?(?:just )?(?:forgot|forgotten) to "
+        rf"(^|[.;!] )(?!nobody\b|no one\b){PEOPLE} (?:has |have )?(?:just )?"
+        r"(?:forgot|forgotten) to "
         rf"((?:open|close|shut|put|place|take|move|bring) [^.;,!?]*?)[.;,!]"
         r" (?:so )?(?:please |kindly |(?:would|do) you mind |(?:could|can|would|will) you "
         r"(?:please )?)*(?:see(?:ing)? to|tak(?:e|ing) care of|deal(?:ing)? with|do(?:ing)?"
