@@ -144,6 +144,8 @@ _IMPOSSIBLE = """
     (is|are) (not (possible|feasible|doable)|impossible), (does|do|will) not work, (is|are) no good,
     fails, can not be done
 """
+_IF_YOU_MUST = "if (you must|you have to|need be|necessary|needed)"
+_IF_YOU_CAN = "if (you can|possible|at all possible|feasible)"
 _AT_WORST = either(
     # "vertically if gripping it horizontally is not possible"
     sequence(
@@ -153,6 +155,25 @@ _AT_WORST = either(
         _POSE,
         _IMPOSSIBLE,
         build=lambda worse, better: (better, worse),
+    ),
+    # "vertically if you must, horizontally if you can", and the other way around
+    sequence(
+        _POSE,
+        _IF_YOU_MUST,
+        OPTIONAL_COMMA,
+        optional("but, and"),
+        _POSE,
+        optional(_IF_YOU_CAN),
+        build=lambda worse, better: (better, worse),
+    ),
+    sequence(
+        _POSE,
+        optional(_IF_YOU_CAN),
+        OPTIONAL_COMMA,
+        optional("but, and"),
+        _POSE,
+        _IF_YOU_MUST,
+        build=lambda better, worse: (better, worse),
     ),
     # "from the side, or if that is not possible from above", "from the side if possible, else …"
     sequence(

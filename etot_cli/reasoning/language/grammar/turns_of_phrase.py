@@ -50,6 +50,14 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"(in|on|into|onto|inside)(?: (?:there|it|one))?(?=[.,;!?]|$| (?:without|and|then)\b)",
         r"\3\4 \2 \5 any \1",
     ),
+    (
+        rf"(^|[.;!] )(?:please,? )?no open (\w+?)(s?)(?: (?:at|in) the end)?(?:,? please)?{_END}",
+        lambda said: f"{said[1]}make sure that no {said[2]} is open",
+    ),
+    (
+        r"\bha(s|ve) no business (?:being )?(?=(?:in|on|inside)\b)",
+        lambda said: f"{'does' if said[1] == 's' else 'do'} not belong ",
+    ),
     # What several things are to be, one of them standing
     (
         r"\b((?:want|would like|like to see|want to see|make sure|make sure that) "
