@@ -51,8 +51,8 @@ TURNED_OVER = "[to be] the other way (around|up)"
 NOT_STACKED = """
     [with] none [of them] [stacked|lying|standing] on [top of] (another [one]|each other|
     one another|the other[s]|any other [one]),
-    [but|and] not [one] (on [top of]|in|inside) (each other|one another|the other|another),
-    [with|and] neither [of them] (on [top of]|in|inside) the other
+    [but|and] not (on [top of]|in|inside) (each other|one another),
+    [but|and] not one (on [top of]|in|inside) (the other|another)
 """
 """Behind where all of some things lie side by side."""
 _SINGLY = "(by (itself|themselves)|on (its|their) own|alone|separately)"
