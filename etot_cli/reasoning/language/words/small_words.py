@@ -95,7 +95,9 @@ WITHOUT_MEANING = f"""
     ~comma [my] (young|good|old|dear|clever) (man|lady|friend|fellow|boy|girl|chap),
     by (then|tonight|tomorrow [(morning|noon|evening|night)]|noon|midnight|
     lunchtime|bedtime|(this|the) (afternoon|evening)),
-    (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here]
+    (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here],
+    (by the time|before) (i|we|they|he|she|(the|our|my) (guests|kids|children))
+    (sit down|sits down|leave|leaves|arrive|arrives)
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
@@ -338,14 +340,14 @@ INSTEAD = """
 AND = "and [also|likewise], as well as, along with, together with, plus, +"
 OR = "or [else]"
 EITHER = "either, one of, any of"
-JOINTS = "but, ~comma and, ~comma but, by, ~comma so"
+JOINTS = "but, ~comma and, ~comma but, by, ~comma so, [~comma] whereas, ~comma (while|whilst)"
 PURPOSE = "to, in order to, so as to"
 THEN_JOINTS = f"""
     [and] when you have done, [and] [~comma] ({_THAT_DONE}),
     [and] [~comma] (once|when|after) (it is|they are) (in|on) (it|them|there) [~comma] [you can],
     [and|but] [only] then, [and] after [all [of]] (that|this),
     [and] afterwards, [and] next, [and] (finally|lastly),
-    and last [of all], after which,
+    [and] after (them|these|those), and last [of all], after which,
     and later
 """
 COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly)"
