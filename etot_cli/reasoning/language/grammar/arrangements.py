@@ -7,8 +7,8 @@ from functools import partial
 from etot_cli.reasoning.language.grammar.common import (
     COLON,
     OPTIONAL_COMMA,
-    noun_phrase,
     not_ahead,
+    noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (

@@ -298,6 +298,16 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"{_ALL_ELSE_THERE} (?=(?:goes|go|belongs|should|must|has to|needs to|in|into|on|onto)\b)",
         r"\1\2\4everything else from \3 ",
     ),
+    # What was opened is closed
+    (
+        r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)(?:close|shut) up "
+        rf"(?=(?:again|after|afterwards|when|once|in the end)\b|{_END})",
+        r"\1\2close it ",
+    ),
+    (
+        r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)close up" + _END,
+        r"\1\2close it",
+    ),
     # Somewhere "there", told next
     (
         r"(?<=\w) (?:up|down|over) there (?=(?:beside|next to|near|between|behind|in front of"

@@ -93,6 +93,7 @@ WITHOUT_MEANING = f"""
     (dear|friend|love|darling|honey|sweetie|sweetheart|dearest|treasure|fellow|chap|man),
     ~comma (dude|bro|sis|ma am|miss|mister|[good|dear|kind] (sir|madam)|folks|[you] guys|son|boss),
     ~comma [my] (young|good|old|dear|clever) (man|lady|friend|fellow|boy|girl|chap),
+    ~comma [my] [little|good|dear|clever] (helper|robot),
     by (then|tonight|tomorrow [(morning|noon|evening|night)]|noon|midnight|
     lunchtime|bedtime|(this|the) (afternoon|evening)),
     (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here],
@@ -140,6 +141,7 @@ GREETINGS = f"""
     grandad|nan|nana|auntie|uncle|darling|love|honey|sweetheart|sweetie|boss|mate|buddy|pal|sir|
     madam) ~comma, (quick|hurry [up]) ~comma,
     [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
+    [hey|hello|hi|dear|yo] [my] [little|good|dear|clever] helper ~comma,
     hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),
     sorry to (bother|trouble|disturb|interrupt) you [again],
@@ -350,7 +352,7 @@ THEN_JOINTS = f"""
     [and] after (them|these|those), and last [of all], after which,
     and later
 """
-COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly)"
+COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly), last"
 """Before what comes next, where something was said to come first."""
 COUNTED = "second, third, fourth, next, then, afterwards, last"
 """Behind what comes next there."""

@@ -219,7 +219,7 @@ WERE_DONE = "is, are, was, were, (could|would|can|should) be"
 TO_BE_DONE_BY_YOU = f"to, you ({_MUST}), (i|we) (want|need|would like) you to"
 """Behind what the robot is to do something with, before what that is."""
 TAKEN_AWAY = """
-    removed, extracted, withdrawn,
+    removed, extracted, withdrawn, rescued, salvaged, unpacked, (fished|dug) out,
     (taken|lifted|pulled|moved|cleared|got|gotten|brought) (out|away),
     (taken|lifted|got|gotten|brought) (off|down)
 """
