@@ -26,8 +26,7 @@ _AFTERWARDS = (
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
 _STACK = r"(?:pile|stack|tower)"
-_WHERE = r"(?:(?:in|to) the (?:place|spot|position) )?where"
-_IS_NOW = r"(?:(?:now|currently) )?(?:is|was|stands|lies|sits|stood|lay|sat)(?: now| before)?"
+_IS_NOW = r"(?:(?:now|currently) )?(?:is|was|stands|lies|sits)(?: now)?"
 _ALL_ELSE_THERE = (
     r"(?:the rest(?: of it)?|everything else(?: (?:in|on) it)?|all else|the others"
     r"|(?:whatever|what) else (?:is|there is|was) (?:there|in it|on it|in there|on there))"
@@ -300,12 +299,11 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"{_ALL_ELSE_THERE} (?=(?:goes|go|belongs|should|must|has to|needs to|in|into|on|onto)\b)",
         r"\1\2\4everything else from \3 ",
     ),
-    # Each of two things where the other one is
+    # Each of two things where the other one is: the second by then was there
     (
-        rf"\b(?:put|place|move|set) ({NAMED} (?:\w+ )??\w+) (?:to )?{_WHERE} ({NAMED} (?:\w+ )??\w+) "
-        rf"{_IS_NOW},? and (?:(?:then )?(?:put|place|move|set) )?\2 (?:to )?{_WHERE} \1 {_IS_NOW}"
-        rf"{_END}",
-        r"swap \1 and \2",
+        rf"\b((?:put|place|move|set) ({NAMED} (?:\w+ )??\w+) where ({NAMED} (?:\w+ )??\w+) "
+        rf"{_IS_NOW},? and (?:(?:then )?(?:put|place|move|set) )?\3 where \2) {_IS_NOW}{_END}",
+        r"\1 was",
     ),
     # What was opened is closed
     (
