@@ -25,25 +25,11 @@ _AFTERWARDS = (
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
-_STACK = r"(?:pile|stack|tower)"
-_IS_NOW = r"(?:(?:now|currently) )?(?:is|was|stands|lies|sits)(?: now)?"
-_ALL_ELSE_THERE = (
-    r"(?:the rest(?: of it)?|everything else(?: (?:in|on) it)?|all else|the others"
-    r"|(?:whatever|what) else (?:is|there is|was) (?:there|in it|on it|in there|on there))"
-)
 _TO_GO = (
     rf"{NAMED} (?:\w+ ){{1,3}}?"
     r"(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
 )
 _STAYS = {"it": "it stays", "them": "they stay"}
-
-
-def _not_unstacked(said: re.Match[str]) -> str:
-    """A stack, rather than "it" or "them", unless another one was spoken of before."""
-    if re.search(rf"\b{_STACK}s?\b", said.string[: said.start()]):
-        return said[0]
-    return f"{said[1]}{said[3]} {said[2]}" if said[3] else f"{said[1]}{said[4]} {said[2]} apart"
-
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # Who finds it fine if it stays open need not have it so
@@ -285,26 +271,6 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
             f"{'are' if said[2].endswith('s') and not said[2].endswith('ss') else 'is'} "
         ),
     ),
-    # "It" is the stack that something goes onto; one that goes somewhere itself is moved
-    (
-        rf"\b((?:on|onto|on top of|atop) ((?:the|that|this|my) {_STACK}(?: of \w+)?)"
-        r",? (?:but |and )?(?:do not|without|never|not) )"
-        rf"(?:(unstack(?:ing)?) (?:it|them)|(tak(?:e|ing)) (?:it|them) apart){_END}",
-        _not_unstacked,
-    ),
-    # What is on what is emptied goes to several places
-    (
-        rf"(^|[.;!] )((?:please |now |then |just )*)(?:clear|empty) ({NAMED} (?:\w+ )??\w+?)"
-        rf"(?: off| out| completely| entirely)*[:;,.] ({NAMED} [^.;:!?,]*?,? and )"
-        rf"{_ALL_ELSE_THERE} (?=(?:goes|go|belongs|should|must|has to|needs to|in|into|on|onto)\b)",
-        r"\1\2\4everything else from \3 ",
-    ),
-    # Each of two things where the other one is: the second by then was there
-    (
-        rf"\b((?:put|place|move|set) ({NAMED} (?:\w+ )??\w+) where ({NAMED} (?:\w+ )??\w+) "
-        rf"{_IS_NOW},? and (?:(?:then )?(?:put|place|move|set) )?\3 where \2) {_IS_NOW}{_END}",
-        r"\1 was",
-    ),
     # What was opened is closed
     (
         r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)(?:close|shut) up "
@@ -314,12 +280,6 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     (
         r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)close up" + _END,
         r"\1\2close it",
-    ),
-    # Somewhere "there", told next
-    (
-        r"(?<=\w) (?:up|down|over) there (?=(?:beside|next to|near|between|behind|in front of"
-        rf"|(?:to )?the (?:left|right) of|on|in) (?:{NAMED}|it\b|them\b))",
-        " ",
     ),
 )
 """In order."""
