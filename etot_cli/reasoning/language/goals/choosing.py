@@ -158,8 +158,11 @@ def check_describes(
                     for item in context.discourse.things(*places_of)
                     if inside and can_be(item, Role.CONTAINER, context.scene)
                 ]
-                own = owner_of(context.scene.states[thing.name].inside or "")
-                if own in {item.name for item in vessels}:
+                around = {
+                    owner_of(context.scene.states[item.name].inside or "")
+                    for item in context.discourse.things(index)
+                }
+                if around & {item.name for item in vessels}:
                     continue  # it comes along
                 if vessels:
                     named = [item.name for item in vessels]

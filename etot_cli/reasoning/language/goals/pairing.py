@@ -238,6 +238,14 @@ def _beside_each(context: Context, group: PutGroup) -> None:
         add_put(context, (theme,), (Place(Relation.ON, None, (near,)),), Grouping.ANY)
 
 
+def _parts_of_a_unit(context: Context, units: list[Thing]) -> list[Thing]:
+    """The drawers of what is one piece of furniture, be it called so ("the drawers")."""
+    if len(units) != 1 or units[0].part is not None or units[0].name not in context.scene.infos:
+        return units
+    info = context.scene.infos[units[0].name]
+    return [Thing(info.name, part.name) for part in container_parts(info)] or units
+
+
 def check_enough(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
     """Whether there are as many places as things that are each to have one of their own.
 
@@ -247,10 +255,7 @@ def check_enough(context: Context, themes: Sequence[int], places: Sequence[Place
     referents = context.discourse.referents
     count = sum(len(referents[index].options[0]) for index in themes)
     where = [place.where for place in places if place.where is not None]
-    units = list(context.discourse.things(*where))
-    if len(units) == 1 and units[0].part is None and units[0].name in context.scene.infos:
-        info = context.scene.infos[units[0].name]
-        units = [Thing(info.name, part.name) for part in container_parts(info)] or units
+    units = _parts_of_a_unit(context, list(context.discourse.things(*where)))
     if not where and len(places) < count:
         text = referents[themes[0]].text
         raise ReferenceProblem(text, f"there are {count} for {len(places)} places", 3)
@@ -326,6 +331,8 @@ def _one_each(context: Context, group: PutGroup, *, in_the_end: bool) -> None:
     """Adds a step in which every place gets exactly one of the things."""
     text = group.destinations[0].targets[0].text if group.destinations[0].targets else ""
     toward, targets = _places(context, group, text)
+    if toward is Toward.INSIDE:
+        targets = _parts_of_a_unit(context, list(targets))
     count = len(targets)
     (phrase,) = group.things.phrases if len(group.things.phrases) == 1 else (None,)
     if phrase is not None and _is_one(phrase):

@@ -5,7 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from etot_cli.reasoning.language.grammar.common import (
+    COLON,
     OPTIONAL_COMMA,
+    not_ahead,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
@@ -244,7 +246,13 @@ def _replaced(old: NounPhrase, new: NounPhrase) -> PutClause:
 
 
 SWAP = either(
-    sequence(verbs.SWAP, THINGS, optional("around, round, over"), build=SwapClause),
+    sequence(
+        verbs.SWAP,
+        THINGS,
+        optional("around, round, over"),
+        not_ahead(COLON),  # what it explains would be done beside it
+        build=SwapClause,
+    ),
     sequence(
         verbs.WANTED,
         "the (positions|places) of",

@@ -48,7 +48,9 @@ def not_after(*said: str) -> Parser:
 
 
 THEN = either(
-    small_words.THEN_JOINTS, sequence(after("first", "firstly"), small_words.COUNTED_JOINTS)
+    small_words.THEN_JOINTS,
+    sequence(after("first", "firstly"), small_words.COUNTED_JOINTS),
+    sequence(after("then", "next"), "last"),
 )
 """Before what comes next."""
 LIST = either(small_words.AND, sequence(LIST_COMMA, optional(small_words.AND)))

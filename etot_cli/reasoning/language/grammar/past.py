@@ -126,7 +126,7 @@ _HAVING_DONE = either(
     sequence(verbs.PICKED_UP, THINGS, build=PickClause),
     HAVING_TURNED,
     sequence(
-        "(taken|took|lifted|pulled|got) (out|off|away),removed, extracted, withdrawn, cleared away",
+        f"{verbs.TAKEN_AWAY}, took (out|off|away), cleared away",
         ALL_THINGS,
         optional(SOURCE, None),
         build=RemoveClause,
@@ -173,6 +173,14 @@ LATER = sequence(small_words.BEFORE, either(LED_CLAUSE, plain(_SO_BY_THEN)))
 EARLIER = valued(
     either(
         sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
+        sequence(
+            # "… have taken the pen off it and stood it in the cup"
+            small_words.AFTER,
+            plain(_HAVING_DONE),
+            "and [then]",
+            plain(_HAVING_DONE),
+            build=lambda first, next_: first + then_done(next_),
+        ),
         sequence("having [first|already|just|previously|beforehand]", plain(_HAVING_DONE)),
         sequence(
             small_words.BY_THEN,

@@ -68,6 +68,12 @@ def _undisturbed(things: Things) -> AvoidClause | None:
     return None if off else _avoid(Avoid.MOVE, things)
 
 
+def _left_stacked(things: Things) -> AvoidClause | None:
+    """What lies upon each other is left so by who moves none of it; "it" may be one of these."""
+    pronouns = any(np.pronoun for np in things.phrases)
+    return None if pronouns else _avoid(Avoid.MOVE, things)
+
+
 def _not_wanted(things: Things) -> AvoidClause | None:
     """What is to be left alone; "any cups on the tray" are not to be there."""
     places = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
@@ -161,6 +167,8 @@ _FORBIDDEN = either(
         build=lambda things, where: AvoidClause(Avoid.PUT, things, where, not_left=True),
     ),
     sequence(phrase(verbs.SHIFT, Avoid.PUT), THINGS, DIRECTED, build=_avoid),
+    sequence(f"{verbs.UNSTACK}, {verbs.DISMANTLE}", THINGS, build=_left_stacked),
+    sequence("tak(e|ing), pull[ing]", THINGS, "apart", build=_left_stacked),
     sequence(verbs.USE, NP_LIST, optional(sequence("for", THINGS), None), build=_unused),
     sequence(
         one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.MOVE: verbs.DISTURB, Avoid.HIT: verbs.HIT}),
@@ -255,7 +263,14 @@ AVOID = either(
     sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
     sequence(
         # "Move neither the cup nor the can", "touch neither cup"
-        one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.MOVE: verbs.SHIFT}),
+        one_of(
+            {
+                Avoid.TOUCH: verbs.TOUCH,
+                Avoid.MOVE: verbs.SHIFT,
+                Avoid.OPEN: verbs.OPEN,
+                Avoid.CLOSE: verbs.CLOSE,
+            }
+        ),
         either(
             sequence("neither", separated(noun_phrase, "nor"), build=_neither),
             sequence("neither [of the]", WORDS, build=neither_of),
@@ -380,9 +395,9 @@ KEEP_OUT = sequence(
 _EVERYTHING_ELSE = "everything else, all else, the rest [of it|of them]"
 _OTHERS = "the others [of them]"
 _THERE = "[up|down|over] (there|here)"
-_STAYS = sequence(
-    verbs.LEFT_THERE,
-    optional(f"{manner.AS_IT_IS}, put, {_THERE}, out"),
+_STAYS = either(
+    sequence(verbs.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
+    phrase(verbs.KEEP_ITS_PLACE),
 )
 _THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
 _THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))

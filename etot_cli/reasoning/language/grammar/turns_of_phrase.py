@@ -322,5 +322,15 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
             f"{'are' if said[2].endswith('s') and not said[2].endswith('ss') else 'is'} "
         ),
     ),
+    # What was opened is closed
+    (
+        r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)(?:close|shut) up "
+        rf"(?=(?:again|after|afterwards|when|once|in the end)\b|{_END})",
+        r"\1\2close it ",
+    ),
+    (
+        r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)close up" + _END,
+        r"\1\2close it",
+    ),
 )
 """In order."""

@@ -12,6 +12,22 @@ _ROOM = r"there is (?:still |enough |some |plenty of )?(?:room|space)"
 _AT = rf"(?:on|in|next to|beside|behind|in front of|to the (?:left|right) of) {NAMED}"
 _SO_PUT_IT = r"so (?:please )?(put|place|set|lay|stand) (?:it|them) (?:in )?there\b"
 
+_END = r"(?=[.,;!?]|$)"
+_STACK = r"(?:pile|stack|tower)"
+_IS_NOW = r"(?:(?:now|currently) )?(?:is|was|stands|lies|sits)(?: now)?"
+_ALL_ELSE_THERE = (
+    r"(?:the rest(?: of it)?|everything else(?: (?:in|on) it)?|all else|the others"
+    r"|(?:whatever|what) else (?:is|there is|was) (?:there|in it|on it|in there|on there))"
+)
+
+
+def _not_unstacked(said: re.Match[str]) -> str:
+    """A stack, rather than "it" or "them", unless another one was spoken of before."""
+    if re.search(rf"\b{_STACK}s?\b", said.string[: said.start()]):
+        return said[0]
+    return f"{said[1]}{said[3]} {said[2]}" if said[3] else f"{said[1]}{said[4]} {said[2]} apart"
+
+
 WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         r"\byou (?:will|can|should) find (it|(?:the|my) \w+(?: \w+)?) "
@@ -78,5 +94,31 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\bfrom one (\w+) (?:in)?to the other(?=[.,;!?]|$| and\b)", r"to the other \1"),
     (r"\b(what is (?:in|on) [^.,;]*?) now (?=(?:should|goes|must|is to)\b)", r"\1 "),
     (r"\b(?:to )?somewhere (?=(?:behind|next to|beside|near|in front of|between)\b)", ""),
+    # "It" is the stack that something goes onto; one that goes somewhere itself is moved
+    (
+        rf"\b((?:on|onto|on top of|atop) ((?:the|that|this|my) {_STACK}(?: of \w+)?)"
+        r",? (?:but |and )?(?:do not|without|never|not) )"
+        rf"(?:(unstack(?:ing)?) (?:it|them)|(tak(?:e|ing)) (?:it|them) apart){_END}",
+        _not_unstacked,
+    ),
+    # What is on what is emptied goes to several places
+    (
+        rf"(^|[.;!] )((?:please |now |then |just )*)(?:clear|empty) ({NAMED} (?:\w+ )??\w+?)"
+        rf"(?: off| out| completely| entirely)*[:;,.] ({NAMED} [^.;:!?,]*?,? and )"
+        rf"{_ALL_ELSE_THERE} (?=(?:goes|go|belongs|should|must|has to|needs to|in|into|on|onto)\b)",
+        r"\1\2\4everything else from \3 ",
+    ),
+    # Each of two things where the other one is: the second by then was there
+    (
+        rf"\b((?:put|place|move|set) ({NAMED} (?:\w+ )??\w+) where ({NAMED} (?:\w+ )??\w+) "
+        rf"{_IS_NOW},? and (?:(?:then )?(?:put|place|move|set) )?\3 where \2) {_IS_NOW}{_END}",
+        r"\1 was",
+    ),
+    # Somewhere "there", told next
+    (
+        r"(?<=\w) (?:up|down|over) there (?=(?:beside|next to|near|between|behind|in front of"
+        rf"|(?:to )?the (?:left|right) of|on|in) (?:{NAMED}|it\b|them\b))",
+        " ",
+    ),
 )
 """What they are put into, in order (see :mod:`etot_cli.reasoning.language.grammar.paraphrases`)."""

@@ -70,6 +70,7 @@ _MOVED = one_of(
         False: "closed [up], shut, (pushed|slid|swung) (shut|closed), pushed (in|to)",
     }
 )
+_TO_BE_MOVED = one_of({True: "opening [up]", False: "closing, shutting"})
 _AGAIN = optional("again, back up")
 
 
@@ -109,6 +110,15 @@ _OPENED_OR_CLOSED = either(
             ),
         ),
         _MOVED,
+        _AGAIN,
+        _ANY_TIME,
+        build=_moved,
+    ),
+    sequence(
+        # "which needs opening first"
+        _THAT,
+        either("needs, requires, wants", sequence("will, would", "need, require")),
+        _TO_BE_MOVED,
         _AGAIN,
         _ANY_TIME,
         build=_moved,

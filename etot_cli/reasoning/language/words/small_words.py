@@ -95,9 +95,12 @@ WITHOUT_MEANING = f"""
     (dear|friend|love|darling|honey|sweetie|sweetheart|dearest|treasure|fellow|chap|man),
     ~comma (dude|bro|sis|ma am|miss|mister|[good|dear|kind] (sir|madam)|folks|[you] guys|son|boss),
     ~comma [my] (young|good|old|dear|clever) (man|lady|friend|fellow|boy|girl|chap),
+    ~comma [my] [little|good|dear|clever] (helper|robot),
     by (then|tonight|tomorrow [(morning|noon|evening|night)]|noon|midnight|
     lunchtime|bedtime|(this|the) (afternoon|evening)),
-    (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here]
+    (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here],
+    (by the time|before) (i|we|they|he|she|(the|our|my) (guests|kids|children))
+    (sit down|sits down|leave|leaves|arrive|arrives)
 """
 """Words that a request may contain without asking for anything more. What "gently" and "safely" ask
 for, every plan does: things are set down, and no plan may harm anything."""
@@ -141,6 +144,7 @@ GREETINGS = f"""
     grandad|nan|nana|auntie|uncle|darling|love|honey|sweetheart|sweetie|boss|mate|buddy|pal|sir|
     madam) ~comma, (quick|hurry [up]) ~comma,
     [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
+    [hey|hello|hi|dear|yo] [my] [little|good|dear|clever] helper ~comma,
     hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),
     sorry to (bother|trouble|disturb|interrupt) you [again],
@@ -341,17 +345,17 @@ INSTEAD = """
 AND = "and [also|likewise], as well as, along with, together with, plus, +"
 OR = "or [else]"
 EITHER = "either, one of, any of"
-JOINTS = "but, ~comma and, ~comma but, by, ~comma so"
+JOINTS = "but, ~comma and, ~comma but, by, ~comma so, [~comma] whereas, ~comma (while|whilst)"
 PURPOSE = "to, in order to, so as to"
 THEN_JOINTS = f"""
     [and] when you have done, [and] [~comma] ({_THAT_DONE}),
     [and] [~comma] (once|when|after) (it is|they are) (in|on) (it|them|there) [~comma] [you can],
     [and|but] [only] then, [and] after [all [of]] (that|this),
     [and] afterwards, [and] next, [and] (finally|lastly),
-    and last [of all], after which,
+    [and] after (them|these|those), and last [of all], after which,
     and later
 """
-COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly)"
+COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly), last"
 """Before what comes next, where something was said to come first."""
 COUNTED = "second, third, fourth, next, then, afterwards, last"
 """Behind what comes next there."""

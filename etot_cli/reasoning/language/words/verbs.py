@@ -219,7 +219,7 @@ WERE_DONE = "is, are, was, were, (could|would|can|should) be"
 TO_BE_DONE_BY_YOU = f"to, you ({_MUST}), (i|we) (want|need|would like) you to"
 """Behind what the robot is to do something with, before what that is."""
 TAKEN_AWAY = """
-    removed, extracted, withdrawn,
+    removed, extracted, withdrawn, rescued, salvaged, unpacked, (fished|dug) out,
     (taken|lifted|pulled|moved|cleared|got|gotten|brought) (out|away),
     (taken|lifted|got|gotten|brought) (off|down)
 """
@@ -310,6 +310,10 @@ STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put|lying|standing|sit
 STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
 """Before what something is never to be in or on."""
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
+KEEP_ITS_PLACE = f"""
+    [{_MUST}|can|may] {_SIMPLY} (keep|keeps|retain|retains)
+    (its|their) [current|present|old] (place|places|position|positions|spot|spots)
+"""
 FALL = "(fall|roll|slip|slide|tumble|drop) [down]"
 NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"
 """Before where something is to stay."""
@@ -320,10 +324,10 @@ DONE_WITH_IT = BROUGHT.replace(",", "|").strip()
 """The same in one group."""
 DONE = f"[to be] ({_BROUGHT}|{_BEING})"
 """What is wanted of a thing that is to go somewhere."""
-TO_BE_THERE = f"to (be|end up|go|stand|sit|lie|stay|remain), {DONE}"
+TO_BE_THERE = f"to (be [found]|end up|go|stand|sit|lie|stay|remain), {DONE}"
 PICKED_UP = "picked up, grabbed, lifted [up], fetched, took"
 WERE = f"""
-    (is|are|was|were|[could|would] be) [{_BROUGHT}|{_BEING}|to be],
+    (is|are|was|were|[could|would] be) [{_BROUGHT}|{_BEING}|found|to be],
     [could|would] (go|stand|sit|lie), (ended|finished|wound|could (end|finish|wind)) up,
     went, stood, lay, sat
 """
