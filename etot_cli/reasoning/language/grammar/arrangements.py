@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.language.grammar.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.coordination import of_each
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -29,6 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
 _stood_up = partial(ReorientClause, stance=Nearby.UPRIGHT)
@@ -243,20 +246,36 @@ def _replaced(old: NounPhrase, new: NounPhrase) -> PutClause:
     return put_to(Things((new,)), (Destination(Toward.STEAD, (old,), "replace"),))
 
 
+def _swapped(things: Things) -> SwapClause | None:
+    """Things that swap places; "the blocks in the red bowl and the blue bowl" are those in both
+    bowls, and "the contents of" something are never swapped with a thing.
+    """
+    first, *more = things.phrases
+    held = first.head == "contents"
+    if not more or things.either or (singular(first.head) == first.head and not held):
+        return SwapClause(things)
+    if any(np.head == first.head for np in more):
+        return SwapClause(things)
+    each = of_each(things.phrases)
+    if each is None:
+        return None if held else SwapClause(things)
+    return SwapClause(replace(things, phrases=each))
+
+
 SWAP = either(
-    sequence(verbs.SWAP, THINGS, optional("around, round, over"), build=SwapClause),
+    sequence(verbs.SWAP, THINGS, optional("around, round, over"), build=_swapped),
     sequence(
         verbs.WANTED,
         "the (positions|places) of",
         THINGS,
         "[to be] (exchanged|swapped|switched)",
-        build=SwapClause,
+        build=_swapped,
     ),
     sequence(
         optional(f"have, let, make, can, could, may, {verbs.WANT}"),
         THINGS,
         verbs.CHANGE_PLACES,
-        build=SwapClause,
+        build=_swapped,
     ),
     sequence(
         noun_phrase,

@@ -16,7 +16,7 @@ from etot_cli.reasoning.language.grammar.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.comparing import COMPARED, WHICHEVER_IS, the_more
-from etot_cli.reasoning.language.grammar.coordination import coordinated, told_together
+from etot_cli.reasoning.language.grammar.coordination import coordinated, of_each, told_together
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.naming import DESCRIPTIVE, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -74,6 +74,8 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
     if renamed or (apposed and not joined):
         return None
     found = coordinated(first, tuple(np for _, np in more))
+    if found and found[1:] and first.head == "contents" and first.modifiers:
+        found = of_each((first, *(np for _, np in more))) or found
     return None if found is None else told_together(found)
 
 
