@@ -9,6 +9,7 @@ from typing import Any
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.common import COMMA, NOUN_WORD
 from etot_cli.reasoning.language.grammar.coordination import all_of
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import (
     PLAIN_MODIFIER,
     quality_alone,
@@ -28,6 +29,7 @@ from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.states import SO, state_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
     Modifier,
     NounPhrase,
     State,
@@ -54,6 +56,13 @@ def _still_so(nps: tuple[NounPhrase, ...], still: bool, predicate: Any) -> State
     return replace(state, kept=True) if state and still and state.destinations else state
 
 
+def _still_there(
+    nps: tuple[NounPhrase, ...], still: bool, where: tuple[Destination, ...]
+) -> State:
+    """Where things are to be that are there by now."""
+    return State(nps, where, kept=still)
+
+
 CONDITION = sequence(
     "with",
     NP_LIST,
@@ -62,6 +71,13 @@ CONDITION = sequence(
     SO,
     build=_still_so,
 )
+_STILL_SO = sequence(
+    NP_LIST,
+    phrase("still [standing|lying|sitting|resting]", True),
+    DESTINATIONS,
+    build=_still_there,
+)
+"""The same without a word before it ("…, the pen still inside it")."""
 _CONDITIONS = sequence(
     "with",
     PUT_GROUPS,
@@ -129,7 +145,7 @@ _EXTRA = sequence(
     ),
     build=lambda *found: found[0] if found else (),
 )
-EXTRA = either(sequence(COMMA, _EXTRA), sequence(_EXTRA, build=_unless_told_by))
+EXTRA = either(sequence(COMMA, either(_EXTRA, _STILL_SO)), sequence(_EXTRA, build=_unless_told_by))
 EXTRAS = some(EXTRA, most=3)
 
 
