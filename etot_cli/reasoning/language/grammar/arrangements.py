@@ -133,6 +133,12 @@ def _kept_upright(things: Things) -> ReorientClause:
     return ReorientClause(things, Nearby.UPRIGHT, meanwhile=again)
 
 
+def _staying_so(things: Things, stance: Nearby) -> ReorientClause:
+    """What stays as it stands or lies."""
+    upright = stance is Nearby.UPRIGHT
+    return _kept_upright(things) if upright else ReorientClause(things, stance)
+
+
 def _held_upright(things: Things) -> ReorientClause | None:
     """What "hold it upright" says of what is put somewhere; else it is to be in the hand."""
     again = all(np.pronoun for np in things.phrases)
@@ -201,8 +207,17 @@ REORIENT = either(
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.STAY}"),
-            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}, {verbs.STAY}"),
+            sequence(ALL_THINGS, verbs.STAY),
+            sequence(verbs.ENSURE, ALL_THINGS, verbs.STAY),
+        ),
+        either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
+        silent(optional(manner.ON_THE_WAY)),
+        build=_staying_so,
+    ),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}"),
             sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to (be|stand), {verbs.DONE}"))),
         ),
         either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),

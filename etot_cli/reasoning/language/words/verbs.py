@@ -187,7 +187,8 @@ MODAL = f"""
     (go|come|move|return) [back]|
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
-    (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
+    (can|could|may|might|will) {_SIMPLY}
+    (go [back]|end up|be ({_BROUGHT})|be left [{_BEING}]),
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
