@@ -7,14 +7,14 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.grammar.common import COMMA, NOUN_WORD
+from etot_cli.reasoning.language.grammar.common import COMMA, NOUN_WORD, noun_phrase
 from etot_cli.reasoning.language.grammar.coordination import all_of
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import (
     PLAIN_MODIFIER,
     quality_alone,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, with_all
 from etot_cli.reasoning.language.grammar.parsing import (
     at_end,
     either,
@@ -56,9 +56,7 @@ def _still_so(nps: tuple[NounPhrase, ...], still: bool, predicate: Any) -> State
     return replace(state, kept=True) if state and still and state.destinations else state
 
 
-def _still_there(
-    nps: tuple[NounPhrase, ...], still: bool, where: tuple[Destination, ...]
-) -> State:
+def _still_there(nps: tuple[NounPhrase, ...], still: bool, where: tuple[Destination, ...]) -> State:
     """Where things are to be that are there by now."""
     return State(nps, where, kept=still)
 
@@ -108,6 +106,7 @@ _EXTRA = sequence(
         manner.FITTING,
         sequence(optional("but"), either(GROUPING, TURN)),
         BY_COLOR,
+        sequence("including, even", noun_phrase, build=lambda np: ("including", np)),
         phrase(manner.ONE_EACH, ("each", ())),
         sequence(
             "one",
@@ -167,6 +166,12 @@ def put_of(
     conditions += tuple(
         state for name, states in said if name in ("with", _RATHER) for state in states
     )
+    for one in (np for name, np in said if name == "including"):
+        every = [np for group in groups for np in group.things.phrases]
+        all_told = with_all(every[0], one) if len(every) == 1 else None
+        if all_told is None:
+            return None
+        groups = (replace(groups[0], things=replace(groups[0].things, phrases=all_told)),)
     turns = turns_of(said)
     named = {item[0] for item in said}
     if each := next((words for name, words in said if name == "apart" and words), ()):
