@@ -21,8 +21,8 @@ LIMIT_S = 60.0
 PLANS = {
     "cupboard": ["[PICK UP, vase]", "[PUT ON, *]", "[OPEN, cupboard]"],
     "drawer_to_cabinet": [
-        "[OPEN, chest]", "[PICK UP, tin]", "[PUT ON, *]", "[CLOSE, chest]",
-        "[OPEN, locker]", "[PICK UP, tin] (horizontal)", "[PUT INTO, locker]", "[CLOSE, locker]",
+        "[OPEN, locker]", "[OPEN, chest]", "[PICK UP, tin] (horizontal)", "[PUT INTO, locker]",
+        "[CLOSE, chest]", "[CLOSE, locker]",
     ],
     "drawer_to_rack": [
         "[OPEN, chest]", "[PICK UP, tin]", "[PUT ON, *]", "[PICK UP, tin] (horizontal)",

@@ -70,9 +70,9 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         return overlooked[0]
     if not guilty and fastened and len(everybody) > 1 and helps(everybody):
         guilty = _least(everybody, helps)
-    if tally.obstructed and (missed := _missed(belief, request, tally)) is not None:
-        return missed
     if guilty:
+        if tally.obstructed and (missed := _missed(belief, request, tally)) is not None:
+            return missed
         return failed(
             CauseKind.NO_ROOM,
             [*guilty, name],

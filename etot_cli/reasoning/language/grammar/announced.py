@@ -88,8 +88,9 @@ def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
     rest = _rest_of(topic, rest)
     named = _named_in(rest)
-    if named is None:
-        return None
+    swept = any(np.text.endswith(" else") for said in rest for np in _named_in((said,)) or ())
+    if named is None or swept:
+        return None  # "everything else" would be more than these
     topics = topic[0].clause.things.phrases if isinstance(topic[0].clause, ReorientClause) else ()
     bare = [not np.determiner and all(map(is_descriptive, np.words or (".",))) for np in named]
     of_them = any(

@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.where_needed import done_where_needed
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import word_set
-from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.patterns import Begun
 from etot_cli.reasoning.language.words.small_words import (
     ANNOUNCED,
     ANY_ONE,
@@ -54,12 +54,21 @@ _AHEAD = Expression(
 
 
 @cache
-def says_nothing() -> frozenset[str]:
-    """Sentences and clauses that ask for nothing; there are hundreds."""
-    return frozenset(
-        said.removeprefix(f"{COMMA} ").replace(f" {COMMA}", ",")
-        for said in spellings(f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}")
-    )
+def _nothing_said() -> Begun:
+    """What asks for nothing; its spellings are too many to be written out."""
+    return Begun.of({True: f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}"})
+
+
+def says_nothing(said: str) -> bool:
+    """Whether a sentence or clause asks for nothing."""
+    words = said.replace(",", f" {COMMA}").split()
+    for row in (words, [COMMA, *words]):
+        at: Begun | None = _nothing_said()
+        for word in row:
+            at = at and at.following.get(word)
+        if words and at and at.values:
+            return True
+    return False
 
 
 _BEFORE = {
@@ -106,7 +115,7 @@ class Clause:
     @property
     def is_polite(self) -> bool:
         """Whether there is nothing to be told in it."""
-        return self.kind == "polite" or f"{self.joint} {self.said}".strip() in says_nothing()
+        return self.kind == "polite" or says_nothing(f"{self.joint} {self.said}".strip())
 
 
 def clauses_of(sentence: str) -> list[Clause]:

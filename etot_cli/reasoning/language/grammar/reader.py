@@ -119,7 +119,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
     sentences: list[Sentence] = []
     corrections: dict[Correction, None] = {}
     for part in parts:
-        if len(parts) > 1 and part in says_nothing():
+        if len(parts) > 1 and says_nothing(part):
             continue
         before = ". ".join(parts[: len(sentences)])
         words: list[str] = []
