@@ -46,6 +46,7 @@ def _named_in(rest: Reading) -> list[NounPhrase] | None:
 
 
 _ALL_ELSE = frozenset({"everything else", "all else", "anything else", "the rest", "all the rest"})
+_REST_OF_THEM = "all other"
 
 
 def _rest_of(topic: Reading, rest: Reading) -> Reading:
@@ -62,7 +63,7 @@ def _rest_of(topic: Reading, rest: Reading) -> Reading:
     def limited(np: NounPhrase) -> NounPhrase:
         if np.text not in _ALL_ELSE or np.modifiers:
             return np
-        return replace(whole, determiner="all other", text=np.text)
+        return replace(whole, determiner=_REST_OF_THEM, text=np.text)
 
     def told(said: Spoken) -> Spoken:
         match said.clause:
@@ -88,7 +89,8 @@ def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
     rest = _rest_of(topic, rest)
     named = _named_in(rest)
-    swept = any(np.text.endswith(" else") for said in rest for np in _named_in((said,)) or ())
+    everything = [np for said in rest for np in _named_in((said,)) or () if np.text in _ALL_ELSE]
+    swept = any(np.determiner != _REST_OF_THEM and " else" in np.text for np in everything)
     if named is None or swept:
         return None  # "everything else" would be more than these
     topics = topic[0].clause.things.phrases if isinstance(topic[0].clause, ReorientClause) else ()

@@ -261,20 +261,14 @@ def _replaced(old: NounPhrase, new: NounPhrase) -> PutClause:
     return put_to(Things((new,)), (Destination(Toward.STEAD, (old,), "replace"),))
 
 
-def _swapped(things: Things) -> SwapClause | None:
+def _swapped(things: Things) -> SwapClause:
     """Things that swap places; "the blocks in the red bowl and the blue bowl" are those in both
-    bowls, and "the contents of" something are never swapped with a thing.
+    bowls.
     """
     first, *more = things.phrases
-    held = first.head == "contents"
-    if not more or things.either or (singular(first.head) == first.head and not held):
-        return SwapClause(things)
-    if any(np.head == first.head for np in more):
-        return SwapClause(things)
-    each = of_each(things.phrases)
-    if each is None:
-        return None if held else SwapClause(things)
-    return SwapClause(replace(things, phrases=each))
+    several = singular(first.head) != first.head and all(np.head != first.head for np in more)
+    each = of_each(things.phrases) if more and several and not things.either else None
+    return SwapClause(things if each is None else replace(things, phrases=each))
 
 
 SWAP = either(
