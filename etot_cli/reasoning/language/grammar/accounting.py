@@ -112,6 +112,7 @@ _FIXED = """
     (nearly|almost) (closed|shut), no matter from,
     not (possible|feasible|doable), (does|do|will) not work,
     the right (home|place|spot) (for|of),
+    (standing|upright) [~comma] (and not|not) lying [down|flat],
     (is|are) only [slightly|partly|partially|half|halfway|barely|a (bit|little|crack)]
 """
 """Phrases in which such words say something else, or nothing of their own."""

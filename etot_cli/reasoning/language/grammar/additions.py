@@ -101,7 +101,10 @@ _EXTRA = sequence(
     either(
         CONDITION,
         _CONDITIONS,
-        phrase(manner.STANDING, ("stance", Nearby.UPRIGHT)),
+        sequence(
+            phrase(manner.STANDING, ("stance", Nearby.UPRIGHT)),
+            silent(optional(manner.NOT_LYING)),
+        ),
         phrase(manner.LYING, ("stance", Nearby.LYING)),
         manner.FITTING,
         sequence(optional("but"), either(GROUPING, TURN)),

@@ -96,6 +96,18 @@ def _goes_along(said: re.Match[str]) -> str:
 
 
 ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "You will have to turn it for that": of what goes somewhere, as "it has to be turned" is
+    (
+        r"(^|[.;!] )(?:for (?:that|this),? )?you (?:will )?(?:probably )?(?:have|need) to "
+        r"(?:turn|rotate|reorient) it(?: for (?:that|this)| first)*"
+        r"(?=[.;!]|$)",
+        r"\1it needs to be turned first",
+    ),
+    (
+        r"\b(it (?:has|needs) to be (?:turned|rotated|reoriented))"
+        r" for (?:that|this)(?=[.;!]|$)",
+        r"\1 first",
+    ),
     (_WISH, _stays),
     (_FROM, _counted_from),
     # Whichever is at hand

@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.grammar.common import (
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.emptying import EMPTY, IS_EMPTY, NOTHING_THERE
 from etot_cli.reasoning.language.grammar.ensuring import ENSURE
+from etot_cli.reasoning.language.grammar.falling import UNHARMED
 from etot_cli.reasoning.language.grammar.headlines import (
     HEADLINE,
     PLACED,
@@ -51,6 +52,7 @@ from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
+    one_of,
     optional,
     phrase,
     sequence,
@@ -61,6 +63,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.past import EARLIER, LATER, SO, then_done
 from etot_cli.reasoning.language.grammar.predicates import BOTH_ARE
 from etot_cli.reasoning.language.grammar.prohibitions import (
+    AVOID,
     OTHERS_STILL,
     UNTOUCHED,
     WITHOUT,
@@ -71,6 +74,7 @@ from etot_cli.reasoning.language.grammar.reaching import SEPARATING
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.states import STATE, states
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    AvoidClause,
     EnsureClause,
     MoveClause,
     PutClause,
@@ -84,6 +88,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
+    State,
     Things,
     Toward,
 )
@@ -106,6 +111,7 @@ from etot_cli.reasoning.language.grammar.topics import (
 from etot_cli.reasoning.language.grammar.unstacking import UNSTACK
 from etot_cli.reasoning.language.grammar.wishes import TOLD_APART
 from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 
 
 def _started_with(first: NounPhrase, done: Reading) -> Reading | None:
@@ -143,6 +149,32 @@ def _opened_for(seen: Reading, rest: Reading) -> Reading | None:
     first = rest[0].clause
     opens = isinstance(first, MoveClause) and first.opens
     return (*seen, *rest) if opens else None
+
+
+def _of_one_thing(denied: Reading) -> Reading | None:
+    """What is not to be done with one thing while others go somewhere ("do not touch the cup: pen
+    in the box"); of several things it may rather be told where they are.
+    """
+    clause = denied[0].clause
+    nps = clause.things.phrases if isinstance(clause, AvoidClause) and clause.things else ()
+    single = nps and all(np.words and singular(np.head) == np.head for np in nps)
+    known = all(np.determiner in ("the", "") and np.head not in THING_NOUNS for np in nps)
+    return denied if single and known else None
+
+
+def _holding(content: NounPhrase, toward: Toward, rest: Reading) -> Reading | None:
+    """What something is to hold that is told next to be somewhere ("with the pen in it, the mug
+    should stand on the tray"); of what was spoken of before, "it" rather is that.
+    """
+    clause = rest[0].clause
+    if not (isinstance(clause, EnsureClause) and clause.states and clause.states[0].destinations):
+        return None
+    (first, *more) = clause.states[0].subjects
+    known = first.words and first.determiner in ("the", "") and not first.modifiers
+    if more or not known or content.pronoun:
+        return None
+    held = EnsureClause((State((content,), (Destination(toward, (first,)),)),))
+    return (rest[0], Spoken(held, rest[0].position, far_fetched=1), *rest[1:])
 
 
 def _turned_before(said: str, rest: Reading) -> Reading | None:
@@ -204,6 +236,7 @@ WITH_MORE_BEFORE_IT = either(
     sequence(plain(PARTED), COMMA, either(BARE_CHAIN, CHAIN), build=parted),
     sequence(ONE_FOR_EACH, COLON, BARE_CHAIN, build=one_for_each),
     sequence(plain(either(EMPTY, UNSTACK)), COLON, BARE_CHAIN, build=add),
+    sequence(sequence(plain(AVOID), build=_of_one_thing), COLON, BARE_CHAIN, build=add),
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
     sequence(
         noun_phrase,
@@ -309,7 +342,11 @@ WITH_MORE_BEFORE_IT = either(
         # "Make sure that the box holds the pen and that nothing is on the tray"
         verbs.ENSURE,
         _SO_OR_EMPTY,
-        some(joint("and", LIST, optional("that"), _SO_OR_EMPTY), least=1, most=5),
+        some(
+            joint("and", LIST, optional("that"), either(_SO_OR_EMPTY, plain(UNHARMED))),
+            least=1,
+            most=5,
+        ),
         build=_made_so,
     ),
     sequence(
@@ -340,6 +377,19 @@ WITH_MORE_BEFORE_IT = either(
         COMMA,
         valued(CHAIN, then_done),
         build=add,
+    ),
+    sequence(
+        "with",
+        noun_phrase,
+        one_of(
+            {
+                Toward.INSIDE: "[already] (in|inside) it, inside",
+                Toward.ON: "on [top of] it, on top",
+            }
+        ),
+        COMMA,
+        CHAIN,
+        build=_holding,
     ),
     not_so(CHAIN),
     MEANWHILE,

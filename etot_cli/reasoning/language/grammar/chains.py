@@ -116,6 +116,7 @@ _SO = sequence(
     OPEN_OR_CLOSED,
     build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
 )
+ENDING_WITH = "(end|ending|finish|finishing) [up] [~comma] with"
 WITH_MORE_SO = either(
     joint(
         "and",
@@ -123,6 +124,7 @@ WITH_MORE_SO = either(
         "with",
         plain(either(sequence(NP_LIST, SHUT, build=left_so), UNTOUCHED)),
     ),
+    joint("and", LIST, ENDING_WITH, plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so))),
     joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
     joint("and", OPTIONAL_COMMA, plain(MEANWHILE_SO)),
     joint(

@@ -219,7 +219,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (
         rf"^({ASKED}(?:put|store|stow|tidy|clear|pack)(?: away)? "
-        r"(?:(?!in\b|on\b|into\b|onto\b|to\b|next\b)\w+,? )+?(?:away)?),? ?using "
+        r"(?:(?!in\b|on\b|into\b|onto\b|to\b|next\b)\w+,? )*?\w+),? using "
         rf"(?=(?:either )?{_SOME}(?:, {_SOME})*,? or )",
         r"\1 in ",
     ),
@@ -242,6 +242,11 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\b(instead of|rather than) (?:just )?(?:lying|standing|sitting|being)"
         rf"(?: (?:about|around))? (?=(?:in|on) {NAMED})",
         r"\1 ",
+    ),
+    (
+        r"(^|[.;!?] )(?:please,? )?no open (\w{3,}?)s?"
+        r"(?=,? (?:please )?(?:(?:at|in) the end|afterwards|when you are (?:done|finished))\b)",
+        r"\1every \2 should be closed",
     ),
     (_CONTAINER, _with_it_inside),
     (_AT_THE_END, _so_when_done),

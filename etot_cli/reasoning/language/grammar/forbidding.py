@@ -34,6 +34,13 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         "",
     ),
     (r"\byou are not (?:allowed |supposed |permitted |meant )?to (?=\w)", "do not "),
+    # "The cup and the pot on the tray, neither in the other"
+    (
+        r",? (?:and |with )?neither (?:of (?:them|the two) )?(?:one )?"
+        r"(?:stacked |lying |standing )?"
+        r"(on(?: top of)?|in|inside) the other(?: one)?(?=[.,;!?]|$)",
+        r", not one \1 the other",
+    ),
     (_FROM_THERE, r"\1"),
     (rf"\b({_MUST_NOT}) (?:budge|stir|leave (?:{_SPOT})){_ENDS}", "must not be moved"),
     (

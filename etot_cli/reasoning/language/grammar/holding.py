@@ -13,6 +13,7 @@ HOLD = either(
     sequence(
         either(
             sequence(optional(verbs.ENSURE), THE_HAND, verbs.HOLDS_IT),
+            sequence(verbs.LET, THE_HAND, "have, hold, [be|end up] (holding|gripping|grasping)"),
             sequence(verbs.WANTED, THE_HAND, "to (hold|have|be (holding|gripping|grasping))"),
         ),
         THINGS,

@@ -125,6 +125,12 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         rf"(?: (?:two|three))?(?: \w+)? ({WHERE} {_ONE}): ({_ITEM})(?:,| and) ({_ITEM})(?=[.;!]|$)",
         lambda said: f"{said[1]}{_named(said[3])} and {_named(said[4])} {said[2]}",
     ),
+    # "For each of the cup and the pen: in the box or in the bin"
+    (
+        rf"(^|[.;!?] )for (?:(?:each|both|either|all) of ({_ITEM} and {_ITEM})"
+        rf"|({_ONE}(?: and {_ONE})*))[:,] (?=(?:either )?(?:in|into|inside|on|onto) )",
+        lambda said: f"{said[1]}{said[2] or said[3]}: ",
+    ),
     (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
     (
         rf"^({ASKED}(?:sort|arrange|organi[sz]e) (?:the|my) [^.,;:]*?) by (?=\w+ing\b)",

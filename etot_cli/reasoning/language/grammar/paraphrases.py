@@ -432,6 +432,13 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just "),
     (r"(?<!not )\bonly (?=(?:lift|raise|grab|grasp|fetch|get|pick up|hold) )", "just "),
     (r"\bonly (open|close|shut) ([^.,;]*?) (after|once|when)\b", r"\1 \2 only \3"),
+    # What alone is asked for; with how or until when, "only" is said of that.
+    (
+        rf"(^|[.;] )(please )?only (?=(?:open|close|shut) {NAMED}"
+        r"(?: (?!(?:by|with|from|if|when|once|after|before|until|as|while|to|for|half|and|not)\b)"
+        r"\w+){1,4}(?:[.;!]|$))",
+        r"\1\2just ",
+    ),
     (_NOTHING_ELSE, r"\1 \2, and nothing else"),
     (r",\s*(?:please\s*,|right (?=at\b))", ", "),
     (rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1"),

@@ -37,14 +37,20 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.taking import SOURCE
+from etot_cli.reasoning.language.grammar.taking import DESKS, SOURCE
 from etot_cli.reasoning.language.grammar.trees import UNSAID, pronouns
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.patterns import words_of
 
+
+def _lifted_off(verb: str, source: NounPhrase) -> tuple[bool, NounPhrase]:
+    """What is lifted off the desk is picked up, what is taken from elsewhere goes somewhere."""
+    return verb == "lifted" and source.words[-1:] in DESKS, source
+
+
 _TAKEN = either(
     sequence(verbs.TAKEN_AWAY, optional(SOURCE, None), build=lambda source: (False, source)),
-    sequence(verbs.TAKEN_FROM, SOURCE, build=lambda source: (False, source)),
+    sequence(phrase(verbs.TAKEN_FROM), SOURCE, build=_lifted_off),
     sequence(verbs.TAKEN_UP, optional(SOURCE, None), build=lambda source: (True, source)),
     phrase("lifted, grasped, gripped", (True, None)),
 )

@@ -146,6 +146,17 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"\b(so(?: that)?|and) ({_COLOR}) (?=(?:is|goes|ends up) (?:in|on|next|to)\b)",
         r"\1 the \2 one ",
     ),
+    # Either of two
+    (
+        r"\bone (?:(of the (?:two |2 )?)(\w{3,}s)|(\w{3,})) or (?:the )?other(?: one)?"
+        r"(?=[.,;!?]|$| (?:and|then|with|please)\b)",
+        lambda said: f"either {said[1] or ''}{said[2] or said[3]}",
+    ),
+    (
+        r"\bone or (?:the )?other (of the (?:two |2 )?\w{3,}s|\w{3,})"
+        r"(?=[.,;!?]|$| (?:and|then|with|please)\b)",
+        r"either \1",
+    ),
     # Of two things that are named there "one" is either, "the other one" the other.
     (
         rf"\b{_OF_TWO}(?:,| -)? ?\(?({_NOUNS}) or ({_NOUNS})(?:\)|, |(?= (?:should|goes|has)\b))",

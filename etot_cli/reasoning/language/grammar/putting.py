@@ -8,6 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.additions import (
+    CONDITION,
     EXTRA,
     EXTRAS,
     kept_together,
@@ -348,6 +349,18 @@ PUT = either(
         build=lambda np, things: (
             put_to(things, (Destination(Toward.ON, (np,)),)) if np.head in _STACKS else None
         ),
+    ),
+    sequence(
+        # "Make sure that the box is on the tray with the pen in it"
+        either(
+            silent(phrase(verbs.ENSURE)),
+            silent(sequence(verbs.ARRANGE, "things, everything, it", small_words.SO_THAT)),
+        ),
+        ALL_THINGS,
+        f"{verbs.BE}, {verbs.LIES}",
+        DESTINATIONS,
+        CONDITION,
+        build=lambda things, where, so: replace(put_to(things, where), conditions=(so,)),
     ),
     SAID_AHEAD,
     FRONTED,

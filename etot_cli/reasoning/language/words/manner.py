@@ -51,7 +51,8 @@ TURNED_OVER = "[to be] the other way (around|up)"
 NOT_STACKED = """
     [with] none [of them] [stacked|lying|standing] on [top of] (another [one]|each other|
     one another|the other[s]|any other [one]),
-    [but|and] not on [top of] (each other|one another)
+    [but|and] not (on [top of]|in|inside) (each other|one another),
+    [but|and] not one (on [top of]|in|inside) (the other|another)
 """
 """Behind where all of some things lie side by side."""
 _SINGLY = "(by (itself|themselves)|on (its|their) own|alone|separately)"
@@ -202,6 +203,8 @@ STANDS = f"""
 """
 """How things stand, ahead of where they do."""
 STANDING = f"{STANDS}, standing [up]"
+NOT_LYING = "[~comma] (not|and not|rather than|instead of) lying [down|flat]"
+"""Behind how something is to stand."""
 TURNED_UP = f"""
     {STANDING}, to [be] {_UPRIGHT}, until (it|they) (stands|stand|is|are) {_UPRIGHT},
     (into|to) (an upright|a vertical|the upright|the vertical) (position|pose|orientation),

@@ -61,6 +61,7 @@ WITHOUT_MEANING = f"""
     ~comma (any|either) [one] [of (them|these|those)],
     [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four)], whichever,
     if you can,
+    [whether] (together or (apart|separately)|(apart|separately) or together),
     (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
     (whichever|whatever) [one|of (them|these|the two)]
     (is (easier|easiest|better|best) [for you]|suits you [best|better]|it is),

@@ -266,7 +266,8 @@ OTHERS_WANT = f"""
 """Said of other people, who are not there to be handed anything."""
 WANTED = f"{WANT}, {OTHERS_WANT}"
 BE = """
-    is, are, be, (is|are|be) (left|put|placed|kept|again|properly), end[s] up, get[s],
+    is, are, be, (is|are|be) (left|put|placed|stored|stowed|housed|kept|again|properly),
+    end[s] up, get[s],
     (is|are|be) left (lying|standing|sitting)
 """
 LIES = "lie[s], stand[s], sit[s], rest[s]"
