@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, SwapClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Things
 from etot_cli.reasoning.language.reference.space import carries, rests_on
-from etot_cli.reasoning.language.words.places import Prep
 
 
 def _placed(context: Context, clause: PutClause, goal: Mapping[Thing, Place], text: str) -> None:
@@ -51,31 +48,10 @@ def _at(context: Context, place: Place) -> tuple[Thing, ...]:
     return () if place.where is None else context.discourse.things(place.where)
 
 
-def _each_with_contents(things: Things) -> Things:
-    """In "the contents of the jar and the tin" both times contents are meant."""
-    first, *more = things.phrases
-    of = next((item for item in first.modifiers if item.prep is Prep.OF), None)
-    if first.head not in ("contents", "content") or of is None or len(of.phrases) > 1:
-        return things
-    every = tuple(
-        np
-        if np.head == first.head or np.pronoun
-        else replace(
-            first,
-            modifiers=tuple(replace(of, phrases=(np,)) if m is of else m for m in first.modifiers),
-            text=f"the contents of {np.text}",
-        )
-        for np in more
-    )
-    return replace(things, phrases=(first, *every))
-
-
 def swap(context: Context, clause: SwapClause) -> None:
     """Each of two things to the other's place, while the first one waits on the desk."""
     gone = context.discourse.put
-    if f"{clause.things.text}:" in context.sentence.replace(" :", ":") and not clause.placed:
-        raise ReferenceProblem(clause.things.text, "say only where each thing goes", 2)
-    themes = context.phrases.things(_each_with_contents(clause.things), Role.THEME)
+    themes = context.phrases.things(clause.things, Role.THEME)
     things = [thing for index in themes for thing in context.only(index, "say which two")]
     text = clause.things.text
     if len(things) != 2:

@@ -107,7 +107,7 @@ _FIXED = """
     all [that] (i|we) [really|just] (need|want|would like), all that (should|must) be,
     (thing|things|one|ones|object|objects|item|items) (left|remaining),
     all [that] (i|we) (need|want) (left|remaining), the right (way|side) up, right (way|side) up,
-    all (the (way|time|while)|along), remaining (in|on|where|there|inside|open|closed|shut|put),
+    all (the (way|time|while)|along), at all times, remaining (in|on|where|there|inside|open|closed|shut|put),
     (nearly|almost) (closed|shut), no matter (from|if|whether),
     from [a|the] horizontal [position|pose|orientation] to, (is|are) all the same to (me|us),
     not (possible|feasible|doable), (does|do|will) not work,

@@ -7,13 +7,14 @@ from functools import partial
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
-from etot_cli.reasoning.language.grammar.common import COMMA, NOUN_WORD
+from etot_cli.reasoning.language.grammar.common import COMMA, NOUN_WORD, noun_phrase
 from etot_cli.reasoning.language.grammar.coordination import all_of
+from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.modifiers import (
     PLAIN_MODIFIER,
     quality_alone,
 )
-from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST
+from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, with_all
 from etot_cli.reasoning.language.grammar.parsing import (
     at_end,
     either,
@@ -28,6 +29,7 @@ from etot_cli.reasoning.language.grammar.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.states import SO, state_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
     Modifier,
     NounPhrase,
     State,
@@ -54,6 +56,11 @@ def _still_so(nps: tuple[NounPhrase, ...], still: bool, predicate: Any) -> State
     return replace(state, kept=True) if state and still and state.destinations else state
 
 
+def _still_there(nps: tuple[NounPhrase, ...], still: bool, where: tuple[Destination, ...]) -> State:
+    """Where things are to be that are there by now."""
+    return State(nps, where, kept=still)
+
+
 CONDITION = sequence(
     "with",
     NP_LIST,
@@ -62,6 +69,13 @@ CONDITION = sequence(
     SO,
     build=_still_so,
 )
+_STILL_SO = sequence(
+    NP_LIST,
+    phrase("still [standing|lying|sitting|resting]", True),
+    DESTINATIONS,
+    build=_still_there,
+)
+"""The same without a word before it ("…, the pen still inside it")."""
 _CONDITIONS = sequence(
     "with",
     PUT_GROUPS,
@@ -95,6 +109,7 @@ _EXTRA = sequence(
         manner.FITTING,
         sequence(optional("but"), either(GROUPING, TURN)),
         BY_COLOR,
+        sequence("including, even", noun_phrase, build=lambda np: ("including", np)),
         phrase(manner.ONE_EACH, ("each", ())),
         sequence(
             "one",
@@ -132,7 +147,7 @@ _EXTRA = sequence(
     ),
     build=lambda *found: found[0] if found else (),
 )
-EXTRA = either(sequence(COMMA, _EXTRA), sequence(_EXTRA, build=_unless_told_by))
+EXTRA = either(sequence(COMMA, either(_EXTRA, _STILL_SO)), sequence(_EXTRA, build=_unless_told_by))
 EXTRAS = some(EXTRA, most=3)
 
 
@@ -154,6 +169,12 @@ def put_of(
     conditions += tuple(
         state for name, states in said if name in ("with", _RATHER) for state in states
     )
+    for one in (np for name, np in said if name == "including"):
+        every = [np for group in groups for np in group.things.phrases]
+        all_told = with_all(every[0], one) if len(every) == 1 else None
+        if all_told is None:
+            return None
+        groups = (replace(groups[0], things=replace(groups[0].things, phrases=all_told)),)
     turns = turns_of(said)
     named = {item[0] for item in said}
     if each := next((words for name, words in said if name == "apart" and words), ()):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.clauses import Reading
@@ -44,10 +45,52 @@ def _named_in(rest: Reading) -> list[NounPhrase] | None:
             return None
 
 
+_ALL_ELSE = frozenset({"everything else", "all else", "anything else", "the rest", "all the rest"})
+_REST_OF_THEM = "all other"
+
+
+def _rest_of(topic: Reading, rest: Reading) -> Reading:
+    """With "everything else" as what else there is of the only sort of things that was announced,
+    not of all that stands about ("sort the fruit: …, everything else goes into the basket").
+    """
+    announced = topic[0].clause
+    if not isinstance(announced, ReorientClause) or len(announced.things.phrases) != 1:
+        return rest
+    (whole,) = announced.things.phrases
+    if not whole.words or announced.things.are_any:
+        return rest
+
+    def limited(np: NounPhrase) -> NounPhrase:
+        if np.text not in _ALL_ELSE or np.modifiers:
+            return np
+        return replace(whole, determiner=_REST_OF_THEM, text=np.text)
+
+    def told(said: Spoken) -> Spoken:
+        match said.clause:
+            case PutClause(groups=groups) as put:
+                less = tuple(
+                    replace(group, things=_each(limited, group.things)) for group in groups
+                )
+                return replace(said, clause=replace(put, groups=less))
+            case EnsureClause(states=states) as ensured:
+                so = tuple(replace(s, subjects=tuple(map(limited, s.subjects))) for s in states)
+                return replace(said, clause=replace(ensured, states=so))
+            case _:
+                return said
+
+    return tuple(map(told, rest))
+
+
+def _each(change: Callable[[NounPhrase], NounPhrase], things: Things) -> Things:
+    return replace(things, phrases=tuple(map(change, things.phrases)))
+
+
 def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
+    rest = _rest_of(topic, rest)
     named = _named_in(rest)
-    swept = any(np.text.endswith(" else") for said in rest for np in _named_in((said,)) or ())
+    everything = [np for said in rest for np in _named_in((said,)) or () if np.text in _ALL_ELSE]
+    swept = any(np.determiner != _REST_OF_THEM and " else" in np.text for np in everything)
     if named is None or swept:
         return None  # "everything else" would be more than these
     topics = topic[0].clause.things.phrases if isinstance(topic[0].clause, ReorientClause) else ()

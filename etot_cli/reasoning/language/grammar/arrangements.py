@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.language.grammar.common import (
@@ -10,6 +11,7 @@ from etot_cli.reasoning.language.grammar.common import (
     not_ahead,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.coordination import of_each
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     either,
@@ -31,6 +33,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
 _stood_up = partial(ReorientClause, stance=Nearby.UPRIGHT)
@@ -132,6 +135,12 @@ def _kept_upright(things: Things) -> ReorientClause:
     return ReorientClause(things, Nearby.UPRIGHT, meanwhile=again)
 
 
+def _staying_so(things: Things, stance: Nearby) -> ReorientClause:
+    """What stays as it stands or lies."""
+    upright = stance is Nearby.UPRIGHT
+    return _kept_upright(things) if upright else ReorientClause(things, stance)
+
+
 def _held_upright(things: Things) -> ReorientClause | None:
     """What "hold it upright" says of what is put somewhere; else it is to be in the hand."""
     again = all(np.pronoun for np in things.phrases)
@@ -200,8 +209,17 @@ REORIENT = either(
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.STAY}"),
-            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}, {verbs.STAY}"),
+            sequence(ALL_THINGS, verbs.STAY),
+            sequence(verbs.ENSURE, ALL_THINGS, verbs.STAY),
+        ),
+        either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
+        silent(optional(manner.ON_THE_WAY)),
+        build=_staying_so,
+    ),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}"),
             sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to (be|stand), {verbs.DONE}"))),
         ),
         either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
@@ -245,26 +263,36 @@ def _replaced(old: NounPhrase, new: NounPhrase) -> PutClause:
     return put_to(Things((new,)), (Destination(Toward.STEAD, (old,), "replace"),))
 
 
+def _swapped(things: Things) -> SwapClause:
+    """Things that swap places; "the blocks in the red bowl and the blue bowl" are those in both
+    bowls.
+    """
+    first, *more = things.phrases
+    several = singular(first.head) != first.head and all(np.head != first.head for np in more)
+    each = of_each(things.phrases) if more and several and not things.either else None
+    return SwapClause(things if each is None else replace(things, phrases=each))
+
+
 SWAP = either(
     sequence(
         verbs.SWAP,
         THINGS,
         optional("around, round, over"),
         not_ahead(COLON),  # what it explains would be done beside it
-        build=SwapClause,
+        build=_swapped,
     ),
     sequence(
         verbs.WANTED,
         "the (positions|places) of",
         THINGS,
         "[to be] (exchanged|swapped|switched)",
-        build=SwapClause,
+        build=_swapped,
     ),
     sequence(
         optional(f"have, let, make, can, could, may, {verbs.WANT}"),
         THINGS,
         verbs.CHANGE_PLACES,
-        build=SwapClause,
+        build=_swapped,
     ),
     sequence(
         noun_phrase,

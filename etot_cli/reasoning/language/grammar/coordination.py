@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.reasoning.language.words.verbs import OF_SEVERAL
 
 
@@ -50,6 +51,29 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
             item = replace(item, words=(*item.words, *noun[-1:]))
         found[index] = item
     return tuple(found)
+
+
+def of_each(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
+    """In "the contents of the red bowl and the blue bowl" and "the blocks in the red bowl and the
+    blue bowl" what is in each of the bowls; None where the last ones are no such places.
+    """
+    first, *more = nps
+    *before, where = first.modifiers or (None,)
+    if where is None or len(where.phrases) != 1 or where.prep not in (Prep.OF, Prep.IN, Prep.ON):
+        return None
+    places = coordinated(where.phrases[0], tuple(more))
+    if places is None or len({singular(place.head) for place in places}) > 1:
+        return None
+    if not all(place.determiner in THE_WORDS and place.words for place in places):
+        return None
+    return tuple(
+        replace(
+            first,
+            modifiers=(*before, replace(where, phrases=(place,))),
+            text=f"{first.text} and {place.text}" if index else first.text,
+        )
+        for index, place in enumerate(places)
+    )
 
 
 _ARE = re.compile(r"\b(?:that|which) (?:are|stand|lie|sit)\b")

@@ -252,7 +252,11 @@ _place = either(
 destination = Rule(
     sequence(
         optional(places.SOMEWHERE),
-        either(_place, sequence(places.UP_OR_DOWN, either(INTO, ONTO, _to, _beside_something))),
+        either(
+            _place,
+            sequence(places.UP_OR_DOWN, either(INTO, ONTO, _to, _beside_something)),
+            sequence("directly, straight", either(INTO, ONTO)),
+        ),
     )
 )
 _any_of_them = separated(destination, small_words.OR, most=5)

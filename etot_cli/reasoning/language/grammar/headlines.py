@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.parsing import (
     Parser,
     Rule,
+    at_end,
     either,
     one_of,
     optional,
@@ -26,7 +27,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 from etot_cli.reasoning.language.grammar.predicates import BOTH_LEFT_SO
 from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, state_of
+from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, SHUT, state_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
     EnsureClause,
@@ -69,6 +70,11 @@ def _still_there(
     """
     told = all(item.targets for item in where)
     return EnsureClause((State(nps, where, kept=True),), 1) if told else None
+
+
+def _shut_again(word: str) -> EnsureClause:
+    """What something was put in is shut then ("drawer: bolt in, then shut")."""
+    return left_so((NounPhrase(pronoun="it", text="it"),), word)
 
 
 def taken_out(things: Things) -> RemoveClause | None:
@@ -133,6 +139,7 @@ LEFT_SO = Rule(
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
         sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
         sequence(NP_LIST, "still", DESTINATIONS, build=_still_there),
+        sequence(SHUT, at_end, build=_shut_again),
         sequence(ALL_THINGS, IN_HAND, build=lambda things, _: PickClause(things)),
         variants(sequence(ALL_THINGS, optional(_IS), manner.EMPTIED), to_be_empty),
         sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),

@@ -62,7 +62,7 @@ _TOGETHER_OR_APART = (
     r"(?: (?:up|together|apart|separately|in one(?: place)?|both|as (?:a pair|one)|side by side))*"
 )
 _LEFT_OPEN = Expression(
-    rf"{_NOT_CARING}(?: {_WHAT}| which \w+)?"
+    rf"{_NOT_CARING}(?: {_WHAT}| which \w+(?: (?:it|that|this) is)?)?"
     rf"|(?:{_WHAT}|{_EITHER}|(?:what|which) \w+) {_NO_MATTER}"
     rf"|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
     r"|(?:\w+ )?(?P<thing>\w+) or no (?P=thing)"

@@ -8,7 +8,7 @@ from etot_cli.reasoning.language.grammar.chains import CHAIN
 from etot_cli.reasoning.language.grammar.clauses import LED_CLAUSE, Reading
 from etot_cli.reasoning.language.grammar.common import COMMA, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
-from etot_cli.reasoning.language.grammar.parsing import either, sequence
+from etot_cli.reasoning.language.grammar.parsing import either, optional, sequence, silent
 from etot_cli.reasoning.language.grammar.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
@@ -51,6 +51,7 @@ MEANWHILE = either(
             ),
         ),
         f"{manner.ERECT}, {manner.LEVELED}",
+        silent(optional(small_words.ALL_ALONG)),
         OPTIONAL_COMMA,
         f"{small_words.WHILE}, when [you [are]], and, and then, throughout as you",
         CHAIN,

@@ -16,7 +16,7 @@ from etot_cli.reasoning.language.grammar.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.comparing import COMPARED, WHICHEVER_IS, the_more
-from etot_cli.reasoning.language.grammar.coordination import coordinated, told_together
+from etot_cli.reasoning.language.grammar.coordination import coordinated, of_each, told_together
 from etot_cli.reasoning.language.grammar.input import Input, Result
 from etot_cli.reasoning.language.grammar.naming import DESCRIPTIVE, WORDS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -40,9 +40,11 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     NUMBERS,
     basic_color,
+    same_noun,
     singular,
     word_set,
 )
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import openings_of, words_of
 
 
@@ -74,6 +76,8 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
     if renamed or (apposed and not joined):
         return None
     found = coordinated(first, tuple(np for _, np in more))
+    if found and found[1:] and first.head == "contents" and first.modifiers:
+        found = of_each((first, *(np for _, np in more))) or found
     return None if found is None else told_together(found)
 
 
@@ -91,6 +95,28 @@ def _parts(
     return tuple(NounPhrase("the", said, text=f"the {' '.join(said)}") for said in each)
 
 
+def with_all(every: NounPhrase, one: NounPhrase) -> tuple[NounPhrase, ...] | None:
+    """All of some things, one of which is named besides ("all cups, including the red one")."""
+    whole = every.determiner.split()[:1] in (["all"], ["both"], ["every"], ["each"])
+    whole = whole or (every.determiner in THE_WORDS and singular(every.head) != every.head)
+    alike = one.is_elliptic or (one.words and same_noun(every.head, one.head))
+    told = one.determiner in THE_WORDS and (one.modifiers or one.words[1:])
+    if not (whole and every.words and not every.modifiers and alike and told):
+        return None
+    return (replace(every, including=one),)
+
+
+_INCLUDING = either(
+    sequence(
+        noun_phrase,
+        OPTIONAL_COMMA,
+        "including, even",
+        noun_phrase,
+        either(COMMA, at_end),
+        build=with_all,
+    ),
+    sequence(noun_phrase, COMMA, noun_phrase, "included", either(COMMA, at_end), build=with_all),
+)
 _PART = sequence(optional("the"), some(DESCRIPTIVE, least=1, most=3), optional("one"))
 _PARTS = sequence(
     phrase("the, these, both, both the, the two, the three, all three, all three the, all two"),
@@ -165,6 +191,7 @@ NP_LIST = Rule(
     either(
         _PARTS,
         sequence(optional(phrase("both"), None), _COORDINATION, build=_both),
+        _INCLUDING,
         Parser(_colors_alone, lambda: _COLORS.first),
     )
 )

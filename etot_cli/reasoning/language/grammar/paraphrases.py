@@ -154,8 +154,9 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1 each one ",
     ),
     # "The box itself" is the box; "by itself" and "inside itself" are something else.
-    (rf"\b({NAMED}(?: (?!{_NO_NOUN}\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
+    (rf"\b({NAMED}(?: (?!(?:{_NO_NOUN})\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
     (rf"\bbut none of (?={NAMED})", "but not "),
+    (r"\bthe pair of them\b", "both of them"),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
     (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),
     (

@@ -44,7 +44,7 @@ from etot_cli.reasoning.language.words import manner, small_words, verbs
 
 SO = sequence(
     ALL_THINGS,
-    optional(f"{verbs.BE}, (has|have) been"),
+    optional(f"{verbs.BE}, {verbs.LIES}, (has|have) been"),
     OPEN_OR_CLOSED,
     build=lambda things, word: MoveClause(things, word == "open"),
 )

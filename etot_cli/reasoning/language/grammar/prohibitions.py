@@ -392,7 +392,7 @@ KEEP_OUT = sequence(
         Avoid.PUT, things, (Destination(toward, nps),), negated=True
     ),
 )
-_EVERYTHING_ELSE = "everything else, all else, the rest [of it|of them]"
+_EVERYTHING_ELSE = "everything else, anything else, all else, the rest [of it|of them]"
 _OTHERS = "the others [of them]"
 _THERE = "[up|down|over] (there|here)"
 _STAYS = either(

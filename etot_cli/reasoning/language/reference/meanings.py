@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.reference.narrowing import (
 from etot_cli.reasoning.language.reference.resolved import Resolved
 from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out, usual_form
 from etot_cli.reasoning.language.words.lexicon import (
+    COMMON_NOUNS,
     LIDS,
     ORDINALS,
     THING_NOUNS,
@@ -51,6 +52,32 @@ class Meanings(LentNouns):
 
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What a phrase means, without speaking of it."""
+        own = self._by_own_noun(phrase)
+        if own is None:
+            return self._told(phrase, role)
+        ways: list[Resolved] = []
+        for way in (phrase, own):
+            with suppress(ReferenceProblem):
+                ways.append(self._told(way, role))
+        if not ways:
+            return self._told(phrase, role)
+        if len({frozenset(things_in(way.options)) for way in ways}) > 1:
+            either = [thing.name for way in ways for thing in things_in(way.options)]
+            raise AmbiguousReference(phrase.text, either)
+        return ways[0]
+
+    def _by_own_noun(self, phrase: NounPhrase) -> NounPhrase | None:
+        """A phrase that may have lent the noun of the next in vain: "the orange and the green
+        apple" names a fruit and an apple, unless an apple is orange, too.
+        """
+        *said, _ = phrase.words or ("",)
+        alone = len(said) == 1 and said[0] in COMMON_NOUNS and phrase.text.split()[-1:] == said
+        if not alone or not self.resolver.is_called(said[0]):
+            return None
+        return replace(phrase, words=tuple(said))
+
+    def _told(self, phrase: NounPhrase, role: Role) -> Resolved:
+        """What a phrase means with the noun that it has."""
         if phrase.is_elliptic and {*phrase.words} & {*ORDINALS} and len(self.discourse.put) > 1:
             why = "say which one: it may be counted as it was said, or as they stand"
             raise ReferenceProblem(phrase.text, why, 3)

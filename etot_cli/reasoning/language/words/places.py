@@ -162,11 +162,11 @@ PREPOSITIONS: dict[Prep, str] = {
 }
 INTO = "in to, into, inside [of], in, within"
 ON_TOP_OF = "on [the] top of, atop"
-ONTO = f"onto, on to, on, upon, {ON_TOP_OF}, (to|onto) the top of"
+ONTO = f"onto, on to, on, upon, {ON_TOP_OF}, ([over] to|onto) the top of"
 AT_END = {"at the top": "at the top of", "at the bottom": "(at|on|to) the bottom of"}
 OVER = "over"
 INTO_DIRECTED = "in to, into, inside [of]"
-ONTO_DIRECTED = "onto, on to, on top of, over, (to|onto) the top of"
+ONTO_DIRECTED = "onto, on to, on top of, over, ([over] to|onto) the top of"
 TO = "[over] to"
 AMONG = """
     over, among, amongst, between, across, into, in, onto, on, to

@@ -313,7 +313,7 @@ LEADING_LAST = f"""
     (finish|end) [up|off] by
 """
 _THAT_DONE = """
-    (once|when|after|as soon as) (that|it|this) is [all] done, [with] (that|this) done,
+    (once|when|after|as soon as) (that|it|this) (is|has been) [all] done, [with] (that|this) done,
     having done (that|this|so), (once|when) you (are|have) done [with] (that|this)
 """
 LEADING_THEN = f"""

@@ -187,7 +187,8 @@ MODAL = f"""
     (go|come|move|return) [back]|
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
-    (can|could|may|might|will) {_SIMPLY} (go [back]|end up|be ({_BROUGHT})),
+    (can|could|may|might|will) {_SIMPLY}
+    (go [back]|end up|be ({_BROUGHT})|be left [{_BEING}]),
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
@@ -306,10 +307,10 @@ CONTAINED = """
     (was|were|is) holding
 """
 """Between a vessel and what is to be in it."""
-STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [put|lying|standing|sitting]"
+STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [behind] [put|lying|standing|sitting]"
 STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
 """Before what something is never to be in or on."""
-LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left"
+LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left [standing|lying|sitting]"
 KEEP_ITS_PLACE = f"""
     [{_MUST}|can|may] {_SIMPLY} (keep|keeps|retain|retains)
     (its|their) [current|present|old] (place|places|position|positions|spot|spots)

@@ -53,6 +53,8 @@ class NounPhrase:
     """Of so many ("the left of the two bowls")."""
     as_many_as: NounPhrase | None = None
     """It is as many as there are of these."""
+    including: NounPhrase | None = None
+    """One of them that is named besides ("all cups, including the red one")."""
 
     @property
     def head(self) -> str:
