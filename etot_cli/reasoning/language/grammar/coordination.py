@@ -62,7 +62,8 @@ def of_each(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
     if where is None or len(where.phrases) != 1 or where.prep not in (Prep.OF, Prep.IN, Prep.ON):
         return None
     places = coordinated(where.phrases[0], tuple(more))
-    if places is None or len({singular(place.head) for place in places}) > 1:
+    alike = first.head == "contents" or len({singular(np.head) for np in places or ()}) == 1
+    if places is None or not alike:
         return None
     if not all(place.determiner in THE_WORDS and place.words for place in places):
         return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.clauses import INSTEAD, LEFT_OUT, plain
-from etot_cli.reasoning.language.grammar.common import COMMA, IN_HAND, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.common import COMMA, IN_HAND, OPTIONAL_COMMA, after
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.emptying import emptied, to_be_empty
@@ -139,7 +139,7 @@ LEFT_SO = Rule(
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
         sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
         sequence(NP_LIST, "still", DESTINATIONS, build=_still_there),
-        sequence(SHUT, at_end, build=_shut_again),
+        sequence(after("then"), SHUT, at_end, build=_shut_again),
         sequence(ALL_THINGS, IN_HAND, build=lambda things, _: PickClause(things)),
         variants(sequence(ALL_THINGS, optional(_IS), manner.EMPTIED), to_be_empty),
         sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),
