@@ -32,7 +32,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
@@ -92,7 +92,7 @@ HELD_MEANWHILE = either(
         build=_upright_meanwhile,
     ),
     sequence(
-        verbs.WITHOUT,
+        forbidden.WITHOUT,
         either(
             sequence(verbs.TILT, THINGS),
             sequence("letting", THINGS, verbs.TILTS),
@@ -100,7 +100,7 @@ HELD_MEANWHILE = either(
         silent(optional(manner.ON_THE_WAY)),
         build=_upright_meanwhile,
     ),
-    sequence(verbs.WITHOUT, THINGS, verbs.TILTING, build=_upright_meanwhile),
+    sequence(forbidden.WITHOUT, THINGS, verbs.TILTING, build=_upright_meanwhile),
     phrase(manner.TURNED_AS_NEEDED, ReorientClause(_IT, meanwhile=True)),
 )
 """Behind what is put somewhere: how it is turned, or kept, meanwhile."""
@@ -114,7 +114,7 @@ KEPT_UPRIGHT = either(
     ),
     sequence("[always] (keep|hold|keeping|holding)", THINGS, "level", build=_upright_meanwhile),
     sequence(
-        verbs.DO_NOT,
+        forbidden.DO_NOT,
         either(sequence(verbs.TILT, THINGS), sequence("let", THINGS, verbs.TILTS)),
         silent(optional(manner.ON_THE_WAY)),
         build=_upright_meanwhile,

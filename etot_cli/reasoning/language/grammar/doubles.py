@@ -34,7 +34,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State, Things, Toward
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 
 
@@ -67,7 +67,7 @@ def _only_these(out: Things, where: Any, joint: str, meant: Things) -> tuple[Cla
 NEITHER = sequence(verbs.PUT, "neither", separated(noun_phrase, "nor"), build=Things)
 ONLY_THESE = located(
     sequence(
-        either(sequence(verbs.DO_NOT, verbs.PUT, THINGS), NEITHER),
+        either(sequence(forbidden.DO_NOT, verbs.PUT, THINGS), NEITHER),
         DESTINATIONS,
         OPTIONAL_COMMA,
         optional(phrase("but, just, but just"), ""),

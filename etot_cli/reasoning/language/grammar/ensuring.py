@@ -55,7 +55,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.nouns import is_only
 
@@ -242,7 +242,7 @@ ENSURE = either(
         OPEN_OR_CLOSED,
         build=_may_be,
     ),
-    sequence(verbs.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
+    sequence(forbidden.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
     sequence(verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=_none_left),
     sequence(
         # "No cup but the red one is allowed on the tray"

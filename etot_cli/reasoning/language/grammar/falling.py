@@ -11,7 +11,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     ReorientClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import forbidden, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
 from etot_cli.world.spatial import Nearby
 
@@ -41,7 +41,7 @@ def neither_of(words: tuple[str, ...]) -> Things:
     return Things((NounPhrase("both", several, text=f"neither {' '.join(words)}"),))
 
 
-_TOPPLE = verbs.TOPPLE.replace(",", "|")
+_TOPPLE = forbidden.TOPPLE.replace(",", "|")
 NOTHING_HARMED = AvoidClause(Avoid.HARM, None)
 _DESK = "|".join(sorted(DESK_NOUNS))
 _WILL_NOT = "(does|do|will|can|may|should|must|shall) not"
@@ -56,7 +56,7 @@ def _none_toppled(no: str, words: tuple[str, ...]) -> AvoidClause:
 
 
 UNHARMED = either(
-    sequence(THINGS, f"{_WILL_NOT} ({verbs.TO_THE_FLOOR})", build=unharmed),
+    sequence(THINGS, f"{_WILL_NOT} ({forbidden.TO_THE_FLOOR})", build=unharmed),
     sequence(
         # It may well be put into something; what falls off the desk is lost.
         THINGS,
@@ -67,12 +67,12 @@ UNHARMED = either(
     sequence(
         one_of({"neither": "neither [of the]", "no": "no"}),
         WORDS,
-        f"{verbs.TOPPLES}, (may|must|should|will|can|shall|is to|does) ({_TOPPLE})",
+        f"{forbidden.TOPPLES}, (may|must|should|will|can|shall|is to|does) ({_TOPPLE})",
         build=_none_toppled,
     ),
     sequence(THINGS, phrase(f"{_WILL_NOT} ({_TOPPLE})"), build=_not_toppled),
     phrase(
-        f"nothing ({verbs.FALLS_DOWN}), nothing (should|must|may|shall) ({verbs.FALL_DOWN})",
+        f"nothing ({forbidden.FALLS_DOWN}), nothing (should|must|may|shall) ({forbidden.FALL_DOWN})",
         NOTHING_HARMED,
     ),
 )

@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import GraspClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.skills.action import GraspPose
@@ -127,7 +127,7 @@ def _told(parser: Parser) -> Parser:
 
 
 _NOT_WITH = sequence(
-    verbs.WITHOUT,
+    forbidden.WITHOUT,
     either(
         sequence(
             "grasping, gripping, holding, picking, lifting, taking, approaching",
@@ -327,14 +327,14 @@ GRASP = quiet(
             ),
             sequence(_told(valued(_OTHER_POSE, lambda pose: (pose,))), build=_so),
             sequence(
-                f"{verbs.DO_NOT}, {verbs.WITHOUT}, avoid[ing]",
+                f"{forbidden.DO_NOT}, {forbidden.WITHOUT}, avoid[ing]",
                 optional("us(e|ing)"),
                 _told(_POSE),
                 build=lambda pose: _so((_other(pose),)),
             ),
             sequence(
                 ALL_THINGS,
-                verbs.NOT_TO_BE,
+                forbidden.NOT_TO_BE,
                 f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
                 _POSE,
                 build=_not_so,
@@ -357,7 +357,7 @@ GRASP = quiet(
             ),
             sequence("approach[ing]", _told(POSES), build=_so),
             sequence(
-                f"{verbs.DO_NOT}, {verbs.WITHOUT}",
+                f"{forbidden.DO_NOT}, {forbidden.WITHOUT}",
                 verbs.PICK,
                 THINGS,
                 optional("up"),

@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import forbidden
 
 
 def _met_by(things: Things, by: NounPhrase) -> AvoidClause:
@@ -33,23 +33,23 @@ def with_it(clause: AvoidClause, by: NounPhrase | None) -> AvoidClause:
 
 WITH_IT = optional(sequence("with, using, by", noun_phrase), None)
 """Behind what must not be touched: by what."""
-_BY_IT = sequence(f"({verbs.MET}) by", noun_phrase)
+_BY_IT = sequence(f"({forbidden.MET}) by", noun_phrase)
 LET_MEET = sequence(
     "let[ting], hav(e|ing), allow[ing]",
     either(
-        sequence(noun_phrase, optional("to"), verbs.MEETS, THINGS, build=_met),
+        sequence(noun_phrase, optional("to"), forbidden.MEETS, THINGS, build=_met),
         sequence(THINGS, "[to] (get|be)", _BY_IT, build=_met_by),
     ),
 )
 """Behind what says that it must not be."""
 MEETING = either(
-    sequence(noun_phrase, verbs.MEETS, THINGS, build=_met),
+    sequence(noun_phrase, forbidden.MEETS, THINGS, build=_met),
     sequence(THINGS, "getting, being", _BY_IT, build=_met_by),
 )
 """Behind "without"."""
 _NOT = "(does|do|will|can|should|must|may|shall) (not|never)"
 NOT_MET = either(
-    sequence(noun_phrase, _NOT, verbs.MEETS, THINGS, build=_met),
-    sequence(THINGS, f"{verbs.NOT_TO_BE}, {_NOT} (be|get)", _BY_IT, build=_met_by),
+    sequence(noun_phrase, _NOT, forbidden.MEETS, THINGS, build=_met),
+    sequence(THINGS, f"{forbidden.NOT_TO_BE}, {_NOT} (be|get)", _BY_IT, build=_met_by),
 )
 """What is said to be so, or ensured."""

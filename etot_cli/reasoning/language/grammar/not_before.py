@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.grammar.trees import nodes
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import forbidden, verbs
 
 _UNTIL = "[but] [just] (before|until|till|as long as not)"
 _LEFT = ("leave", "keep", "let", "forget", "touch", "bother", "hesitate")
@@ -87,7 +87,7 @@ def _forbidden(word: str) -> Parser:
 
 
 _NOT_YET = either(
-    sequence(verbs.DO_NOT, not_ahead(*_LEFT), LED_CLAUSE), sequence(_forbidden("not"))
+    sequence(forbidden.DO_NOT, not_ahead(*_LEFT), LED_CLAUSE), sequence(_forbidden("not"))
 )
 NOT_BEFORE = quiet(
     either(
@@ -102,7 +102,7 @@ NOT_BEFORE = quiet(
             _UNTIL,
             DONE_BY_THEN,
             OPTIONAL_COMMA,
-            verbs.DO_NOT,
+            forbidden.DO_NOT,
             not_ahead(*_LEFT),
             LED_CLAUSE,
             build=lambda earlier, later: _only_after(later, earlier),

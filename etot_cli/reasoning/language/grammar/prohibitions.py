@@ -53,7 +53,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -118,7 +118,7 @@ _FORBIDDEN = either(
     sequence(
         one_of(
             {
-                Avoid.HARM: verbs.HARM,
+                Avoid.HARM: forbidden.HARM,
                 Avoid.MOVE: f"{verbs.PICK}, {verbs.REMOVE}",
                 Avoid.OPEN: verbs.OPEN,
                 Avoid.CLOSE: verbs.CLOSE,
@@ -131,11 +131,15 @@ _FORBIDDEN = either(
     sequence(
         either(
             sequence(
-                one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.HIT: verbs.HIT}), THINGS, build=_avoid
+                one_of({Avoid.TOUCH: forbidden.TOUCH, Avoid.HIT: forbidden.HIT}),
+                THINGS,
+                build=_avoid,
             ),
-            sequence(verbs.DISTURB, THINGS, build=_undisturbed),
-            sequence(phrase(verbs.UPSET, Avoid.HIT), THINGS, "off, down", build=_avoid),
-            sequence(verbs.UPSET, THINGS, "over", build=partial(AvoidClause, Avoid.HIT, over=True)),
+            sequence(forbidden.DISTURB, THINGS, build=_undisturbed),
+            sequence(phrase(forbidden.UPSET, Avoid.HIT), THINGS, "off, down", build=_avoid),
+            sequence(
+                forbidden.UPSET, THINGS, "over", build=partial(AvoidClause, Avoid.HIT, over=True)
+            ),
         ),
         WITH_IT,
         optional(small_words.TRAILING_THEN),
@@ -143,21 +147,21 @@ _FORBIDDEN = either(
     ),
     LET_MEET,
     sequence("drop[ping], los(e|ing)", THINGS, build=not_dropped),
-    sequence("let[ting]", THINGS, f"{verbs.TO_THE_FLOOR}, {OFF_THE_DESK}", build=unharmed),
+    sequence("let[ting]", THINGS, f"{forbidden.TO_THE_FLOOR}, {OFF_THE_DESK}", build=unharmed),
     sequence(
         "drop[ping], throw[ing], knock[ing], push[ing], roll[ing]",
         THINGS,
         "[off the (desk|table)] [down] (on|onto|to) the (floor|ground)",
         build=unharmed,
     ),
-    sequence("let[ting]", "anything", verbs.FALL_DOWN, build=lambda: NOTHING_HARMED),
+    sequence("let[ting]", "anything", forbidden.FALL_DOWN, build=lambda: NOTHING_HARMED),
     sequence(
         "drop[ping], spill[ing], break[ing], knock[ing] over",
         "anything",
         build=lambda: NOTHING_HARMED,
     ),
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
-    sequence("let[ting]", THINGS, verbs.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
+    sequence("let[ting]", THINGS, forbidden.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
     sequence(
         "leav(e|ing)",
@@ -171,8 +175,10 @@ _FORBIDDEN = either(
     sequence("tak(e|ing), pull[ing]", THINGS, "apart", build=_left_stacked),
     sequence(verbs.USE, NP_LIST, optional(sequence("for", THINGS), None), build=_unused),
     sequence(
-        one_of({Avoid.TOUCH: verbs.TOUCH, Avoid.MOVE: verbs.DISTURB, Avoid.HIT: verbs.HIT}),
-        verbs.ANYTHING_ELSE,
+        one_of(
+            {Avoid.TOUCH: forbidden.TOUCH, Avoid.MOVE: forbidden.DISTURB, Avoid.HIT: forbidden.HIT}
+        ),
+        forbidden.ANYTHING_ELSE,
         build=lambda avoid: AvoidClause(avoid, None),
     ),
 )
@@ -198,15 +204,15 @@ AVOID = either(
         "(is|are|remains|remain|stays|stay) (off limits|out of bounds|taboo|untouchable|tabu)",
         build=partial(AvoidClause, Avoid.TOUCH),
     ),
-    sequence(verbs.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
+    sequence(forbidden.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
     sequence(
-        verbs.NEED_NOT,
+        forbidden.NEED_NOT,
         _FORBIDDEN,
         build=lambda clause: replace(clause, negated=True, needless=True),
     ),
     sequence(
         THINGS,
-        verbs.NEED_NOT_BE,
+        forbidden.NEED_NOT_BE,
         build=partial(AvoidClause, Avoid.MOVE, negated=True, needless=True),
     ),
     sequence(
@@ -219,14 +225,14 @@ AVOID = either(
     ),
     sequence(
         THINGS,
-        verbs.NEED_NOT_GO,
+        forbidden.NEED_NOT_GO,
         DESTINATIONS,
         build=partial(AvoidClause, Avoid.PUT, negated=True, needless=True),
     ),
     sequence(
         # "The cup can go anywhere but the drawer"
         THINGS,
-        f"{verbs.MAY_GO} (anywhere|wherever you (like|want)) [else]",
+        f"{forbidden.MAY_GO} (anywhere|wherever you (like|want)) [else]",
         OPTIONAL_COMMA,
         nouns.EXCEPT,
         either(DESTINATIONS, sequence(NP_LIST, build=lambda nps: (Destination(Toward.TO, nps),))),
@@ -235,8 +241,14 @@ AVOID = either(
     sequence(
         # "None of the cups may be moved"
         noun_phrase,
-        f"({verbs.MAY}) be",
-        one_of({Avoid.TOUCH: verbs.TOUCHED, Avoid.MOVE: verbs.DISTURBED, Avoid.HIT: verbs.WAS_HIT}),
+        f"({forbidden.MAY}) be",
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCHED,
+                Avoid.MOVE: forbidden.DISTURBED,
+                Avoid.HIT: forbidden.WAS_HIT,
+            }
+        ),
         build=_none_disturbed,
     ),
     sequence(
@@ -245,18 +257,18 @@ AVOID = either(
         sequence(separated(noun_phrase, sequence(OPTIONAL_COMMA, "nor")), build=_neither),
         either(
             sequence(
-                f"({verbs.MAY}) be [ever]",
+                f"({forbidden.MAY}) be [ever]",
                 one_of(
                     {
-                        Avoid.TOUCH: verbs.TOUCHED,
-                        Avoid.MOVE: verbs.DISTURBED,
-                        Avoid.HIT: verbs.WAS_HIT,
+                        Avoid.TOUCH: forbidden.TOUCHED,
+                        Avoid.MOVE: forbidden.DISTURBED,
+                        Avoid.HIT: forbidden.WAS_HIT,
                         Avoid.OPEN: "opened",
                         Avoid.CLOSE: "closed, shut",
                     }
                 ),
             ),
-            phrase(f"({verbs.MAY}) move", Avoid.MOVE),
+            phrase(f"({forbidden.MAY}) move", Avoid.MOVE),
         ),
         build=lambda things, avoid: AvoidClause(avoid, things, negated=True),
     ),
@@ -265,7 +277,7 @@ AVOID = either(
         # "Move neither the cup nor the can", "touch neither cup"
         one_of(
             {
-                Avoid.TOUCH: verbs.TOUCH,
+                Avoid.TOUCH: forbidden.TOUCH,
                 Avoid.MOVE: verbs.SHIFT,
                 Avoid.OPEN: verbs.OPEN,
                 Avoid.CLOSE: verbs.CLOSE,
@@ -279,12 +291,12 @@ AVOID = either(
     ),
     sequence(
         THINGS,
-        verbs.NOT_TO_BE,
+        forbidden.NOT_TO_BE,
         one_of(
             {
-                Avoid.TOUCH: verbs.TOUCHED,
-                Avoid.MOVE: verbs.DISTURBED,
-                Avoid.HIT: verbs.WAS_HIT,
+                Avoid.TOUCH: forbidden.TOUCHED,
+                Avoid.MOVE: forbidden.DISTURBED,
+                Avoid.HIT: forbidden.WAS_HIT,
                 Avoid.OPEN: "opened",
             }
         ),
@@ -301,9 +313,12 @@ def _only_these(nps: tuple[NounPhrase, ...], avoid: Avoid) -> AvoidClause:
 
 
 _MAY_BE = sequence(
-    verbs.MAY,
+    forbidden.MAY,
     one_of(
-        {Avoid.TOUCH: f"be ({verbs.TOUCHED_ONLY})", Avoid.MOVE: f"be ({verbs.MOVED_ONLY}), move"}
+        {
+            Avoid.TOUCH: f"be ({forbidden.TOUCHED_ONLY})",
+            Avoid.MOVE: f"be ({forbidden.MOVED_ONLY}), move",
+        }
     ),
 )
 ONLY_THESE_MAY = either(
@@ -322,7 +337,7 @@ ONLY_THESE_MAY = either(
         either(
             sequence("that, which", _MAY_BE),
             sequence(
-                f"[that|which] you ({verbs.MAY})",
+                f"[that|which] you ({forbidden.MAY})",
                 one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move, lift"}),
             ),
         ),
@@ -330,7 +345,7 @@ ONLY_THESE_MAY = either(
     ),
     sequence(
         # "You may only move the pen"
-        f"you ({verbs.MAY})",
+        f"you ({forbidden.MAY})",
         either(
             sequence("only", _MOVES_ONLY := one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move"})),
             sequence(_MOVES_ONLY, "only, just"),
@@ -343,10 +358,10 @@ ONLY_THESE_MAY = either(
 WITHOUT = sequence(
     OPTIONAL_COMMA,
     either(
-        sequence(verbs.WITHOUT, _FORBIDDEN),
+        sequence(forbidden.WITHOUT, _FORBIDDEN),
         sequence(
-            verbs.WITHOUT,
-            f"{verbs.UPSET}, {verbs.DISTURB}, {verbs.HIT}",
+            forbidden.WITHOUT,
+            f"{forbidden.UPSET}, {forbidden.DISTURB}, {forbidden.HIT}",
             NP_LIST,
             "off [of], from",
             noun_phrase,
@@ -355,28 +370,30 @@ WITHOUT = sequence(
             ),
         ),
         sequence(
-            verbs.WITHOUT,
+            forbidden.WITHOUT,
             either(
-                sequence(NP_LIST, f"[ever] ({verbs.FALLING}) [down] (off [of]|from), leaving"),
+                sequence(NP_LIST, f"[ever] ({forbidden.FALLING}) [down] (off [of]|from), leaving"),
                 sequence("let[ting]", NP_LIST, f"{verbs.FALL} (off [of]|from)"),
             ),
             noun_phrase,
             build=_not_falling_off,
         ),
         sequence(
-            verbs.WITHOUT,
+            forbidden.WITHOUT,
             either(
-                sequence(THINGS, verbs.FALLING_TO_THE_FLOOR),
+                sequence(THINGS, forbidden.FALLING_TO_THE_FLOOR),
                 sequence("drop[ping]", THINGS, "(on|onto|to) the (floor|ground)"),
             ),
             build=unharmed,
         ),
-        sequence(verbs.WITHOUT, MEETING),
+        sequence(forbidden.WITHOUT, MEETING),
         sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
         HELD_MEANWHILE,
-        sequence(verbs.WITHOUT, THINGS, verbs.TOPPLING, build=partial(AvoidClause, Avoid.HIT)),
-        sequence(verbs.WITHOUT, THINGS, verbs.GETTING_TO_THE_FLOOR, build=unharmed),
-        sequence(verbs.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
+        sequence(
+            forbidden.WITHOUT, THINGS, forbidden.TOPPLING, build=partial(AvoidClause, Avoid.HIT)
+        ),
+        sequence(forbidden.WITHOUT, THINGS, forbidden.GETTING_TO_THE_FLOOR, build=unharmed),
+        sequence(forbidden.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
         sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
         _AVOIDED,
     ),

@@ -81,7 +81,7 @@ from etot_cli.reasoning.language.grammar.word_order import (
     NAMED_BEHIND,
     SAID_AHEAD,
 )
-from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
@@ -401,7 +401,7 @@ PUT = either(
         PUT_GROUPS,
         build=_got,
     ),
-    sequence(verbs.DO_NOT, verbs.PUT, THINGS, INSTEAD, build=put_to),
+    sequence(forbidden.DO_NOT, verbs.PUT, THINGS, INSTEAD, build=put_to),
     sequence(verbs.PUT, RESPECTIVE_GROUPS, build=PutClause),
     spanned(
         sequence(

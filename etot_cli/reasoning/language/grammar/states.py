@@ -36,7 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -214,7 +214,9 @@ def _not_falling(nps: tuple[NounPhrase, ...], toward: Toward, np: NounPhrase) ->
 
 
 NOT_FALLING = sequence(
-    either(sequence(NP_LIST, verbs.NOT_FALL), sequence(verbs.DO_NOT, "let", NP_LIST, verbs.FALL)),
+    either(
+        sequence(NP_LIST, verbs.NOT_FALL), sequence(forbidden.DO_NOT, "let", NP_LIST, verbs.FALL)
+    ),
     one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
     noun_phrase,
     build=_not_falling,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from types import ModuleType
 
-from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import openings_of, words_of
 
@@ -32,9 +32,9 @@ VERB_WORDS = words_of(
     (
         verbs.PICK, verbs.PUT, verbs.PUT_DOWN, verbs.REMOVE, verbs.OPEN, verbs.CLOSE, verbs.PULL,
         verbs.ENSURE, verbs.KEEP, verbs.REORIENT, verbs.TURN, verbs.STACK, verbs.NEST, verbs.BUILD,
-        verbs.SWAP, verbs.TOUCH, verbs.HIT, verbs.UNSTACK, verbs.REVERSE, verbs.DISMANTLE,
-        verbs.DISTURB,
-        verbs.TIDY, verbs.CLEAR, verbs.DO_NOT, verbs.NEED_NOT,
+        verbs.SWAP, forbidden.TOUCH, forbidden.HIT, verbs.UNSTACK, verbs.REVERSE, verbs.DISMANTLE,
+        forbidden.DISTURB,
+        verbs.TIDY, verbs.CLEAR, forbidden.DO_NOT, forbidden.NEED_NOT,
     )
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
     "back", "free", "places", "positions", "position", "us", "him", "her", "them", "a",
