@@ -139,8 +139,8 @@ _TOP = ("top",)
 _TOP_OF = sequence("the (top|surface) of", ALL_THINGS)
 _OF_ALL_ON_IT = """
     of (what|whatever|everything [(that|which)]|anything [(that|which)]|all (that|which))
-    (is|lies|stands|rests) (on [top of]|in|inside) (it|them), of everything (on|in|inside) (it|them),
-    of everything
+    (is|lies|stands|rests) (on [top of]|in|inside) (it|them),
+    of everything (on|in|inside) (it|them), of everything
 """
 _ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
 
