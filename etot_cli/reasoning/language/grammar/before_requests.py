@@ -47,6 +47,7 @@ from etot_cli.reasoning.language.grammar.headlines import (
 )
 from etot_cli.reasoning.language.grammar.if_so import IF_ANYTHING_IS_THERE
 from etot_cli.reasoning.language.grammar.inversions import INVERTED
+from etot_cli.reasoning.language.grammar.left_alone import OTHERS_STILL, UNTOUCHED
 from etot_cli.reasoning.language.grammar.meanwhile import MEANWHILE
 from etot_cli.reasoning.language.grammar.moves import IF_NOT_SO
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, THINGS
@@ -62,12 +63,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER, LATER, SO, then_done
 from etot_cli.reasoning.language.grammar.predicates import BOTH_ARE
-from etot_cli.reasoning.language.grammar.prohibitions import (
-    AVOID,
-    OTHERS_STILL,
-    UNTOUCHED,
-    WITHOUT,
-)
+from etot_cli.reasoning.language.grammar.prohibitions import AVOID, WITHOUT
 from etot_cli.reasoning.language.grammar.put_groups import PAIRS
 from etot_cli.reasoning.language.grammar.putting import PUT
 from etot_cli.reasoning.language.grammar.reaching import SEPARATING

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.ensuring import OF_SEVERAL
 from etot_cli.reasoning.language.grammar.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.headlines import HEADLINE, LEFT_SO, PLACED, left_so, timed
+from etot_cli.reasoning.language.grammar.left_alone import UNTOUCHED
 from etot_cli.reasoning.language.grammar.not_before import NOT_BEFORE
 from etot_cli.reasoning.language.grammar.noun_phrases import NP_LIST, THINGS, begins_like_a_verb
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -42,7 +43,6 @@ from etot_cli.reasoning.language.grammar.passives import (
     goes_on,
 )
 from etot_cli.reasoning.language.grammar.past import EARLIER, LATER, then_done
-from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import (
     BESIDES_SO,

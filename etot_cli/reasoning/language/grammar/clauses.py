@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.flanking import FLANKED
 from etot_cli.reasoning.language.grammar.grasping import GRASP
 from etot_cli.reasoning.language.grammar.holding import HOLD
 from etot_cli.reasoning.language.grammar.input import Input, Result
+from etot_cli.reasoning.language.grammar.left_alone import KEEP_STILL
 from etot_cli.reasoning.language.grammar.modifiers import (
     APPOSED,
     CONTRASTED,
@@ -62,7 +63,6 @@ from etot_cli.reasoning.language.grammar.predicates import BOTH_SO
 from etot_cli.reasoning.language.grammar.prohibitions import (
     AVOID,
     KEEP_OUT,
-    KEEP_STILL,
     ONLY_THESE_MAY,
     WITHOUT,
 )

@@ -72,7 +72,8 @@ UNHARMED = either(
     ),
     sequence(THINGS, phrase(f"{_WILL_NOT} ({_TOPPLE})"), build=_not_toppled),
     phrase(
-        f"nothing ({forbidden.FALLS_DOWN}), nothing (should|must|may|shall) ({forbidden.FALL_DOWN})",
+        f"nothing ({forbidden.FALLS_DOWN}), "
+        f"nothing (should|must|may|shall) ({forbidden.FALL_DOWN})",
         NOTHING_HARMED,
     ),
 )

@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.emptying import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.exclusions import of_the_things
+from etot_cli.reasoning.language.grammar.left_alone import UNTOUCHED
 from etot_cli.reasoning.language.grammar.modifiers import (
     CONTRASTED,
 )
@@ -25,7 +26,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.predicates import BOTH_LEFT_SO
-from etot_cli.reasoning.language.grammar.prohibitions import UNTOUCHED
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, SHUT, state_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import (

@@ -9,7 +9,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.arrangements import HELD_MEANWHILE
 from etot_cli.reasoning.language.grammar.common import OPTIONAL_COMMA, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.destinations import DESTINATIONS, DIRECTED
-from etot_cli.reasoning.language.grammar.emptying import ANYTHING, stays_empty
+from etot_cli.reasoning.language.grammar.emptying import ANYTHING
 from etot_cli.reasoning.language.grammar.falling import (
     NOTHING_HARMED,
     OFF_THE_DESK,
@@ -25,7 +25,6 @@ from etot_cli.reasoning.language.grammar.instruments import (
     WITH_IT,
     with_it,
 )
-from etot_cli.reasoning.language.grammar.modifiers import MODIFIER
 from etot_cli.reasoning.language.grammar.naming import WORDS
 from etot_cli.reasoning.language.grammar.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
@@ -36,7 +35,6 @@ from etot_cli.reasoning.language.grammar.parsing import (
     separated,
     sequence,
     silent,
-    some,
 )
 from etot_cli.reasoning.language.grammar.states import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -53,7 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, nouns, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -97,7 +95,7 @@ def _neither(nps: tuple[NounPhrase, ...]) -> Things | None:
     return Things(nps) if nps[1:] else None
 
 
-def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause | None:
+def left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause | None:
     """What stays where it is, with where that is ("leave the cup where it is on the tray")."""
     if len(things.phrases) > 1 or any(item.prep not in (Prep.ON, Prep.IN) for item in at):
         return None
@@ -407,74 +405,5 @@ KEEP_OUT = sequence(
     NP_LIST,
     build=lambda things, toward, nps: AvoidClause(
         Avoid.PUT, things, (Destination(toward, nps),), negated=True
-    ),
-)
-_EVERYTHING_ELSE = "everything else, anything else, all else, the rest [of it|of them]"
-_OTHERS = "the others [of them]"
-_THERE = "[up|down|over] (there|here)"
-_STAYS = either(
-    sequence(verbs.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
-    phrase(verbs.KEEP_ITS_PLACE),
-)
-_THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
-_THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))
-_ALL_ELSE = either(phrase(_EVERYTHING_ELSE, _THE_REST), phrase(_OTHERS, _THE_OTHERS))
-OTHERS_STILL = sequence(
-    either(
-        sequence(_ALL_ELSE, _STAYS),
-        phrase(
-            "nothing else (should|must|shall|may|can|is to) "
-            "(be (moved|touched|changed)|move|change)",
-            _THE_REST,
-        ),
-        sequence("leav(e|ing), keep[ing]", _ALL_ELSE, optional(manner.AS_IT_IS)),
-    ),
-    build=partial(AvoidClause, Avoid.MOVE),
-)
-UNTOUCHED = either(
-    sequence(_ALL_ELSE, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
-    phrase("nothing else (moved|touched|changed)", AvoidClause(Avoid.MOVE, _THE_REST)),
-    sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
-)
-"""The same without a verb ("bolts untouched")."""
-_FINE = (
-    "(is|are) [just] (fine|good|ok|okay|alright) (there|as (it is|they are)|where (it is|they are))"
-)
-_STAYS_EMPTY = either(
-    sequence(noun_phrase, verbs.LEFT_THERE, "empty"),
-    sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
-)
-KEEP_STILL = either(
-    sequence(_STAYS_EMPTY, build=stays_empty),
-    sequence(
-        optional("let"), THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)
-    ),
-    sequence("let[ting], leav(e|ing)", THINGS, "be", build=partial(AvoidClause, Avoid.MOVE)),
-    OTHERS_STILL,
-    sequence(
-        either(
-            sequence("leav(e|ing), keep[ing]", THINGS),
-            sequence(optional("let"), THINGS, verbs.LEFT_THERE),
-        ),
-        "[exactly|just|right] where (it is|they are)",
-        some(MODIFIER, least=1, most=2),
-        build=_left_where_it_is,
-    ),
-    sequence(
-        # After "the cups" rather one of them that is left out.
-        either(
-            sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, {_THERE}"),
-            sequence(
-                f"leav(e|ing), keep[ing], {verbs.IGNORE}, you can leave", THINGS, optional("out")
-            ),
-        ),
-        build=lambda things: AvoidClause(Avoid.MOVE, things, as_it_is=True, far_fetched=2),
-    ),
-    sequence(
-        "keep[ing], stay[ing]",
-        "[your] (hand|hands|gripper|fingers|arm|), clear",
-        "off, away from, clear of, of",
-        THINGS,
-        build=partial(AvoidClause, Avoid.TOUCH),
     ),
 )

@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.headlines import (
     lacks_verb,
 )
 from etot_cli.reasoning.language.grammar.input import Input
+from etot_cli.reasoning.language.grammar.left_alone import KEEP_STILL
 from etot_cli.reasoning.language.grammar.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.parsing import (
     NOTHING,
@@ -45,10 +46,7 @@ from etot_cli.reasoning.language.grammar.parsing import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.prohibitions import (
-    KEEP_STILL,
-    WITHOUT,
-)
+from etot_cli.reasoning.language.grammar.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
