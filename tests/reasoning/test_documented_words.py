@@ -9,11 +9,13 @@ import re
 from pathlib import Path
 
 from etot_cli.reasoning.language.words import places
-from etot_cli.reasoning.language.words.categories import SORTS
+from etot_cli.reasoning.language.words.categories import FRUITING, ROUND, SORTS
 from etot_cli.reasoning.language.words.lexicon import KIND_GROUPS
 from etot_cli.reasoning.language.words.patterns import spellings
 
 PAGE = Path(__file__).parents[2] / "docs" / "instructions.md"
+SAID = {FRUITING: "fruit (where there is no other)", ROUND: "round thing"}
+"""How sorts are spoken of whose names are no words."""
 TABLE = re.compile(r"(<!-- (relations|nouns|categories): [^\n]*-->\n).*?(<!-- end -->)", re.DOTALL)
 
 
@@ -27,7 +29,7 @@ def tables() -> dict[str, str]:
         for kind, groups in KIND_GROUPS.items()
     ]
     sorts = [
-        f"| {', '.join(words.split())} | {len(nouns)} | {', '.join(sorted(nouns)[:5])} … |\n"
+        f"| {SAID.get(words, ', '.join(words.split()))} | {len(nouns)} | {', '.join(sorted(nouns)[:5])} … |\n"
         for words, nouns in SORTS.items()
     ]
     return {
