@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -29,6 +30,7 @@ from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world import spatial
 from etot_cli.world.spatial import Nearby, Whereabouts
 from etot_cli.world.stance import NO_SIDE, can_lie
+from etot_cli.world.state import DESK
 
 _NO_PLACES = (
     Prep.OF,
@@ -53,6 +55,13 @@ def spread(context: Context, place: Place) -> Place:
     return replace(place, where=len(context.discourse.referents) - 1)
 
 
+_ELSEWHERE = (
+    r"(?:to )?(?:(?:somewhere|some ?place) else|elsewhere|safety|a safer? (?:place|spot)"
+    r"|(?:another|a different) (?:place|spot|position))\b"
+)
+"""Not where it stands now."""
+
+
 def add_puts(context: Context, places_of: dict[int, tuple[Place, ...]], grouping: Grouping) -> None:
     """One step for each run of things with the same places, in the order of the things."""
     run: list[int] = []
@@ -65,6 +74,26 @@ def add_puts(context: Context, places_of: dict[int, tuple[Place, ...]], grouping
         add_put(context, run, places_of[run[-1]], grouping)
 
 
+def _off_its_spot(
+    context: Context, themes: Sequence[int], places: tuple[Place, ...]
+) -> tuple[Place, ...]:
+    """Where a thing goes that stands on the desk and is to be "somewhere else" on it."""
+    discourse, states = context.discourse, context.scene.states
+    referent = discourse.referents[themes[0]]
+    (place, *more), (thing, *others) = places, discourse.things(themes[0])
+    if more or others or themes[1:] or place.beside or place.relation is not Relation.ON:
+        return places
+    told = rf"\b(?:{re.escape(referent.text)}|it)(?: (?:down|away|over))? {_ELSEWHERE}"
+    stays = place.where is not None and discourse.is_desk(place.where)
+    on_desk = thing.name in states and states[thing.name].on == (DESK,)
+    if not (stays and on_desk and re.search(told, context.sentence)) or thing in discourse.placed:
+        return places
+    return tuple(
+        replace(spot, beside=tuple(replace(near, denied=True) for near in spot.beside))
+        for spot in (context.spot(thing, place),)
+    )
+
+
 def add_put(
     context: Context,
     themes: Sequence[int],
@@ -75,6 +104,7 @@ def add_put(
 ) -> None:
     """One step that puts things somewhere; it is kept what is put, and into what."""
     discourse = context.discourse
+    places = _off_its_spot(context, themes, places)
     targets = {
         thing.name
         for place in places
