@@ -29,7 +29,8 @@ def tables() -> dict[str, str]:
         for kind, groups in KIND_GROUPS.items()
     ]
     sorts = [
-        f"| {SAID.get(words, ', '.join(words.split()))} | {len(nouns)} | {', '.join(sorted(nouns)[:5])} … |\n"
+        f"| {SAID.get(words) or ', '.join(words.split())} | {len(nouns)} "
+        f"| {', '.join(sorted(nouns)[:5])} … |\n"
         for words, nouns in SORTS.items()
     ]
     return {

@@ -190,7 +190,7 @@ def test_the_other_way_round_everything_is_seen_the_other_way_round(name: str, t
 @pytest.mark.parametrize(("name", "text"), sample(16))
 def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None:
     if re.search(
-        r"(?i)every|any|else|thing|object|item|rest|other|all |clear|tidy|empty|free", text
+        r"(?i)every|any|else|thing|object|item|rest|other|all |clear|tidy|empty|free|using", text
     ):
         return  # such words are about it, too
     scene = SCENES[name]

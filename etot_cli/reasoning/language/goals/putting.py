@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -76,6 +77,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
     PutClause,
+    PutGroup,
     RemoveClause,
     Turns,
     put_to,
@@ -97,6 +99,22 @@ from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
+
+_HOLDS_SOME = re.compile(
+    r"\b(?:that|which) (?:has|have|holds?|contains?) (?:an?|the|some|one|two|its) \w+(?: \w+)?$"
+)
+
+
+def _check_not_torn(group: PutGroup) -> None:
+    """Whether "in it" belongs to what stands before it, "the cup that has a plum in it".
+
+    Raises:
+        ReferenceProblem: it does, and is no place.
+    """
+    for where in group.destinations:
+        of_it = [np for np in where.targets if np.pronoun == "it" and not np.modifiers]
+        if of_it and _HOLDS_SOME.search(group.things.phrases[-1].text):
+            raise ReferenceProblem(group.things.text, "say where it is to go", 2)
 
 
 def put(
@@ -122,6 +140,7 @@ def put(
         if add_pairs(context, clause, group, in_the_end=clause.stays or wherever):
             check_stance(group, stance)
             continue
+        _check_not_torn(group)
         for phrase in group.things.phrases:
             said = {item.prep for item in phrase.modifiers}
             if phrase.words == ("anything",) and said == {Prep.EXCEPT}:
