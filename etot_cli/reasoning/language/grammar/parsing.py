@@ -109,21 +109,20 @@ def one_of(table: Mapping[Any, str]) -> Parser:
 
     The longest is found last. A colon may stand where a comma may.
     """
+    begun: list[Begun] = []  # worked out once some sentence gets there
 
-    @cache
-    def root() -> Begun:
-        return Begun.of(table)
-
-    @cache
     def first() -> frozenset[str]:
         words = openings_of(table.values())
         return words | {COLON} if COMMA in words else words
 
     def parse(given: Input, at: int) -> list[Result]:
         words, found = given.words, list[Result]()
-        if given.ahead[at] not in first():
+        if not parser.may_begin(given.ahead[at]):
             return found
-        node = root()
+        if not begun:
+            begun.append(Begun.of(table))
+        (root,) = begun
+        node = root
         while at < len(words):
             further = node.following.get(words[at])
             if further is None and words[at] == COLON:
@@ -134,11 +133,12 @@ def one_of(table: Mapping[Any, str]) -> Parser:
             if node.values:
                 given.reach(at)
                 found += [(at, value) for value in node.values]
-        if node is not root() and node.following:
+        if node is not root and node.following:
             given.reach(at)  # the sentence ends inside a phrase ("in front" without "of")
         return found
 
-    return Parser(parse, first)
+    parser = Parser(parse, first)
+    return parser
 
 
 def word(test: Callable[[Input, str], bool]) -> Parser:
@@ -191,6 +191,28 @@ def sequence(*parts: Part, build: Callable[..., Any] = _only) -> Parser:
     return Parser(parse, first)
 
 
+class _Choice:
+    """Which of several parsers are asked at a word; a grammar has a thousand such choices, of which
+    a sentence gets to a few.
+    """
+
+    def __init__(self, parsers: tuple[Parser, ...]) -> None:
+        self._parsers = parsers
+        self._finds: dict[str, list[Find]] = {}
+
+    @cached_property
+    def _known(self) -> frozenset[str]:
+        """Words that some begin with, not all that anybody says: these are remembered."""
+        return frozenset(word for parser in self._parsers for word in parser.first or ())
+
+    def beginning(self, word: str) -> list[Find]:
+        """Who may begin with a word."""
+        word = word if word in self._known else NO_WORD
+        if word not in self._finds:
+            self._finds[word] = [item.find for item in self._parsers if item.may_begin(word)]
+        return self._finds[word]
+
+
 def either(*parts: Part) -> Parser:
     """All that any of them finds."""
     parsers = tuple(map(_parser, parts))
@@ -199,20 +221,10 @@ def either(*parts: Part) -> Parser:
         words = [parser.first for parser in parsers]
         return None if None in words else frozenset().union(*filter(None, words))
 
-    @cache
-    def known() -> frozenset[str]:
-        """Words that some begin with, not all that anybody says: these are remembered."""
-        return frozenset(word for parser in parsers for word in parser.first or ())
-
-    @cache
-    def asked(word: str) -> list[Find]:
-        """Who may begin with a word."""
-        return [parser.find for parser in parsers if parser.may_begin(word)]
+    choice = _Choice(parsers)
 
     def parse(given: Input, at: int) -> list[Result]:
-        word = given.ahead[at]
-        finds = asked(word if word in known() else NO_WORD)
-        return [item for find in finds for item in find(given, at)]
+        return [item for find in choice.beginning(given.ahead[at]) for item in find(given, at)]
 
     return Parser(_remembered(parse) if len(parts) > 2 else parse, first)  # two are asked as soon
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from functools import cached_property
+from functools import cache, cached_property
 
 _PIECES = re.compile(
     r"(?P<plain>[^\\[\]()|?*+{}.^$]+)|\((?:\?:|\?<?=)?(?P<choice>[^\\[\]()?*+{}.^$]+)\)"
@@ -17,9 +17,15 @@ _Demand = tuple[str, ...]
 """Texts of which one has to stand in whatever a pattern fits; none where nothing is known."""
 
 
+@cache
+def _tells(demand: _Demand) -> bool:
+    """Whether not every text meets it. The same words stand in many patterns."""
+    return bool(demand) and all(len(text.strip()) > 1 or text == "\n" for text in demand)
+
+
 def _known(demands: list[_Demand]) -> list[_Demand]:
     """The demands that not every text meets."""
-    return [d for d in demands if d and all(len(t.strip()) > 1 or t == "\n" for t in d)]
+    return [demand for demand in demands if _tells(demand)]
 
 
 def _either(ways: list[list[_Demand]]) -> _Demand:

@@ -65,21 +65,35 @@ def _begun(row: Row) -> Iterator[tuple[str, Row]]:
             yield from _begun((*choice, *row[1:]))
 
 
-def _openings(phrases: Phrases) -> Iterator[str]:
-    """The words that phrases may begin with; "" where one may be left out."""
-    for row in phrases:
-        for part in row:
-            found = {part} if isinstance(part, str) else {*_openings(part)}
-            yield from found - {""}
-            if "" not in found:
-                break
-        else:
-            yield ""
+@cache
+def _openings(pattern: str) -> frozenset[str]:
+    """The words that a pattern may begin with, told from its signs alone: of most patterns no more
+    is ever asked.
+    """
+    found: set[str] = set()
+    outer: list[tuple[bool, bool, bool]] = []
+    # Whether a choice stands at the beginning, what comes next does, and it may be left out.
+    at_start = beginning = True
+    left_out = False
+    for token in _TOKENS.findall(pattern):
+        if token in "|,":
+            beginning, left_out = at_start, left_out or beginning
+        elif token in "([":
+            outer.append((at_start, beginning, left_out))
+            at_start, left_out = beginning, token == "["
+        elif token in ")]":
+            inner = left_out or beginning
+            at_start, beginning, left_out = outer.pop()
+            beginning = beginning and inner
+        elif beginning:
+            found.update(_forms(token) if token[-1] in ")]" else (token,))
+            beginning = False
+    return frozenset(found)
 
 
 def openings_of(patterns: Iterable[str]) -> frozenset[str]:
     """Every single word that patterns may begin with."""
-    return frozenset(word for each in patterns for word in _openings(phrases_of(each))) - {""}
+    return frozenset().union(*map(_openings, patterns))
 
 
 class Begun:
