@@ -74,24 +74,31 @@ def add_puts(context: Context, places_of: dict[int, tuple[Place, ...]], grouping
         add_put(context, run, places_of[run[-1]], grouping)
 
 
-def _off_its_spot(
-    context: Context, themes: Sequence[int], places: tuple[Place, ...]
-) -> tuple[Place, ...]:
-    """Where a thing goes that stands on the desk and is to be "somewhere else" on it."""
+def _elsewhere(
+    context: Context, themes: Sequence[int], places: Sequence[Place]
+) -> dict[Thing, Place]:
+    """Where things on the desk go that are to be "somewhere else" on it; of others nothing.
+
+    Raises:
+        ReferenceProblem: it is open which thing is meant.
+    """
     discourse, states = context.discourse, context.scene.states
-    referent = discourse.referents[themes[0]]
-    (place, *more), (thing, *others) = places, discourse.things(themes[0])
-    if more or others or themes[1:] or place.beside or place.relation is not Relation.ON:
-        return places
-    told = rf"\b(?:{re.escape(referent.text)}|it)(?: (?:down|away|over))? {_ELSEWHERE}"
-    stays = place.where is not None and discourse.is_desk(place.where)
-    on_desk = thing.name in states and states[thing.name].on == (DESK,)
-    if not (stays and on_desk and re.search(told, context.sentence)) or thing in discourse.placed:
-        return places
-    return tuple(
-        replace(spot, beside=tuple(replace(near, denied=True) for near in spot.beside))
-        for spot in (context.spot(thing, place),)
-    )
+    (place, *more), texts = places, [discourse.referents[theme].text for theme in themes]
+    on_desk = place.where is not None and discourse.is_desk(place.where) and not place.beside
+    if more or not on_desk or place.relation is not Relation.ON:
+        return {}
+    named = "|".join(map(re.escape, texts))
+    told = rf"\b(?:{named}|it|them|both)(?: (?:down|away|over))? {_ELSEWHERE}"
+    if not re.search(told, context.sentence):
+        return {}
+    found = {}
+    for theme in themes:
+        for thing in context.only(theme, "say which one"):
+            if thing not in discourse.placed and states[thing.name].on == (DESK,):
+                spot = context.spot(thing, place)
+                off = tuple(replace(near, denied=True) for near in spot.beside)
+                found[thing] = replace(spot, beside=off)
+    return found
 
 
 def add_put(
@@ -102,9 +109,18 @@ def add_put(
     *,
     removal: bool = False,
 ) -> None:
-    """One step that puts things somewhere; it is kept what is put, and into what."""
+    """One step that puts things somewhere; it is kept what is put, and into what. Of several things
+    that are to be somewhere else each has a spot of its own that it leaves.
+    """
     discourse = context.discourse
-    places = _off_its_spot(context, themes, places)
+    elsewhere = _elsewhere(context, themes, places)
+    if [*elsewhere] == [*discourse.things(*themes)]:
+        several = len(elsewhere) > 1
+        for thing, place in elsewhere.items():
+            theme = context.single(thing, thing.name) if several else themes[0]
+            context.discourse.put |= {*themes, theme}
+            context.steps.append(Put((theme,), (place,), Grouping.ANY, removal=removal))
+        return
     targets = {
         thing.name
         for place in places
