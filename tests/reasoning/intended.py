@@ -25,7 +25,7 @@ def intended(scene: SceneState, actions: Sequence[Action]) -> SceneState | None:
             on = owner_of(action.target) if inside else action.target
             x, y, z = states[held].position
             for where in action.where:
-                if where.relation is Nearby.AT_POINT and where.point is not None:
+                if where.point is not None and not where.denied:
                     x, y = where.point
                 elif where.relation is not Nearby.UPRIGHT:
                     return None

@@ -78,6 +78,8 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
         return  # "all cups, the not red cup too" are all of them
     if re.search(r"\b(can|may|could) (be|stay|remain)$", " ".join(words[:where])):
         return  # what may stay open and what may stay not open ask for nothing
+    if word == "without" and words[where : where + 1] == ["one."]:
+        return  # "the blue without one" is the one that has none of them
     called = {w for info in SCENES[name].infos.values() for w in info.label.split()}
     of_a_noun = words[max(where - 2, 0)].lower() == "the" and where < len(words)
     if word == "not" and of_a_noun and words[where].strip(".,;") in called:
@@ -94,7 +96,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
         r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
     )
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
-    framed += r"(\w+ )?\w+: |right, |\w+, \w+\. )"
+    framed += r"(\w+ )?\w+: |right, |\w+, \w+\. |for each |whatever )"
     if re.match(framed, text):
         return  # it has a frame of its own
     if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:
@@ -190,7 +192,9 @@ def test_the_other_way_round_everything_is_seen_the_other_way_round(name: str, t
 @pytest.mark.parametrize(("name", "text"), sample(16))
 def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None:
     if re.search(
-        r"(?i)every|any|else|thing|object|item|rest|other|all |clear|tidy|empty|free|using", text
+        r"(?i)every|any|else|thing|object|item|rest|other|all |clear|tidy|empty|free|using|"
+        r"may only",
+        text,
     ):
         return  # such words are about it, too
     scene = SCENES[name]
