@@ -27,6 +27,15 @@ DOORS = {"commands": {"rooms"}, "cli": {"rooms"}}
 BELOW["execution"].add("reconstruction")
 for _room in ("reasoning", "reconstruction", "execution", "benchmark", "commands"):
     BELOW[_room].add("services")
+LANGUAGE = PACKAGE / "reasoning" / "language"
+LANGUAGE_ORDER = {
+    "grammar": (
+        "text", "syntax", "parsers", "asides", "paraphrasing", "phrases", "requests", "conditions",
+        "sentences",
+    ),
+    "reference": ("memory", "geometry", "naming", "choosing", "pronouns", ".", "places"),
+}  # fmt: skip
+"""The folders of the two large rooms, the lowest first; ``.`` is the room itself."""
 WITHOUT_MUJOCO = (
     "specs", "reasoning/builtin", "reasoning/language", "planning", "reporting", "commands",
     "cli",
@@ -70,15 +79,14 @@ def test_every_room_is_drawn() -> None:
     text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
     for room in rooms():
         assert f"`{room}`" in text, f"docs/design.md does not say what {room} is"
-    language = PACKAGE / "reasoning" / "language"
-    folders = {path.parent.name for path in language.glob("*/__init__.py")}
+    folders = {path.parent.name for path in LANGUAGE.glob("*/__init__.py")}
     told = dict(
-        re.findall(r"^\| `(\w+)` \| [^|]+ \| (`[a-z_]+`, `[a-z_]+`) \|$", text, re.MULTILINE)
+        re.findall(r"^\| `(\w+)` \| [^|]+ \| (`[a-z_/]+`, `[a-z_/]+`) \|$", text, re.MULTILINE)
     )
     assert folders == set(told)
     for folder, modules in told.items():
-        for module in re.findall(r"\w+", modules):
-            assert (language / folder / f"{module}.py").is_file(), f"{folder}/{module}"
+        for module in re.findall(r"[\w/]+", modules):
+            assert (LANGUAGE / folder / f"{module}.py").is_file(), f"{folder}/{module}"
 
 
 @pytest.mark.parametrize("room", sorted(BELOW))
@@ -89,6 +97,25 @@ def test_a_room_imports_only_lower_ones(room: str) -> None:
             parts = module.split(".")
             if parts[0] == "etot_cli" and len(parts) > 1:
                 assert parts[1] in allowed, f"{path.relative_to(ROOT)} imports {module}"
+
+
+@pytest.mark.parametrize("room", sorted(LANGUAGE_ORDER))
+def test_a_folder_of_the_language_imports_only_lower_ones(room: str) -> None:
+    order = LANGUAGE_ORDER[room]
+    here = LANGUAGE / room
+    prefix = f"etot_cli.reasoning.language.{room}."
+    text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
+    found = {path.parent.name for path in here.glob("*/__init__.py")}
+    assert found == {*order} - {"."}
+    for folder in found:
+        assert f"`{room}/{folder}`" in text, f"docs/design.md does not say what {folder} is"
+    for path in sorted(here.rglob("*.py")):
+        own = path.parent.relative_to(here).as_posix()
+        for module in imports(path):
+            if module.startswith(prefix):
+                first = module.removeprefix(prefix).split(".")[0]
+                other = first if first in found else "."
+                assert order.index(other) <= order.index(own), f"{path} imports {module}"
 
 
 @pytest.mark.parametrize("room", ON_PLAIN_DATA)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from etot_cli.reasoning.language.grammar.accounting import unaccounted
-from etot_cli.reasoning.language.grammar.reader import read
+from etot_cli.reasoning.language.grammar.sentences.accounting import unaccounted
+from etot_cli.reasoning.language.grammar.sentences.reader import read
 
 NOUNS = frozenset({"cup", "plate", "drawer"})
 PLAIN = "put the cups on the plate and open the drawer"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from etot_cli.reasoning.language.grammar.normalizing import normalized
-from etot_cli.reasoning.language.grammar.text import sentences_of
+from etot_cli.reasoning.language.grammar.paraphrasing.normalizing import normalized
+from etot_cli.reasoning.language.grammar.text.splitting import sentences_of
 
 
 @pytest.mark.parametrize(

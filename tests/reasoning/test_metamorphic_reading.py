@@ -17,9 +17,9 @@ from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.goals.interpretation import interpret
-from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.instructions import goal_of
-from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words import known, verbs
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import SceneState

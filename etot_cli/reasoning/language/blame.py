@@ -7,14 +7,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from itertools import takewhile
 
-from etot_cli.reasoning.language.grammar.input import Input
-from etot_cli.reasoning.language.grammar.reader import (
+from etot_cli.reasoning.language.grammar.parsers.input import Input
+from etot_cli.reasoning.language.grammar.sentences.reader import (
     SHOWN_WORDS,
     UnreadableError,
     is_known,
     shown,
 )
-from etot_cli.reasoning.language.grammar.text import COLON, COMMA, QUESTION, spaced
+from etot_cli.reasoning.language.grammar.text.splitting import COLON, COMMA, QUESTION, spaced
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, is_in_lexicon

@@ -15,13 +15,13 @@ from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.blame import blamed
 from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.goals.plausibility import plans_of
-from etot_cli.reasoning.language.grammar.asides import without_asides
-from etot_cli.reasoning.language.grammar.corrections import mark_in, taken_back
-from etot_cli.reasoning.language.grammar.reader import UnreadableError, normalized, read
-from etot_cli.reasoning.language.grammar.remarks import BEFORE_NAMES
-from etot_cli.reasoning.language.grammar.text import QUESTION, sentences_of, words_in
+from etot_cli.reasoning.language.grammar.asides.asides import without_asides
+from etot_cli.reasoning.language.grammar.asides.remarks import BEFORE_NAMES
+from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.grammar.text.corrections import mark_in, taken_back
+from etot_cli.reasoning.language.grammar.text.splitting import QUESTION, sentences_of, words_in
 from etot_cli.reasoning.language.languages import other_language
-from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
 from etot_cli.reasoning.language.viewpoint import without_viewpoint
 from etot_cli.reasoning.language.words import manner, verbs

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.world.state import SceneState
 

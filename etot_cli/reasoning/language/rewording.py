@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import takewhile
 
-from etot_cli.reasoning.language.grammar.normalizing import normalized
-from etot_cli.reasoning.language.grammar.text import sentences_of
+from etot_cli.reasoning.language.grammar.paraphrasing.normalizing import normalized
+from etot_cli.reasoning.language.grammar.text.splitting import sentences_of
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.known import LINKS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.pairing import is_matching
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.putting import put
+from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,
@@ -26,8 +27,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.grammar.trees import nodes
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.lexicon import same_noun
 
 

@@ -16,9 +16,9 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
-from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.space import touches
-from etot_cli.reasoning.language.reference.states import state_holds
+from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 

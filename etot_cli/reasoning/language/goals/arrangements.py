@@ -21,10 +21,10 @@ from etot_cli.reasoning.language.goals.layers import any_of, end_of
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.space import below, carries
-from etot_cli.reasoning.language.reference.stacks import stack_of
-from etot_cli.reasoning.language.reference.vessels import lies_on
+from etot_cli.reasoning.language.reference.geometry.space import below, carries
+from etot_cli.reasoning.language.reference.geometry.stacks import stack_of
+from etot_cli.reasoning.language.reference.geometry.vessels import lies_on
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.lexicon import head_of
 
 

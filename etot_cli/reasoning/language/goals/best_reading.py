@@ -26,12 +26,15 @@ from etot_cli.reasoning.language.goals.plausibility import (
     taken_up_again,
 )
 from etot_cli.reasoning.language.goals.understanding import Understanding
-from etot_cli.reasoning.language.grammar.reader import Sentence
-from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.sentences.reader import Sentence
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import PickClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
-from etot_cli.reasoning.language.grammar.trees import nodes
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, UnclearLandmark
+from etot_cli.reasoning.language.reference.memory.antecedents import (
+    AmbiguousReference,
+    UnclearLandmark,
+)
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.reasoning.protocol import ReasonerStopped
 

@@ -13,8 +13,8 @@ from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import InTheWay
 from etot_cli.reasoning.language.goals.turns import Timed
-from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.reference.discourse import Discourse
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 

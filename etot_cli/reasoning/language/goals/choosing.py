@@ -11,14 +11,14 @@ from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
-from etot_cli.reasoning.language.grammar.contents import (
+from etot_cli.reasoning.language.grammar.phrases.contents import (
     HERE_BEFORE,
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import State, Things, Toward
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.space import touches
-from etot_cli.reasoning.language.reference.usual_form import GENERAL
+from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL
 from etot_cli.reasoning.language.words.categories import is_eaten, is_keeping, is_poured
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep

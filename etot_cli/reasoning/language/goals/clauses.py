@@ -26,8 +26,8 @@ from etot_cli.reasoning.language.goals.so_in_the_end import (
 )
 from etot_cli.reasoning.language.goals.swapping import swap
 from etot_cli.reasoning.language.goals.turns import in_turns
-from etot_cli.reasoning.language.grammar.emptying import is_emptying
-from etot_cli.reasoning.language.grammar.putting import DOWN
+from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
+from etot_cli.reasoning.language.grammar.requests.putting import DOWN
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,
@@ -47,10 +47,10 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.by_now import note_placed
-from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.by_now import note_placed
+from etot_cli.reasoning.language.reference.memory.resolved import Resolved
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep

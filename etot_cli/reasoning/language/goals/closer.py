@@ -8,10 +8,10 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.destinations import AS_SAID
+from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.phrases.destinations import AS_SAID
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, State, Toward
-from etot_cli.reasoning.language.grammar.trees import nodes
 
 
 def set_closer(

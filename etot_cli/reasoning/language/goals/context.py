@@ -18,18 +18,18 @@ from etot_cli.reasoning.builtin.goal import (
     Thing,
 )
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax.clauses import Clause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
-from etot_cli.reasoning.language.reference.antecedents import Mention
-from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.discourse import Discourse
-from etot_cli.reasoning.language.reference.noun_phrases import Resolver
-from etot_cli.reasoning.language.reference.places import Places
-from etot_cli.reasoning.language.reference.resolved import Resolved
+from etot_cli.reasoning.language.reference.choosing.noun_phrases import Resolver
+from etot_cli.reasoning.language.reference.geometry.space import rests_in_mouth, touches
+from etot_cli.reasoning.language.reference.memory.antecedents import Mention
+from etot_cli.reasoning.language.reference.memory.discourse import Discourse
+from etot_cli.reasoning.language.reference.memory.resolved import Resolved
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.reference.naming.states import state_holds
+from etot_cli.reasoning.language.reference.places.places import Places
 from etot_cli.reasoning.language.reference.several import Phrases
-from etot_cli.reasoning.language.reference.space import rests_in_mouth, touches
-from etot_cli.reasoning.language.reference.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
 from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby

@@ -12,7 +12,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
-from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.words.places import Prep
 
 _BESIDE = (Prep.NEXT_TO, Prep.NEAR, Prep.LEFT, Prep.RIGHT, Prep.BEHIND, Prep.FRONT, Prep.BETWEEN)

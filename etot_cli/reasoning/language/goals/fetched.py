@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.goal import Close, Grouping, Pick, Put, Step
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.turns import Timed
-from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.geometry.space import touches
 
 
 def set_down(context: Context, item: Timed, after: Sequence[Step]) -> Timed:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
-from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     EnsureClause,
@@ -17,9 +17,9 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutGroup,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.space import carries, touches
+from etot_cli.reasoning.language.reference.geometry.space import carries, touches
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.places import WAS_THERE
 

@@ -30,16 +30,16 @@ from etot_cli.reasoning.language.goals.left_out import (
     without_ruled_out,
 )
 from etot_cli.reasoning.language.goals.understanding import Understanding
-from etot_cli.reasoning.language.grammar.reader import Sentence
+from etot_cli.reasoning.language.grammar.sentences.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     EnsureClause,
     ReorientClause,
 )
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.discourse import Discourse
-from etot_cli.reasoning.language.reference.noun_phrases import Resolver
-from etot_cli.reasoning.language.reference.vocabulary import Vocabulary
+from etot_cli.reasoning.language.reference.choosing.noun_phrases import Resolver
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.discourse import Discourse
+from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.world.state import SceneState
 
 _BACK = re.compile(

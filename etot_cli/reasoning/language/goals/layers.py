@@ -10,9 +10,9 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.selection import select
+from etot_cli.reasoning.language.reference.choosing.selection import select
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color, head_of
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Goal, Put, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.reference.discourse import Discourse
-from etot_cli.reasoning.language.reference.space import addresses
+from etot_cli.reasoning.language.reference.geometry.space import addresses
+from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.world.state import SceneState
 

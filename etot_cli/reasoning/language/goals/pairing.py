@@ -19,12 +19,12 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
-from etot_cli.reasoning.language.reference.in_or_on import in_or_on
-from etot_cli.reasoning.language.reference.instances import MAX_OPTIONS, is_of_each
-from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.space import gap, touches
-from etot_cli.reasoning.language.reference.vessels import goes_in
+from etot_cli.reasoning.language.reference.choosing.instances import MAX_OPTIONS, is_of_each
+from etot_cli.reasoning.language.reference.geometry.space import gap, touches
+from etot_cli.reasoning.language.reference.geometry.vessels import goes_in
+from etot_cli.reasoning.language.reference.memory.resolved import Resolved
+from etot_cli.reasoning.language.reference.naming.determiners import is_distributive, quantity_of
+from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK

@@ -20,12 +20,12 @@ from etot_cli.reasoning.builtin.goal import (
 from etot_cli.reasoning.builtin.relations import can_topple, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.asides import ASIDE
-from etot_cli.reasoning.language.grammar.destinations import EACH_OTHER
+from etot_cli.reasoning.language.grammar.asides.asides import ASIDE
+from etot_cli.reasoning.language.grammar.phrases.destinations import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax.clauses import CoverClause, PutGroup, ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
-from etot_cli.reasoning.language.reference.in_or_on import in_or_on
-from etot_cli.reasoning.language.reference.space import is_flat
+from etot_cli.reasoning.language.reference.geometry.space import is_flat
+from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world import spatial
 from etot_cli.world.spatial import Nearby, Whereabouts

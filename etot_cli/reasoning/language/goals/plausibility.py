@@ -11,10 +11,10 @@ from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import SET_ASIDE
 from etot_cli.reasoning.language.goals.turns import Timed
-from etot_cli.reasoning.language.grammar.spoken import Order
-from etot_cli.reasoning.language.reference.landmarks import ROUGHLY
-from etot_cli.reasoning.language.reference.sifting import TAKEN_FOR
-from etot_cli.reasoning.language.reference.vessels import goes_in
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.reference.choosing.landmarks import ROUGHLY
+from etot_cli.reasoning.language.reference.geometry.vessels import goes_in
+from etot_cli.reasoning.language.reference.naming.sifting import TAKEN_FOR
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import SceneState
 

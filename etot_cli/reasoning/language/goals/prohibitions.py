@@ -29,8 +29,8 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     MoveClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.reference.naming.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK

@@ -72,7 +72,7 @@ from etot_cli.reasoning.language.goals.sharing import (
 from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
-from etot_cli.reasoning.language.grammar.emptying import ANYTHING, is_emptying
+from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
@@ -90,10 +90,10 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
     stance_in,
 )
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.determiners import is_distributive, quantity_of
-from etot_cli.reasoning.language.reference.space import touches
-from etot_cli.reasoning.language.reference.states import state_holds
+from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.naming.determiners import is_distributive, quantity_of
+from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any, singular
 from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only

@@ -20,12 +20,12 @@ from etot_cli.reasoning.language.goals.placing import (
     add_put,
 )
 from etot_cli.reasoning.language.goals.prohibitions import avoid
-from etot_cli.reasoning.language.grammar.emptying import ANYTHING, is_emptying
+from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, RemoveClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
-from etot_cli.reasoning.language.reference.antecedents import NothingThere
-from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.memory.antecedents import NothingThere
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import DESK, owner_of

@@ -22,9 +22,9 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.space import addresses, touches
+from etot_cli.reasoning.language.reference.geometry.space import addresses, touches
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.world.state import DESK
 
 

@@ -20,8 +20,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 

@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, SwapClause
-from etot_cli.reasoning.language.reference.space import carries, rests_on
+from etot_cli.reasoning.language.reference.geometry.space import carries, rests_on
 
 
 def _placed(context: Context, clause: PutClause, goal: Mapping[Thing, Place], text: str) -> None:

@@ -24,7 +24,7 @@ from etot_cli.reasoning.builtin.goal import (
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.world.state import SceneState
 
 _WAYS = {Keep.OPEN: Open, Keep.CLOSED: Close}

@@ -10,11 +10,11 @@ from etot_cli.reasoning.builtin.goal import Pick, Put, Step, Thing
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax.clauses import Turns
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.reference.discourse import Discourse
-from etot_cli.reasoning.language.reference.selection import in_line
+from etot_cli.reasoning.language.reference.choosing.selection import in_line
+from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 
 

@@ -13,7 +13,8 @@ from etot_cli.reasoning.language.goals.fetched import set_down
 from etot_cli.reasoning.language.goals.grasps import grasped
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
-from etot_cli.reasoning.language.grammar.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     Clause,
@@ -24,11 +25,10 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     RemoveClause,
     ReorientClause,
 )
-from etot_cli.reasoning.language.grammar.trees import pronouns
-from etot_cli.reasoning.language.reference.discourse import Discourse
-from etot_cli.reasoning.language.reference.noun_phrases import Resolver
-from etot_cli.reasoning.language.reference.opposites import check_opposites
-from etot_cli.reasoning.language.reference.space import touches
+from etot_cli.reasoning.language.reference.choosing.noun_phrases import Resolver
+from etot_cli.reasoning.language.reference.choosing.opposites import check_opposites
+from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 

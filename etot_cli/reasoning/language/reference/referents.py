@@ -9,26 +9,29 @@ from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.contents import HERE_BEFORE
+from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
-from etot_cli.reasoning.language.reference import space
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference, NothingThere
-from etot_cli.reasoning.language.reference.by_now import is_empty_by_now, there_by_now
-from etot_cli.reasoning.language.reference.coreference import antecedents
-from etot_cli.reasoning.language.reference.determiners import quantity_of
-from etot_cli.reasoning.language.reference.landmarks import HOLDING
-from etot_cli.reasoning.language.reference.meanings import Meanings
-from etot_cli.reasoning.language.reference.narrowing import part_around
-from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.spoken_of import openable
-from etot_cli.reasoning.language.reference.states import state_holds
-from etot_cli.reasoning.language.reference.usual_form import (
+from etot_cli.reasoning.language.reference.choosing.landmarks import HOLDING
+from etot_cli.reasoning.language.reference.geometry import space
+from etot_cli.reasoning.language.reference.memory.antecedents import (
+    AmbiguousReference,
+    NothingThere,
+)
+from etot_cli.reasoning.language.reference.memory.by_now import is_empty_by_now, there_by_now
+from etot_cli.reasoning.language.reference.memory.resolved import Resolved
+from etot_cli.reasoning.language.reference.memory.spoken_of import openable
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.reference.naming.states import state_holds
+from etot_cli.reasoning.language.reference.naming.usual_form import (
     GENERAL,
     around_itself,
     chooses,
     is_robot,
     usual_form,
 )
+from etot_cli.reasoning.language.reference.pronouns.coreference import antecedents
+from etot_cli.reasoning.language.reference.pronouns.meanings import Meanings
+from etot_cli.reasoning.language.reference.pronouns.narrowing import part_around
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
 

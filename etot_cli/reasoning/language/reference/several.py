@@ -9,11 +9,11 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
-from etot_cli.reasoning.language.reference.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.determiners import quantity_of
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.resolved import Resolved
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.reference.naming.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.reference.referents import Referents
-from etot_cli.reasoning.language.reference.resolved import Resolved
-from etot_cli.reasoning.language.reference.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 

@@ -1,0 +1,1 @@
+"""What stands beside a request and asks for nothing: reasons, remarks, how things are."""

@@ -1,0 +1,147 @@
+"""Whether a clause tells of what is not in the scene: how it is, what it does, what befell it.
+
+What somebody asks for is asked of things of the scene, by a few verbs. A declarative clause about
+something else, with any other verb, only tells something ("the inspector arrives at noon"), as do
+exclamations ("Bedtime!", "What a lovely day!").
+"""
+
+from __future__ import annotations
+
+import re
+
+from etot_cli.reasoning.language.grammar.asides.remarks import (
+    ASKING,
+    BEFORE_NAMES,
+    CHANGING,
+    DECREEING,
+    PEOPLE,
+    PROPOSING,
+    REFERRING,
+    WORK,
+    IsName,
+)
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    NUMBERS,
+    SIDES,
+    STATES,
+    THING_NOUNS,
+    is_descriptive,
+    word_set,
+)
+
+_IRREGULAR = word_set(
+    """
+    is are was were has have had broke came fell rang gave began went got sank ran flew died stank
+    hurt burnt grew blew froze rose spoke stole tore woke wore
+    """
+)
+"""Forms of verbs that are no nouns, and have no ending of their own."""
+_SEEMING = word_set("smells looks tastes sounds feels seems begins starts rings is was")
+"""They may follow a noun without an article; before others that may be a verb ("polish shoes")."""
+_ASKING = (
+    (ASKING | CHANGING | WORK | PROPOSING | DECREEING)
+    - word_set("to by than end ends come comes join joins")
+) | word_set("live lives stay stays sit sits stand stands rest rests lie lies hold holds")
+"""Of none of these is passed over what it is said of, whatever that is."""
+_NO_SUBJECT = (
+    REFERRING | LINKS | VERB_WORDS | OTHER_VERBS | {*STATES, *LEVELS, *SIDES, *NUMBERS}
+    | {*THING_NOUNS}
+)  # fmt: skip
+_AS_WELL = word_set("too also well likewise next please ditto instead there here then")
+"""Behind what something is asked for once more ("the spare keys too")."""
+_WHERE = word_set("in on into onto beside near off under behind between with from to for of and")
+"""They may say where something is to go ("the spare keys in a bag")."""
+_BEFORE_VERBS = word_set("just really still already always often soon almost")
+_TIME = Expression(
+    r"(?:it is )?(?:(?!next\b|last\b|each\b|every\b|first\b|second\b|this\b|same\b|one\b|any\b)"
+    r"\w+ ){0,2}?(?!sometime|anytime|meantime|meanwhile)(?:\w*time|break|over|recess)"
+    r"(?: (?:is )?(?:over|up|out|now|again|everybody|everyone|kids))*"
+)
+_EXCLAIMED = Expression(
+    r"what (?:an? )?(?:\w+ ){0,2}\w+|how (?!many\b|much\b|about\b|come\b|to\b)\w+(?: of you)?"
+    r"|look (?:at (?:this|that|the)(?: \w+)?|what a) (?:mess|chaos|clutter|state|jumble)"
+    r"|(?:good|oh my|my) (?:grief|goodness|lord|heavens|god|gracious)"
+)
+_PLACED_THERE = Expression(
+    r"(?:my|our) (?:\w+ )?(?P<what>\w+)"
+    r" (?:(?:(?:still|also|soon) )?(?:has|have|needs?|(?:is|are)(?: (?:going|about))?) to"
+    r" (?:go|be put|fit)|(?:is|are) (?:going|about to go)|will (?:soon )?(?:go|be put)|goes)"
+    r" (?:right )?(?:in|into|inside|on|onto)(?: (?:there|it|here))?"
+    r"(?: (?:in a (?:minute|moment|second|bit)|soon|later|now|shortly|next|afterwards|tonight))?"
+)
+
+
+_HOW_LONG = Expression(
+    r" (?:all (?:day|night|week|morning|the time)(?: long)?|every (?:day|night))"
+)
+_THERE_IS = Expression(r"there (?:is|are|was|were) (?:an?|some|so much|too much|such an?) ")
+_YONDER = Expression(r"(?: (?:in|out|over|up|down))? (?:here|there)(?= |$)")
+_NO_EXISTENCE = REFERRING | {*THING_NOUNS, *LEVELS, *SIDES, *STATES}
+"""What is there of these may be in the scene."""
+
+
+def exclaims(said: str, is_name: IsName) -> bool:
+    """Whether a clause is but an exclamation or names a time ("playtime is over")."""
+    if _TIME.fullmatch(said):
+        return said.split()[0] not in VERB_WORDS - {"tidy", "clean", "clear"}
+    found = _EXCLAIMED.fullmatch(said)
+    return bool(found) and not any(
+        is_name(word) or word in (_ASKING | VERB_WORDS) - BEFORE_NAMES for word in said.split()[1:]
+    )
+
+
+def tells_of_others(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
+    """Whether a whole clause is about something that is not in the scene, and asks for nothing.
+
+    Nobody goes on with "so" behind what is asked for in a clause without a verb ("the spare keys").
+    """
+    words = _HOW_LONG.sub("", said.replace(" 's ", "s ")).split()
+    if _THERE_IS.match(said):
+        words = _YONDER.sub("", said).split()
+        return not (any(map(is_name, words)) or (_ASKING | _NO_EXISTENCE) & {*words[2:]})
+    if any(map(is_name, words)) or _ASKING & {*words} or re.match(rf"{PEOPLE}\b", said):
+        return False
+    first = int(words[:1] != [] and words[0] in BEFORE_NAMES)
+    for at in range(first + 1, min(first + 3, len(words))):
+        subject = [word for word in words[first:at] if word not in _BEFORE_VERBS]
+        if not subject or any(word in _NO_SUBJECT for word in subject):
+            return False
+        if is_descriptive(subject[-1]):
+            continue
+        told = _may_be_verb(words[at], subject[-1]) if first else words[at] in _SEEMING
+        more = words[at + 1 :]
+        if told and not (REFERRING | _AS_WELL) & {*more}:
+            sure = words[at] in _IRREGULAR or words[at].endswith("ed")
+            return sure or (bool(more or before_so) and not _WHERE & {*more})
+    return False
+
+
+def _may_be_verb(word: str, subject: str) -> bool:
+    """Whether a word behind its subject says what that does or did."""
+    if word in _IRREGULAR:
+        return True
+    if word.endswith("ed"):
+        return len(word) > len("need") and not is_descriptive(word)
+    several = subject.endswith("s") and not subject.endswith("ss")
+    return word.endswith("s") and not word.endswith(("ss", "us", "is")) and not several
+
+
+_SOON = Expression(r" (?:next|soon|later|shortly|afterwards|tonight|in a \w+)$")
+
+
+def goes_there_later(said: str, is_name: IsName) -> bool:
+    """Whether somebody tells, behind a request, what he will put there himself ("my soup goes in
+    next").
+    """
+    return bool(_SOON.search(said)) and goes_there(said, is_name)
+
+
+def goes_there(said: str, is_name: IsName) -> bool:
+    """Whether somebody tells, before "so", what will soon be put where something is asked for ("my
+    soup has to go in there").
+    """
+    found = _PLACED_THERE.fullmatch(said)
+    return bool(found) and not any(map(is_name, said.split()))

@@ -1,0 +1,41 @@
+"""Whether somebody only wants something of a kind that tells none of the scene's things from
+others: a reason why one of these is asked for next.
+"""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.grammar.asides.remarks import (
+    ASKING,
+    PEOPLE,
+    PLACED,
+    REFERRING,
+    IsName,
+)
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    NUMBERS,
+    SIDES,
+    STATES,
+    is_descriptive,
+    word_set,
+)
+
+_WANTED = Expression(
+    rf"(?:{PEOPLE}|they|(?:the|my|our|some) (?:ladies|girls|boys)) (?:just |also |really )?"
+    r"(?:wants?|needs?|would like|fanc(?:y|ies)|(?:has |have )?ordered|ask(?:ed|s)? for) "
+    r"(?:something|an?|some) (?P<what>(?:\w+ ){0,2}?\w+?)(?: ones?| to (?:eat|drink))?"
+)
+_TELLING = (
+    REFERRING | ASKING | PLACED | {*LEVELS, *NUMBERS, *SIDES, *STATES}
+    | word_set("of for from with about between under over that which who and or out up away")
+)  # fmt: skip
+
+
+def wants_such_a_thing(said: str, is_name: IsName) -> bool:
+    """Whether this is what a clause tells ("they want a cold one", "she wants something sweet")."""
+    wanted = _WANTED.fullmatch(said)
+    words = wanted["what"].split() if wanted else []
+    return bool(words) and not any(
+        word in _TELLING or is_descriptive(word) or is_name(word) for word in words
+    )

@@ -1,0 +1,1 @@
+"""Rules for what must hold: what is forbidden, stays as it is, or is so in the end."""

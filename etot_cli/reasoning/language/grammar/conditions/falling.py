@@ -1,0 +1,80 @@
+"""Rules for what is not to happen to things on the way: that they fall, or come to harm."""
+
+from __future__ import annotations
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import either, one_of, phrase, sequence
+from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
+    AvoidClause,
+    ReorientClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
+from etot_cli.reasoning.language.words import forbidden, verbs
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
+from etot_cli.world.spatial import Nearby
+
+
+def unharmed(things: Things) -> AvoidClause:
+    """What is not to come to harm; whatever "it" may be, nothing is to."""
+    again = all(np.pronoun for np in things.phrases)
+    return AvoidClause(Avoid.HARM, None if again else things)
+
+
+def not_dropped(things: Things) -> AvoidClause | None:
+    """What is not to be let fall; "do not drop the cup on the tray" says where not."""
+    return None if any(np.modifiers for np in things.phrases) else unharmed(things)
+
+
+def _not_toppled(things: Things, said: str) -> AvoidClause | ReorientClause:
+    """What is not to fall: nothing knocks it over, and "it", which is put somewhere, stands."""
+    if not all(np.pronoun for np in things.phrases):
+        return AvoidClause(Avoid.HIT, things)
+    over = {"over", "topple"} & {*said.split()}
+    return ReorientClause(things, Nearby.UPRIGHT, meanwhile=True) if over else unharmed(things)
+
+
+def neither_of(words: tuple[str, ...]) -> Things:
+    """Both of two things."""
+    several = words if singular(words[-1]) != words[-1] else (*words[:-1], f"{words[-1]}s")
+    return Things((NounPhrase("both", several, text=f"neither {' '.join(words)}"),))
+
+
+_TOPPLE = forbidden.TOPPLE.replace(",", "|")
+NOTHING_HARMED = AvoidClause(Avoid.HARM, None)
+_DESK = "|".join(sorted(DESK_NOUNS))
+_WILL_NOT = "(does|do|will|can|may|should|must|shall) not"
+OFF_THE_DESK = f"({verbs.FALL}) (off [of]|from|over the edge of) the [edge of the] ({_DESK})"
+
+
+def _none_toppled(no: str, words: tuple[str, ...]) -> AvoidClause:
+    """What of some things none is to fall."""
+    several = no != "no"
+    things = neither_of(words) if several else Things((NounPhrase("all", words),))
+    return AvoidClause(Avoid.HIT, things, negated=True)
+
+
+UNHARMED = either(
+    sequence(THINGS, f"{_WILL_NOT} ({forbidden.TO_THE_FLOOR})", build=unharmed),
+    sequence(
+        # It may well be put into something; what falls off the desk is lost.
+        THINGS,
+        f"{_WILL_NOT} [ever] {OFF_THE_DESK}",
+        build=unharmed,
+    ),
+    sequence(THINGS, "[be] not on the (floor|ground)", build=unharmed),
+    sequence(
+        one_of({"neither": "neither [of the]", "no": "no"}),
+        WORDS,
+        f"{forbidden.TOPPLES}, (may|must|should|will|can|shall|is to|does) ({_TOPPLE})",
+        build=_none_toppled,
+    ),
+    sequence(THINGS, phrase(f"{_WILL_NOT} ({_TOPPLE})"), build=_not_toppled),
+    phrase(
+        f"nothing ({forbidden.FALLS_DOWN}), "
+        f"nothing (should|must|may|shall) ({forbidden.FALL_DOWN})",
+        NOTHING_HARMED,
+    ),
+)
+"""What is not to happen to things on the way."""

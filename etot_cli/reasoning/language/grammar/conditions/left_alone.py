@@ -1,0 +1,119 @@
+"""Rules for what stays where it is, untouched, while something else is done."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from etot_cli.reasoning.language.grammar.conditions.prohibitions import left_where_it_is
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    optional,
+    phrase,
+    sequence,
+    some,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIER
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.requests.emptying import stays_empty
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
+    AvoidClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    NounPhrase,
+    Things,
+)
+from etot_cli.reasoning.language.words import manner, verbs
+
+_EVERYTHING_ELSE = "everything else, anything else, all else, the rest [of it|of them]"
+
+
+_OTHERS = "the others [of them]"
+
+
+_THERE = "[up|down|over] (there|here)"
+
+
+_STAYS = either(
+    sequence(verbs.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
+    phrase(verbs.KEEP_ITS_PLACE),
+)
+
+
+_THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
+
+
+_THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))
+
+
+_ALL_ELSE = either(phrase(_EVERYTHING_ELSE, _THE_REST), phrase(_OTHERS, _THE_OTHERS))
+
+
+OTHERS_STILL = sequence(
+    either(
+        sequence(_ALL_ELSE, _STAYS),
+        phrase(
+            "nothing else (should|must|shall|may|can|is to) "
+            "(be (moved|touched|changed)|move|change)",
+            _THE_REST,
+        ),
+        sequence("leav(e|ing), keep[ing]", _ALL_ELSE, optional(manner.AS_IT_IS)),
+    ),
+    build=partial(AvoidClause, Avoid.MOVE),
+)
+
+
+UNTOUCHED = either(
+    sequence(_ALL_ELSE, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
+    phrase("nothing else (moved|touched|changed)", AvoidClause(Avoid.MOVE, _THE_REST)),
+    sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
+)
+"""The same without a verb ("bolts untouched")."""
+
+
+_FINE = (
+    "(is|are) [just] (fine|good|ok|okay|alright) (there|as (it is|they are)|where (it is|they are))"
+)
+
+
+_STAYS_EMPTY = either(
+    sequence(noun_phrase, verbs.LEFT_THERE, "empty"),
+    sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
+)
+
+
+KEEP_STILL = either(
+    sequence(_STAYS_EMPTY, build=stays_empty),
+    sequence(
+        optional("let"), THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)
+    ),
+    sequence("let[ting], leav(e|ing)", THINGS, "be", build=partial(AvoidClause, Avoid.MOVE)),
+    OTHERS_STILL,
+    sequence(
+        either(
+            sequence("leav(e|ing), keep[ing]", THINGS),
+            sequence(optional("let"), THINGS, verbs.LEFT_THERE),
+        ),
+        "[exactly|just|right] where (it is|they are)",
+        some(MODIFIER, least=1, most=2),
+        build=left_where_it_is,
+    ),
+    sequence(
+        # After "the cups" rather one of them that is left out.
+        either(
+            sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, {_THERE}"),
+            sequence(
+                f"leav(e|ing), keep[ing], {verbs.IGNORE}, you can leave", THINGS, optional("out")
+            ),
+        ),
+        build=lambda things: AvoidClause(Avoid.MOVE, things, as_it_is=True, far_fetched=2),
+    ),
+    sequence(
+        "keep[ing], stay[ing]",
+        "[your] (hand|hands|gripper|fingers|arm|), clear",
+        "off, away from, clear of, of",
+        THINGS,
+        build=partial(AvoidClause, Avoid.TOUCH),
+    ),
+)

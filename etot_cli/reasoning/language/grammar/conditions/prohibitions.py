@@ -1,0 +1,413 @@
+"""Rules for what must not be done."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial, reduce
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.conditions.falling import (
+    NOTHING_HARMED,
+    OFF_THE_DESK,
+    UNHARMED,
+    neither_of,
+    not_dropped,
+    unharmed,
+)
+from etot_cli.reasoning.language.grammar.conditions.instruments import (
+    LET_MEET,
+    MEETING,
+    NOT_MET,
+    WITH_IT,
+    with_it,
+)
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    one_of,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    OPTIONAL_COMMA,
+    exceptions,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
+from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.states import NONE, OPEN_OR_CLOSED, not_left
+from etot_cli.reasoning.language.grammar.requests.arrangements import HELD_MEANWHILE
+from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
+    AvoidClause,
+    Clause,
+    EnsureClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Modifier,
+    NounPhrase,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import forbidden, nouns, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def _avoid(avoid: Avoid, things: Things, where: Any = ()) -> AvoidClause:
+    return AvoidClause(avoid, things, where or ())
+
+
+def _undisturbed(things: Things) -> AvoidClause | None:
+    """What is not to be moved; "without pushing it off the desk" says where it stays."""
+    off = any(item.prep is Prep.FROM for np in things.phrases for item in np.modifiers)
+    return None if off else _avoid(Avoid.MOVE, things)
+
+
+def _left_stacked(things: Things) -> AvoidClause | None:
+    """What lies upon each other is left so by who moves none of it; "it" may be one of these."""
+    pronouns = any(np.pronoun for np in things.phrases)
+    return None if pronouns else _avoid(Avoid.MOVE, things)
+
+
+def _not_wanted(things: Things) -> AvoidClause | None:
+    """What is to be left alone; "any cups on the tray" are not to be there."""
+    places = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
+    return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
+
+
+def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
+    """What is not to be used is not to hold or bear things, some or any."""
+    return AvoidClause(Avoid.PUT, things or ANYTHING, (Destination(Toward.TO, nps),))
+
+
+def _none_disturbed(np: NounPhrase, avoid: Avoid) -> AvoidClause | None:
+    """What is done to none of some things is done to nothing of them."""
+    if np.determiner not in NONE:
+        return None
+    every = replace(np, determiner=NONE[np.determiner])
+    return AvoidClause(avoid, Things((every,)), negated=True)
+
+
+def _neither(nps: tuple[NounPhrase, ...]) -> Things | None:
+    return Things(nps) if nps[1:] else None
+
+
+def left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause | None:
+    """What stays where it is, with where that is ("leave the cup where it is on the tray")."""
+    if len(things.phrases) > 1 or any(item.prep not in (Prep.ON, Prep.IN) for item in at):
+        return None
+    np = reduce(NounPhrase.told_by, at, things.phrases[0])
+    return None if np.pronoun else _avoid(Avoid.MOVE, replace(things, phrases=(np,)))
+
+
+def _not_falling_off(nps: tuple[NounPhrase, ...], np: NounPhrase) -> Clause:
+    """What is not to fall off something stays there; what falls off the desk, wherever on that it
+    is, comes to harm.
+    """
+    if np.head in DESK_NOUNS:
+        return unharmed(Things(nps))
+    return EnsureClause((State(nps, (Destination(Toward.ON, (np,)),), kept=True),))
+
+
+_FORBIDDEN = either(
+    sequence(
+        one_of(
+            {
+                Avoid.HARM: forbidden.HARM,
+                Avoid.MOVE: f"{verbs.PICK}, {verbs.REMOVE}",
+                Avoid.OPEN: verbs.OPEN,
+                Avoid.CLOSE: verbs.CLOSE,
+            }
+        ),
+        THINGS,
+        optional(small_words.TRAILING_THEN),
+        build=_avoid,
+    ),
+    sequence(
+        either(
+            sequence(
+                one_of({Avoid.TOUCH: forbidden.TOUCH, Avoid.HIT: forbidden.HIT}),
+                THINGS,
+                build=_avoid,
+            ),
+            sequence(forbidden.DISTURB, THINGS, build=_undisturbed),
+            sequence(phrase(forbidden.UPSET, Avoid.HIT), THINGS, "off, down", build=_avoid),
+            sequence(
+                forbidden.UPSET, THINGS, "over", build=partial(AvoidClause, Avoid.HIT, over=True)
+            ),
+        ),
+        WITH_IT,
+        optional(small_words.TRAILING_THEN),
+        build=with_it,
+    ),
+    LET_MEET,
+    sequence("drop[ping], los(e|ing)", THINGS, build=not_dropped),
+    sequence("let[ting]", THINGS, f"{forbidden.TO_THE_FLOOR}, {OFF_THE_DESK}", build=unharmed),
+    sequence(
+        "drop[ping], throw[ing], knock[ing], push[ing], roll[ing]",
+        THINGS,
+        "[off the (desk|table)] [down] (on|onto|to) the (floor|ground)",
+        build=unharmed,
+    ),
+    sequence("let[ting]", "anything", forbidden.FALL_DOWN, build=lambda: NOTHING_HARMED),
+    sequence(
+        "drop[ping], spill[ing], break[ing], knock[ing] over",
+        "anything",
+        build=lambda: NOTHING_HARMED,
+    ),
+    sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
+    sequence("let[ting]", THINGS, forbidden.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
+    sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
+    sequence(
+        "leav(e|ing)",
+        THINGS,
+        silent(optional("lying, standing, sitting")),
+        DESTINATIONS,
+        build=lambda things, where: AvoidClause(Avoid.PUT, things, where, not_left=True),
+    ),
+    sequence(phrase(verbs.SHIFT, Avoid.PUT), THINGS, DIRECTED, build=_avoid),
+    sequence(f"{verbs.UNSTACK}, {verbs.DISMANTLE}", THINGS, build=_left_stacked),
+    sequence("tak(e|ing), pull[ing]", THINGS, "apart", build=_left_stacked),
+    sequence(verbs.USE, NP_LIST, optional(sequence("for", THINGS), None), build=_unused),
+    sequence(
+        one_of(
+            {Avoid.TOUCH: forbidden.TOUCH, Avoid.MOVE: forbidden.DISTURB, Avoid.HIT: forbidden.HIT}
+        ),
+        forbidden.ANYTHING_ELSE,
+        build=lambda avoid: AvoidClause(avoid, None),
+    ),
+)
+_AVOIDED = sequence("avoid, [while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH))
+AVOID = either(
+    _AVOIDED,
+    sequence(
+        # "Nothing may be put on the desk"
+        either(verbs.NOTHING_GOES, sequence(phrase(verbs.SET), "nothing")),
+        DESTINATIONS,
+        build=lambda *said: AvoidClause(Avoid.PUT, ANYTHING, said[-1], negated=True),
+    ),
+    sequence(optional(verbs.ENSURE), either(NOT_MET, UNHARMED)),
+    sequence(
+        # "Mind the apple"
+        "mind, watch out for, (be|being) (careful|gentle|cautious) with",
+        THINGS,
+        build=not_dropped,
+    ),
+    sequence("hands off, paws off", THINGS, build=partial(AvoidClause, Avoid.TOUCH)),
+    sequence(
+        THINGS,
+        "(is|are|remains|remain|stays|stay) (off limits|out of bounds|taboo|untouchable|tabu)",
+        build=partial(AvoidClause, Avoid.TOUCH),
+    ),
+    sequence(forbidden.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
+    sequence(
+        forbidden.NEED_NOT,
+        _FORBIDDEN,
+        build=lambda clause: replace(clause, negated=True, needless=True),
+    ),
+    sequence(
+        THINGS,
+        forbidden.NEED_NOT_BE,
+        build=partial(AvoidClause, Avoid.MOVE, negated=True, needless=True),
+    ),
+    sequence(
+        THINGS,
+        "(need not|(does|do) not (need|have) to) be",
+        one_of({Avoid.CLOSE: "closed, shut", Avoid.OPEN: "opened"}),
+        optional("again"),
+        optional(small_words.TRAILING_THEN),
+        build=lambda things, avoid: AvoidClause(avoid, things, negated=True, needless=True),
+    ),
+    sequence(
+        THINGS,
+        forbidden.NEED_NOT_GO,
+        DESTINATIONS,
+        build=partial(AvoidClause, Avoid.PUT, negated=True, needless=True),
+    ),
+    sequence(
+        # "The cup can go anywhere but the drawer"
+        THINGS,
+        f"{forbidden.MAY_GO} (anywhere|wherever you (like|want)) [else]",
+        OPTIONAL_COMMA,
+        nouns.EXCEPT,
+        either(DESTINATIONS, sequence(NP_LIST, build=lambda nps: (Destination(Toward.TO, nps),))),
+        build=lambda things, where: AvoidClause(Avoid.PUT, things, where, negated=True),
+    ),
+    sequence(
+        # "None of the cups may be moved"
+        noun_phrase,
+        f"({forbidden.MAY}) be",
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCHED,
+                Avoid.MOVE: forbidden.DISTURBED,
+                Avoid.HIT: forbidden.WAS_HIT,
+            }
+        ),
+        build=_none_disturbed,
+    ),
+    sequence(
+        # "Neither the cup nor the can may be moved"
+        "neither",
+        sequence(separated(noun_phrase, sequence(OPTIONAL_COMMA, "nor")), build=_neither),
+        either(
+            sequence(
+                f"({forbidden.MAY}) be [ever]",
+                one_of(
+                    {
+                        Avoid.TOUCH: forbidden.TOUCHED,
+                        Avoid.MOVE: forbidden.DISTURBED,
+                        Avoid.HIT: forbidden.WAS_HIT,
+                        Avoid.OPEN: "opened",
+                        Avoid.CLOSE: "closed, shut",
+                    }
+                ),
+            ),
+            phrase(f"({forbidden.MAY}) move", Avoid.MOVE),
+        ),
+        build=lambda things, avoid: AvoidClause(avoid, things, negated=True),
+    ),
+    sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
+    sequence(
+        # "Move neither the cup nor the can", "touch neither cup"
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCH,
+                Avoid.MOVE: verbs.SHIFT,
+                Avoid.OPEN: verbs.OPEN,
+                Avoid.CLOSE: verbs.CLOSE,
+            }
+        ),
+        either(
+            sequence("neither", separated(noun_phrase, "nor"), build=_neither),
+            sequence("neither [of the]", WORDS, build=neither_of),
+        ),
+        build=lambda avoid, things: AvoidClause(avoid, things, negated=True),
+    ),
+    sequence(
+        THINGS,
+        forbidden.NOT_TO_BE,
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCHED,
+                Avoid.MOVE: forbidden.DISTURBED,
+                Avoid.HIT: forbidden.WAS_HIT,
+                Avoid.OPEN: "opened",
+            }
+        ),
+        build=lambda things, avoid: AvoidClause(avoid, things),
+    ),
+)
+
+
+def _only_these(nps: tuple[NounPhrase, ...], avoid: Avoid) -> AvoidClause:
+    """Nothing but some things may be moved or touched."""
+    text = f"anything but {' and '.join(np.text for np in nps)}"
+    others = NounPhrase("", ("anything",), (Modifier(Prep.EXCEPT, nps),), text=text)
+    return AvoidClause(avoid, Things((others,)), negated=True)
+
+
+_MAY_BE = sequence(
+    forbidden.MAY,
+    one_of(
+        {
+            Avoid.TOUCH: f"be ({forbidden.TOUCHED_ONLY})",
+            Avoid.MOVE: f"be ({forbidden.MOVED_ONLY}), move",
+        }
+    ),
+)
+ONLY_THESE_MAY = either(
+    sequence("only", NP_LIST, _MAY_BE, build=_only_these),
+    sequence(
+        "nothing",
+        _MAY_BE,
+        OPTIONAL_COMMA,
+        nouns.EXCEPT,
+        exceptions,
+        build=lambda avoid, nps: _only_these(nps, avoid),
+    ),
+    sequence(
+        NP_LIST,
+        "(is|are) the only (thing|things|object|objects|one|ones|item|items)",
+        either(
+            sequence("that, which", _MAY_BE),
+            sequence(
+                f"[that|which] you ({forbidden.MAY})",
+                one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move, lift"}),
+            ),
+        ),
+        build=_only_these,
+    ),
+    sequence(
+        # "You may only move the pen"
+        f"you ({forbidden.MAY})",
+        either(
+            sequence("only", _MOVES_ONLY := one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move"})),
+            sequence(_MOVES_ONLY, "only, just"),
+        ),
+        NP_LIST,
+        build=lambda avoid, nps: replace(_only_these(nps, avoid), far_fetched=1),
+    ),
+)
+"""What alone may be moved or touched."""
+WITHOUT = sequence(
+    OPTIONAL_COMMA,
+    either(
+        sequence(forbidden.WITHOUT, _FORBIDDEN),
+        sequence(
+            forbidden.WITHOUT,
+            f"{forbidden.UPSET}, {forbidden.DISTURB}, {forbidden.HIT}",
+            NP_LIST,
+            "off [of], from",
+            noun_phrase,
+            build=lambda nps, np: EnsureClause(
+                (State(nps, (Destination(Toward.ON, (np,)),), kept=True),)
+            ),
+        ),
+        sequence(
+            forbidden.WITHOUT,
+            either(
+                sequence(NP_LIST, f"[ever] ({forbidden.FALLING}) [down] (off [of]|from), leaving"),
+                sequence("let[ting]", NP_LIST, f"{verbs.FALL} (off [of]|from)"),
+            ),
+            noun_phrase,
+            build=_not_falling_off,
+        ),
+        sequence(
+            forbidden.WITHOUT,
+            either(
+                sequence(THINGS, forbidden.FALLING_TO_THE_FLOOR),
+                sequence("drop[ping]", THINGS, "(on|onto|to) the (floor|ground)"),
+            ),
+            build=unharmed,
+        ),
+        sequence(forbidden.WITHOUT, MEETING),
+        sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
+        HELD_MEANWHILE,
+        sequence(
+            forbidden.WITHOUT, THINGS, forbidden.TOPPLING, build=partial(AvoidClause, Avoid.HIT)
+        ),
+        sequence(forbidden.WITHOUT, THINGS, forbidden.GETTING_TO_THE_FLOOR, build=unharmed),
+        sequence(forbidden.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
+        sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
+        _AVOIDED,
+    ),
+)
+KEEP_OUT = sequence(
+    either(
+        sequence(verbs.KEEP, THINGS),
+        sequence(optional(verbs.ENSURE), ALL_THINGS, verbs.STAY_OUT),
+    ),
+    either(phrase("out of", Toward.INSIDE), phrase("off [of]", Toward.ON)),
+    NP_LIST,
+    build=lambda things, toward, nps: AvoidClause(
+        Avoid.PUT, things, (Destination(toward, nps),), negated=True
+    ),
+)

@@ -1,0 +1,1 @@
+"""Ways of speaking that are put into plainer ones before the rules read them."""

@@ -1,0 +1,294 @@
+"""How things are to be in the end, told in another order or by other verbs, put plainly."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.small_words import NAMED
+
+_MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|ought to"
+_SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
+_BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
+_WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
+_IN_THERE = r"(?:(?:in|on|inside) (?:there|it)|there|inside)"
+_NOTHING_ELSE = (
+    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
+    rf"|end up|come|stay|remain|be left) {_IN_THERE}"
+    rf"|there (?:should|must|may|is to) be nothing else {_IN_THERE}"
+    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
+    r"(?: (?:in|on) it)?)"
+    r"(?=[.;!]|$)"
+)
+_KEPT = {"out of": "in", "off": "on"}
+_IMPERATIVE = {
+    "moving": "move", "putting": "put", "setting": "set", "placing": "place",
+    "carrying": "carry", "bringing": "bring",
+}  # fmt: skip
+_MOVED = f"(?:{'|'.join((*_IMPERATIVE, *_IMPERATIVE.values(), 'take', 'stand'))})"
+_ASKED = re.compile(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
+_ALL_OF = {"any": "none", "either": "neither"}
+_LATTER = Expression(
+    rf"({_SOME}) and ({_SOME})(?= (?:on|in|onto|into|to|both|should|must|have|need|belong|go|are)\b"
+    r"|[.,;])[^!?]*?\bthe (?:former|latter)\b[^!?]*"
+)
+"""Two things, and what is said of either by which was named first."""
+_SITS = re.compile(
+    r"\b((?:former|latter)(?: one)?) (?:sits|stands|lies|rests|is) (?=(?:in|on|inside)\b)"
+)
+
+
+def _nor(said: re.Match[str]) -> str:
+    """What is not to be so either."""
+    modal, quantity, them, be, door = said.groups()
+    if quantity and door:
+        return f" and all of {them} {modal} be {'closed' if door == 'open' else 'open'}"
+    if quantity:
+        return f" and {_ALL_OF[quantity]} of {them} {modal} {be}"
+    return f" and {them} {modal} not {be}{f' {door}' if door else ''}"
+
+
+_CONTAINER = Expression(
+    rf"(?P<what>{_SOME})(?: and|,? together with|,? along with|,? with) its "
+    rf"(?:container|vessel|receptacle), (?P<vessel>{_SOME})(?:,(?= )|(?=[.;!]|$))(?P<rest>[^!?]*)"
+)
+"""A thing and what it is to be in, which is said behind it."""
+
+
+def _with_it_inside(said: re.Match[str]) -> str:
+    """What goes somewhere with its container is in that in the end."""
+    what, vessel, rest = said["what"], said["vessel"], said["rest"]
+    if re.search(r"\bthe (?:former|latter)\b", rest):
+        return f"{what} and {vessel}{rest}"
+    what = re.sub("^both (?=the|my)", "", what)
+    rest = re.sub("^ are both ", " is ", rest)
+    rest = re.sub("^ (should|must|shall|have to|need to|belong|go) both ", r" \1 ", rest)
+    return f"{vessel} with {what} in it{rest}"
+
+
+_LOOKED_AT = Expression(
+    rf"(?P<begun>^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:look at|look over at|see|come back to"
+    rf"|get back to)|looking at) (?P<where>{_SOME}),? (?:i|we) (?:would |should )?"
+    r"(?:want|like|expect|need|wish) to (?:see|find) "
+    r"(?P<seen>[^.;!?]*?\b(?:on|in|inside|on top of)) it\b(?! \w*in\b)(?P<rest>[^.;!?]*)"
+)
+"""What somebody wants to see when he looks at something."""
+
+
+def _seen_there(said: re.Match[str]) -> str:
+    """What is to be seen on or in something is to be there."""
+    if re.search(r"\bit\b", said["rest"]):
+        return f"{said['begun']}as for {said['where']}, i want {said['seen']} it{said['rest']}"
+    return f"{said['begun']}i want {said['seen']} {said['where']}{said['rest']}"
+
+
+_AT_THE_END = Expression(
+    rf"^with (?P<what>{_SOME}) (?P<state>closed|shut|open) (?:(?:at|in) the end|when all is done|"
+    r"afterwards), (?P<rest>[^.;!?]*)"
+)
+
+
+def _so_when_done(said: re.Match[str]) -> str:
+    """How something is to be "at the end", which is said ahead of all else."""
+    what, rest = said["what"], said["rest"]
+    if len(re.findall(r"\b(?:it|its)\b", rest)) > 1:
+        return said[0]
+    rest = re.sub(r"\bit\b", what, rest)
+    return f"{rest}, and {what} should be {said['state']} in the end"
+
+
+def _named_again(said: re.Match[str]) -> str:
+    """The things themselves for "the former" and "the latter", where but one pair was named."""
+    pairs = re.findall(rf"\b{_SOME} and {NAMED}", said[0])
+    if len(pairs) > 1:
+        return said[0]
+    text = _SITS.sub(r"\1 should be ", said[0]) if _ASKED.search(said[0]) else said[0]
+    first, second = (re.sub("^(?:both|all) (?=the|my)", "", np) for np in said.groups())
+    return re.sub(
+        r"\bthe (former|latter)(?: one)?\b",
+        lambda which: first if which[1] == "former" else second,
+        text,
+    )
+
+
+def _left_there(said: re.Match[str]) -> str:
+    """What is not taken out of something is left in it, what is not taken off on it."""
+    done, _, what, away, where = said.groups()
+    return f"{done} and leave {what} {_KEPT[away]} {where}"
+
+
+def _left_while_moved(said: re.Match[str]) -> str:
+    """The same ahead of what is done with that."""
+    what, away, where, verb, place = said.groups()
+    return f"{_IMPERATIVE.get(verb, verb)} {where} {place} and leave {what} {_KEPT[away]} it"
+
+
+END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Only then should the cup be put there", "after that, and only then, should it …"
+    (
+        r"(\b(?:after|once|when|as soon as) [^.;]*?),? and only then,? "
+        rf"(?:{_MUST}) ({_SOME}|it|they) (?=(?:{_BE})\b)",
+        r"\1, \2 should ",
+    ),
+    (
+        r"\b(?:only|and) (?:then|after that|afterwards),? "
+        rf"(?:{_MUST}) ({_SOME}|it|they) (?=(?:{_BE})\b)",
+        r"then \1 should ",
+    ),
+    # "…, nor should any of them be open"
+    (
+        rf",? (?:and )?nor ({_MUST}) (?:(any|either) of )?({_SOME}|it|they|them) ({_BE})"
+        r"\b(?: (open|closed|shut)\b)?",
+        _nor,
+    ),
+    (
+        rf"\b({_MUST}), (?:in the end|ultimately|eventually|of course|please), (?=(?:{_BE})\b)",
+        r"\1 ",
+    ),
+    # "The blue one, though, should lie there"
+    (
+        r", (?:though|however|on the other hand|in turn|for (?:its|their) part),"
+        rf"(?= (?:{_MUST})\b)",
+        "",
+    ),
+    (
+        r"\b(stays?|remains?|be|left|kept|leave (?:it|them)|keep (?:it|them)) "
+        r"(?:exactly |just )?as (?:far |wide )?(?:open|closed|shut) as (it is|they are)\b",
+        r"\1 as \2",
+    ),
+    # "With the cup still on the box, untouched"
+    (
+        rf"\bwith ({_SOME}) still ([^,.;]*), (?=(?:untouched|unmoved)(?:[.,;!]|$))",
+        r"with \1 \2 ",
+    ),
+    # What is not taken out of a thing that goes somewhere comes along in it.
+    (
+        rf"\b({_MOVED} (?P<moved>{_SOME})\b [^.;]*?),? without "
+        rf"(?:taking|removing|lifting|getting) ({_SOME}) "
+        rf"(out of|off) (it|(?P=moved))(?=[.,;!]|$)",
+        _left_there,
+    ),
+    (
+        rf"\b(?:do not|never) (?:take|remove|lift|get) ({_SOME}) (out of|off) ({_SOME}) "
+        rf"(?:when|while|as) (?:you )?({_MOVED}) (?:\3|it) ([^.,;]*)",
+        _left_while_moved,
+    ),
+    # "Put the egg in the bowl; nothing else should be in there"
+    (
+        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? {_NOTHING_ELSE}",
+        r"\1",
+    ),
+    (
+        rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
+        rf"(in|on|into|onto|inside) ({_SOME})[.;,]? {_NOTHING_ELSE}",
+        lambda said: f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}",
+    ),
+    # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
+    (
+        rf"\bit is ({_SOME}) (?:that |which )?{_WISHED} (?:to (?:be|go) )?"
+        r"(?=(?:in|on|into|onto|inside|next to|beside|behind|between|in front of|to the) )",
+        r"\1 should be ",
+    ),
+    (
+        rf"(^|[.;] )(?:what|the (?:thing|one)(?: that)?) {_WISHED} (?:to (?:be|go) )?"
+        r"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is "
+        rf"({_SOME})(?=[.,;!]|$)",
+        r"\1\3 should be \2",
+    ),
+    (rf"\bit is ({_SOME}) (?:that |which )?({_WISHED})(?=[.;!]|$)", r"\2 \1"),
+    # Of two there are no more to be told.
+    (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),
+    # Which one it is not, said behind it
+    (
+        r"\b((?:an?|one|any) \w+(?: \w+)?), (?:but )?not one (that|which) "
+        r"(?:is|stands|lies|sits) ((?:in|on) [^.,;]*),?",
+        r"\1 \2 is not \3",
+    ),
+    (
+        r"\b((?:standing|lying|sitting|that is|which is) (?:in|on) [^.,;]*?), "
+        r"(?:and |but )?not one of (?:those|the ones)(?: that are)? (?=(?:in|on) )",
+        r"\1 and not ",
+    ),
+    # Places that are left open
+    (
+        r",? (?:be it|whether|no matter whether) "
+        r"(?=(?:in|on|inside|into|onto) [^.,;:]*? or (?:in|on|inside|into|onto) )",
+        " either ",
+    ),
+    (
+        rf"^({ASKED}(?:put|store|stow|tidy|clear|pack)(?: away)? "
+        r"(?:(?!in\b|on\b|into\b|onto\b|to\b|next\b)\w+,? )*?\w+),? using "
+        rf"(?=(?:either )?{_SOME}(?:, {_SOME})*,? or )",
+        r"\1 in ",
+    ),
+    (
+        rf"\bfor (?:each|every one|either|both) of ({_SOME}(?:(?:,|,? and) {_SOME})*), "
+        r"(?:please )?(?:choose|pick|select|decide on) "
+        rf"((?:either )?(?:{NAMED} )?\w+(?: \w+)? or (?:{NAMED} )?\w+(?: \w+)?|an? \w+(?: \w+)?),?"
+        r" and (?:put|place|set) (?:it|each|that one|the thing) (?:there|in it|into it|inside)\b",
+        r"put \1 in \2",
+    ),
+    # What is to be under a thing that lies on it now bears it
+    (
+        rf"\b(?:(?:i|we) (?:would )?(?:like|need|want)|put|place|get|set) ({_SOME}) "
+        rf"(?:to (?:be|go|lie) )?(?:under|underneath|beneath|below) ({_SOME}),? "
+        r"(?:rather than|instead of|and not|not) (?:lying |being )?"
+        r"(?:on(?: top)?(?: of)?|above|over)(?: (?:it|them))?(?=[.,;!]|$)",
+        r"put \2 on \1",
+    ),
+    (
+        r"\b(instead of|rather than) (?:just )?(?:lying|standing|sitting|being)"
+        rf"(?: (?:about|around))? (?=(?:in|on) {NAMED})",
+        r"\1 ",
+    ),
+    (
+        r"(^|[.;!?] )(?:please,? )?no open (\w{3,}?)s?"
+        r"(?=,? (?:please )?(?:(?:at|in) the end|afterwards|when you are (?:done|finished))\b)",
+        r"\1every \2 should be closed",
+    ),
+    (_CONTAINER, _with_it_inside),
+    (_AT_THE_END, _so_when_done),
+    (_LATTER, _named_again),
+    (_LOOKED_AT, _seen_there),
+    (
+        r"(^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:come back|get back|return|come home|look|am back"
+        r"|are back|look again)|(?:once|when) you are (?:done|finished)),? "
+        r"(?:i|we) (?:would |should )?(?:want|like|expect|need|wish) to (?:see|find|have) ",
+        r"\1i want ",
+    ),
+    (
+        rf"\b(i|we) (?:would )?(want|like|expect|wish) to find (?={_SOME} (?:on|in|inside|next to|"
+        r"beside|behind|closed|shut|open)\b)",
+        r"\1 would like to see ",
+    ),
+    # "A little tower"
+    (
+        r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
+        r"\1 a \2",
+    ),
+    (
+        rf"\b({_SOME}|it) (stays?|remains?|should stay|must stay) (where it is|put),? (?:and )?"
+        r"(?:standing |still )?upright(?=[.,;!]|$)",
+        r"\1 \2 \3, and \1 \2 upright",
+    ),
+    # "Open the drawer while the cup stays where it is"; behind "do not" it is a condition
+    (
+        r"(^|[.;!?] )((?:(?!\b(?:not|never|only|no|without|unless|if|when|until)\b)[^.;!?])*?\w),? "
+        rf"while ({_SOME}) (?=(?:stays?|remains?) [^.,;]*(?:, and \3 [^.,;]*)?(?:[.;!]|$))",
+        r"\1\2, and \3 ",
+    ),
+    (
+        rf"(?<=\w),? with ({_SOME}) ending (?:up )?(?=(?:on|in|inside|next to|beside|behind)\b)",
+        r", with \1 ",
+    ),
+    # "With the cup still on the tray" tells of no tray.
+    (
+        r"(?<=\w) with (?="
+        rf"{_SOME} (?:still|staying|remaining|left) (?:standing |lying |sitting |resting )?"
+        rf"(?:on|in|inside|there|where|untouched)\b)(?!{_SOME} still (?:in|on) it\b)",
+        ", with ",
+    ),
+)
+"""In order."""

@@ -1,0 +1,60 @@
+"""What is forbidden in words of everyday speech, put into plain ones."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.small_words import NAMED
+
+_ENDS = r"(?=[.,;:!?]| (?:and|but|while|then|at any|under any)\b|$)"
+_SPOT = (
+    r"(?:its|their|his|her) (?:\w+ )?(?:spot|spots|place|places|position|positions)"
+    r"|(?:the (?:spot|place|position) )?where (?:it is|they are)(?: now| standing| lying)?"
+)
+_IT = rf"(?:{NAMED}(?: (?!and\b|or\b|in\b|on\b|to\b|not\b)\w+){{1,4}}?|it|they|them)"
+_MUST_NOT = r"(?:must|should|may|can|shall|is|are) not(?: to)?"
+_FROM_THERE = Expression(
+    r"\b((?:not|never|without|nor) (?:[^.,;:!?]*? )?"
+    r"(?:mov(?:e|ed|ing)|shift(?:ed|ing)?|budg(?:e|ed|ing)|stir|tak(?:e|en|ing)|lift(?:ed|ing)?"
+    r"|remov(?:e|ed|ing)|displac(?:e|ed|ing))(?: [^.,;:!?]*?)?)"
+    rf" (?:away )?(?:from|off|out of) (?:{_SPOT}){_ENDS}"
+)
+"""What is not to be moved, with from where: that is where it is by now."""
+FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Don't you dare touch it", "don't even think of moving it"
+    (
+        r"\b(do not|never) (?:you )?(?:even |ever )?"
+        r"(?:dare(?: to)?|(?:think|dream) (?:of|about)) (?=\w)",
+        r"\1 ",
+    ),
+    (
+        r"\b(?:whatever you do|whatever happens|at all costs),? (?=(?:please )?(?:do not|never)\b)",
+        "",
+    ),
+    (r"\byou are not (?:allowed |supposed |permitted |meant )?to (?=\w)", "do not "),
+    # "The cup and the pot on the tray, neither in the other"
+    (
+        r",? (?:and |with )?neither (?:of (?:them|the two) )?(?:one )?"
+        r"(?:stacked |lying |standing )?"
+        r"(on(?: top of)?|in|inside) the other(?: one)?(?=[.,;!?]|$)",
+        r", not one \1 the other",
+    ),
+    (_FROM_THERE, r"\1"),
+    (rf"\b({_MUST_NOT}) (?:budge|stir|leave (?:{_SPOT})){_ENDS}", "must not be moved"),
+    (
+        rf"\b({_IT}) (?:must|should|may|shall|is|are) not(?: to)? move{_ENDS}",
+        r"\1 must not be moved",
+    ),
+    (
+        rf"\bwithout ({_IT}) (?:moving|budging|stirring|leaving (?:{_SPOT})){_ENDS}",
+        r"without moving \1",
+    ),
+    (
+        rf"\b((?:keep|leave|keeping|leaving) {_IT}) (?:in|on|at) (?:its|their) (?:\w+ )?"
+        rf"(?:spot|spots|place|places|position|positions){_ENDS}",
+        r"\1 where it is",
+    ),
+)
+"""In order (see :mod:`etot_cli.reasoning.language.grammar.paraphrasing.paraphrases`)."""

@@ -1,0 +1,148 @@
+"""Ways of announcing several things: lists with their order or number, what is sorted, towers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
+
+_SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
+_NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
+ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
+"""Before what somebody is asked for."""
+_ALL_NAMED = Expression(
+    r"(^|[.;\n]\s*)([^:.;\n]+): "
+    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
+    r" (?=(?:in|on|into|onto|to)\b)"
+)
+"""What a list before a colon names, all of it."""
+_BOARDS = {"below": "lower", "above": "upper"}
+
+
+_ONE = r"(?:the|my|our) (?:(?!and\b|or\b|in\b|on\b|to\b)\w+ ){0,3}?\w+"
+_ITEM = r"(?:(?:the|my|our) )?(?!the\b|my\b|our\b|each\b)\w+(?: (?!and\b|or\b)\w+){0,2}?"
+
+
+def _named(item: str) -> str:
+    """One of several things that are listed, with the article that lists leave out."""
+    return item if re.match(r"(?:the|my|our)\b", item) else f"the {item}"
+
+
+def _one_by_one(said: re.Match[str]) -> str:
+    """A list whose order was announced ("these in this order: the cup, the plate")."""
+    asked, where, items = said.groups()
+    parts = re.split(rf"(?:, | and |, and )(?:then )?(?={NAMED}|\w+$|\w+,)", items)
+    return f"{asked} these{where}: {', then '.join(parts)}"
+
+
+LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        r"\b(put|place|set|stack) (?:these|them|the following|these things|the following things)"
+        r"( (?:on|in|into|onto) [^:.;]*?),? in (?:this|the following) order: ([^.;]*)",
+        _one_by_one,
+    ),
+    # "The cup, then the pen: that is the order in which they go into the box"
+    (
+        r"(^|[.;!?] )((?:first,? )?[^.;:!?]*?\b(?:then|finally|lastly)\b[^.;:!?]*?)(?:[:,;.] | - )"
+        r"(?:that|this) is (?:the|my|our) (?:order|sequence)"
+        r"(?: in which| (?:i|we) want)? "
+        r"(?:they|these|those|them|all of (?:them|these))(?: all)? (?=\w)",
+        r"\1\2 ",
+    ),
+    (
+        r"(^|[.;!?] )((?:first,? )?[^.;:!?]*?\b(?:then|finally|lastly)\b[^.;:!?]*?)(?:[:,;.] | - )"
+        r"(?:that|this) is (?:the|my|our) (?:order|sequence) in which (?:you (?:should|must|have to"
+        r"|need to|can|are to)|to|i (?:want|would like) you to) "
+        r"(?:put|place|set|move|store|stow|pack|load|stack|insert|drop) "
+        r"(?:them|these|those)(?: all)? "
+        r"(?=(?:in|on|into|onto|to)\b)",
+        r"\1\2 go ",
+    ),
+    # "One thing after another" is in turn
+    (
+        r"(?:,? by (?:picking|taking|moving|carrying|bringing)(?: out| over| up| off)?)? "
+        r"one (?!by\b|after\b)(\w+) (?:after|by) (?:another|the other|one)\b(?! \1)",
+        " one after another",
+    ),
+    (r"\bone (\w+) (?:after|by) (?:another|the other|one) \1\b", "one after another"),
+    (r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b", r"build a \1"),
+    (
+        r"\bmake (?:the|a second|another|a new) (tower|stack) (?=(?:out of|with|from|of|on)\b)",
+        r"make a \1 ",
+    ),
+    (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
+    (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
+    (
+        r"\bthe (top|uppermost|highest) (\w+) off (?=(?:the|my) (?:tower|stack|pile)\b)",
+        r"the \1 \2 of ",
+    ),
+    # What is stacked goes on what was put down just before, not beside it.
+    (
+        r"\b((?:put|place|set|lay) ((?:the|my) [^.,;]*?) (?:on|onto) (?:the|my) [^.,;]*?[,;.]? "
+        r"(?:and |then )*(?:stack|pile) (?:the|my) [^.,;]*? (?:on|onto))(?: top of)? it\b",
+        r"\1 \2",
+    ),
+    # "All three, the cup, the mug and the plate, in the box"
+    (
+        rf"\b({_SO_MANY})(?: of them)?(?:,| -|:) ({_NAMES}(?:, {_NAMES})*,? and {_NAMES})"
+        rf"(?:(?:,| -) (?={WHERE})|(?=[.;!]|$))",
+        r"\1 things, \2, ",
+    ),
+    # "I want both on the tray: the cup, and in it the pen"
+    (
+        rf"\b(?:{_SO_MANY}|two things|the following)(?: of them| things)? "
+        rf"({WHERE} {NAMED} [^,.;:]*)[:,] ({NAMED} [^,.;:]*?),? and,? "
+        rf"((?:in|on) it),? ({NAMED} [^,.;:]*)(?=[.;!]|$)",
+        r"\2 \1, and \3 \4",
+    ),
+    (
+        rf"\b(both|two things)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
+        rf"({NAMED} (?:(?!\b{WHERE}|\bbehind\b|\bbeside\b)[^,.;:])*? and "
+        rf"{NAMED} (?:(?!\b{WHERE}|\bbehind\b|\bbeside\b)[^,.;:])*)(?=[.;!]|$)",
+        r"\3 \2",
+    ),
+    (
+        rf"\b(?:both|two things)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
+        rf"({NAMED} [^,.;:]*? with {NAMED} [^,.;:]* (?:in|on) it)(?=[.;!]|$)",
+        r"\2 \1",
+    ),
+    # "Into one of these: bowl, box"
+    (
+        rf"\b(in|into|on|onto|inside) (?:either )?(?:one|any|either) of (?:the following|these)"
+        rf"(?: \w+)?: (?:either )?({_ITEM})(?:,| or|, or) ({_ITEM})(?=[.;!]|$)",
+        lambda said: f"{said[1]} {_named(said[2])} or {_named(said[3])}",
+    ),
+    (
+        rf"\beach of (?:these|the following)(?: (?:two|three))?(?: \w+)?[,:] "
+        rf"({_ITEM}) and ({_ITEM}), (?={WHERE})",
+        lambda said: f"each of {_named(said[1])} and {_named(said[2])} ",
+    ),
+    (
+        rf"^({ASKED}(?:put|place|move|set|store|stow) )each of (?:these|the following)"
+        rf"(?: (?:two|three))?(?: \w+)? ({WHERE} {_ONE}): ({_ITEM})(?:,| and) ({_ITEM})(?=[.;!]|$)",
+        lambda said: f"{said[1]}{_named(said[3])} and {_named(said[4])} {said[2]}",
+    ),
+    # "For each of the cup and the pen: in the box or in the bin"
+    (
+        rf"(^|[.;!?] )for (?:(?:each|both|either|all) of ({_ITEM} and {_ITEM})"
+        rf"|({_ONE}(?: and {_ONE})*))[:,] (?=(?:either )?(?:in|into|inside|on|onto) )",
+        lambda said: f"{said[1]}{said[2] or said[3]}: ",
+    ),
+    (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
+    (
+        rf"^({ASKED}(?:sort|arrange|organi[sz]e) (?:the|my) [^.,;:]*?) by (?=\w+ing\b)",
+        r"\1: ",
+    ),
+    (
+        rf"(\beach (?:shelf|board|level)\b[^.;]*?)({NAMED} [^.,;:]*?) (below|above),? (?:and )?"
+        rf"({NAMED} [^.,;:]*?) (?!\3)(below|above)\b",
+        lambda said: (
+            f"{said[1]}{said[2]} on the {_BOARDS[said[3]]} one, "
+            f"{said[4]} on the {_BOARDS[said[5]]} one"
+        ),
+    ),
+)
+"""What they are put into, in order (see ``paraphrases``)."""

@@ -1,0 +1,127 @@
+"""An instruction's text as the grammar reads it: lower case, one spelling, one way of speaking."""
+
+from __future__ import annotations
+
+import re
+
+from etot_cli.reasoning.language.grammar.paraphrasing.paraphrases import in_plain_words
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import VERB_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    NUMBERS,
+    SIDES,
+    SIZES,
+    is_descriptive,
+    word_set,
+)
+
+_NEW_LINE = Expression(
+    rf"(?<![,\n])(?<!\band)(?<!\bthen)(?<!\bto)\s*\n\s*(?=[A-Z]|(?:{'|'.join(VERB_WORDS)})\b)"
+)
+"""Where a new line is a new sentence; elsewhere it is but wrapped."""
+_LIST_HEAD = (
+    r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
+    r"(?: the following| these)? ?(?:steps)?:\s*)?"
+)
+_UH = re.compile(
+    r"(?P<before>\w+)(?P<comma>,?)\s+(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+(?P<after>\w+)",
+    re.IGNORECASE,
+)
+_GOES_ON = word_set("in on into onto to and from inside next then")
+_RIGHT = Expression(
+    r"(^|[.!?;\n]\s*)right(?: then| so)?,\s*"
+    rf"(?=(?:{'|'.join(VERB_WORDS)}|please|can|could|would|will|let|now|i|you|we)\b"
+    r"|(?!.*\bleft,)(?:(?:the|my|both|all|your|every) )?\w+ (?:\w+ )?"
+    r"(?:in|on|into|onto|goes|go|belongs?|has to|needs to|should|must)\b)"
+)
+_WELL = re.compile(
+    r"(^|[.!?;\n]\s*)(?:"
+    r"(?:yes|yeah|er|erm|uh|ah|hm+|anyway|next up)(?:,\s*| )(?=[a-z])"
+    rf"|step (?:\d{{1,2}}|{'|'.join(NUMBERS)})\s*[:.)]\s*)"
+)
+"""What begins a sentence and says nothing, such as the number of a step alone."""
+_BRACKETED = re.compile(r"\b([a-z]{2,}) \(([a-z]+)\)")
+_BULLETS = "-*\N{BULLET}\N{EN DASH}"
+_QUOTES = re.compile('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')
+_ITEMS = re.compile(r"[.)]\s|\bstep\b")
+"""Without such signs nothing is listed by numbers or letters."""
+_ARTICLE_LEFT_OUT = Expression(
+    r"\b(?:(out of) (?=way\b)|((?<!start )(?<!starting )(?:at|by)) (?=end\b)|"
+    r"(on) (?=(?:left|right)(?:$|[,.:;!?\n]"
+    r"| (?:side|hand|half|end|edge|of|and|in|into|to|onto)\b))|"
+    r"(at) (?=(?:front|back|rear|left|right|top|bottom)(?:$|[,.:;!?\n]| (?:of|and|in|into)\b))|"
+    r"(in) (?=(?:middle|cent(?:re|er))(?:$|[,.:;!?\n]| (?:of|and|in|into)\b)))"
+)
+"""Fixed phrases as they are typed in haste ("out of way", "at end", "on right")."""
+_COUNTED_OFF = re.compile(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
+"""The number of a step, in words ("One, open the drawer. Two, …")."""
+
+
+def normalized(text: str) -> str:
+    """Lower case, plain quotes, one space between words, clitics apart."""
+    text = _UH.sub(_without_uh, text)
+    text = _listed(_NEW_LINE.sub("\n ", text).casefold().strip())
+    text = _WELL.sub(r"\1", _RIGHT.sub(r"\1", text))
+    text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
+    text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
+    text = _ARTICLE_LEFT_OUT.sub(lambda said: f"{said[0]}the ", in_plain_words(text))
+    text = _BRACKETED.sub(_qualified, text)
+    text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[()\[\]]", " , ", text)
+    text = text.replace(":", " : ")
+    text = re.sub(r"(?<=\d),(?=\d)", ".", text)
+    return _counted(re.sub(r"[^\S\n]+", " ", text).strip())
+
+
+def _without_uh(found: re.Match[str]) -> str:
+    """Words without what fills a gap between them, where nothing may be put right by it (as in "the
+    apple, er, banana").
+    """
+    before, after = found["before"].casefold(), found["after"].casefold()
+    waits = before in ("the", "in", "on", "to") or after in _GOES_ON
+    told = is_descriptive(before) and is_descriptive(after)
+    return (
+        f"{found['before']} {found['after']}" if waits or not (found["comma"] or told) else found[0]
+    )
+
+
+def _counted(text: str) -> str:
+    """With numbers for "the biggest …, the next biggest …" of one sort of things."""
+    for size in re.findall(r"\bnext (\w+est)\b", text):
+        first, *more = text.split(f" next {size}")
+        if size in SIZES and len(re.findall(rf"\b{size}\b", text)) == len(more) + 1 < 5 + 1:
+            numbered = zip(("second", "third", "fourth", "fifth"), more, strict=False)
+            text = first + "".join(f" {number} {size}{rest}" for number, rest in numbered)
+    return text
+
+
+def _qualified(found: re.Match[str]) -> str:
+    """A word in brackets behind a noun as what tells which it is ("the cup (red)")."""
+    noun, word = found.groups()
+    if word in LEVELS:
+        return f"{word} {noun}"
+    if word in SIDES:
+        return f"{noun} {'on' if word in ('left', 'right') else 'at'} the {word}"
+    return f"{noun} that is {word}" if is_descriptive(word) else found[0]
+
+
+def _listed(text: str) -> str:
+    """A list in one row ("1. open it 2. fill it", "step 1: …", "* …") as lines."""
+    if bullet := re.match(rf"{_LIST_HEAD}([{_BULLETS}]\s)", text):
+        return re.sub(rf"(^|[\s,;.]){re.escape(bullet[1])}", r"\1\n ", text[bullet.start(1) :])
+    numbers = [f"(?:{number}|{name})" for name, number in NUMBERS.items()]
+    text = _COUNTED_OFF.sub(lambda said: f"{said[1]}{NUMBERS[said[2]]}. ", text)
+    for labels in (numbers, "abcdefgh") if _ITEMS.search(text) else ():
+        items: list[str] = []
+        rest = text
+        for label in labels:
+            mark = rf"(?:\(?{label}[.)]|step {label}\b[.):,]?(?: [{_BULLETS}])?)\s+(?=[a-z])"
+            begun = r"(?:^|[.:;,\n]\s*(?:and |then )*)" if items else _LIST_HEAD
+            found = re.search(f"{begun}{mark}", rest)
+            found = found or (re.search(rf"\s{mark}", rest) if items else None)
+            if found is None:
+                break
+            items, rest = [*items, rest[: found.start()]], rest[found.end() :]
+        if len(items) > 1:
+            return "\n ".join((*items[1:], rest))
+    return text

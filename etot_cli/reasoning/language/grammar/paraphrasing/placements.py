@@ -1,0 +1,228 @@
+"""Ways of saying what goes where in other words than those of putting, put into plain ones."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
+from etot_cli.reasoning.language.grammar.paraphrasing.turns_of_phrase import TURNS_OF_PHRASE
+from etot_cli.reasoning.language.words.categories import CATEGORIES
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.reasoning.language.words.verbs import PAST
+from etot_cli.world.colors import BASIC_COLORS
+
+_COLOR = "|".join(BASIC_COLORS)
+_FINE = r"(?:is|would be|will be) (?:fine|ok|okay|good|all right|alright)"
+_OF_TWO = r"one of (?:the two|them|these|those)"
+_NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
+_LIE = r"(?:(?:be (?:put |placed |moved )?|stay|remain|go|end up|stand|lie) ?)"
+_THERE = r"(?:(?:in|on|inside) it|inside|there|(?:in|on|inside) (?!it\b|them\b)\w[^.,;:]*?)"
+_ONCE_DONE = Expression(
+    rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
+)
+"""All that is told of what was done, as under a picture."""
+
+
+def _to_do(told: re.Match[str]) -> str:
+    """What is told as done for what is to be done ("moved the cup to the left of the plate")."""
+    done = re.sub(
+        rf"\b(and(?: then)?) ({'|'.join(PAST)})\b",
+        lambda said: f"{said[1]} {PAST[said[2]]}",
+        told[2],
+    )
+    return f"{PAST[told[1]]} {done}"
+
+
+PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    (_ONCE_DONE, _to_do),
+    (
+        rf"(^|[.;:,] |\b(?:and|but) )((?:the|my) (?:\w+ ){{0,2}}?\w+|it|\w+) "
+        r"(?:can|may|might|could|must|should|has to|have to) "
+        rf"{_LIE}(?:({_THERE})|in(?: there)?) or (?:{_LIE})?"
+        r"(?=(?:in|on|inside|into|onto) (?!it\b|them\b)\w)",
+        lambda said: f"{said[1]}{said[2]} should be {said[3] or 'inside'} or ",
+    ),
+    # Who may leave it open need not close it
+    (
+        r"\b(?:you (?:can|may|could)|it (?:is|would be) (?:fine|ok|okay|all right) (?:to|if you))"
+        rf" (?:just |also )?(?:leave|keep) ({NAMED} [^.,;]*?|it|them) (?=(?:open|closed|shut)\b)",
+        r"\1 may stay ",
+    ),
+    (r"\b(?:can|may|could) be (?:left|kept) (?=(?:open|closed|shut)\b)", "may stay "),
+    # Who is left out, told behind what is done with the others
+    (
+        rf",? (?:with )?({NAMED} (?:(?!and\b|or\b)\w+ ){{1,3}}?)"
+        r"(?:excepted|excluded|not included|being the exception)(?=[.,;!]|$)",
+        r", except \1",
+    ),
+    # Which of them "the two others" are
+    (
+        rf"\bthe ({'|'.join(NUMBERS)}|\d) others(?= (?:in|on|into|onto|to|go|goes|next|out|off|back"
+        r"|down|are|should|must|stay|belong|where|behind|beside|there|inside)\b|[.,;!]|$)",
+        r"the other \1",
+    ),
+    (
+        r",? whether (?:\w+ )?or not,? "
+        r"(?=(?:is|are|goes?|should|must|belongs?|in|on|into|onto)\b)",
+        " ",
+    ),
+    (
+        r"((?:behind|beside|next to|in front of|(?:left|right) of) [^.,;]*?),? (?:and )?"
+        r"as (close|near) as (?=(?:you can|it gets|possible)\b)",
+        r"\1, as \2 to it as ",
+    ),
+    # "So that they all stand upright"
+    (
+        r"\b(so(?: that)?|such that|in such a way that) "
+        r"(?:(?:all|both|each) of them|they all|they both|all|both) "
+        r"(are |stand |lie |fit )?(?=(?:standing |lying )?(?:upright|flat|standing|lying)\b)",
+        r"\1 they \2",
+    ),
+    (
+        r"\b((?:so|that) they (?:are|stand|lie)) (?:all|both|each) "
+        r"(?=(?:standing |lying )?(?:upright|flat|standing|lying)\b)",
+        r"\1 ",
+    ),
+    (
+        r"\bas (close|near)((?: to)? [^.,;]*?)? as (?:you can|it gets|it goes|can be)\b",
+        r"as \1\2 as possible",
+    ),
+    # "Stack the books, black over blue"
+    (
+        rf"(\b(?:stack|pile|tower|build)\b[^.;]*?[,:] (?:with )?)({_COLOR}) (?:over|above) "
+        rf"({_COLOR})(?=[.,;]| and\b| once\b| after\b|$)",
+        r"\1\2 on \3",
+    ),
+    (
+        r"\b(to|on|at|in) the (?:immediate|direct) "
+        r"(?=(?:left|right|front|back|rear|left (?:hand )?side|right (?:hand )?side) of\b)",
+        r"immediately \1 the ",
+    ),
+    # As many things are different ones anyway
+    (
+        rf"\b((?:put|place|move|bring|take|pick up|get|grab|fetch|set) (?:{'|'.join(NUMBERS)}) )"
+        r"(?:different|distinct|arbitrary|random) (?=(?!colou?r|kind|sort)\w+s\b)",
+        r"\1",
+    ),
+    # Everything that can be eaten
+    (
+        r"\b(?:everything|anything|whatever)(?: (?:that|which))?(?: is)? (?:edible|eatable)\b",
+        "all the food",
+    ),
+    (r"\b(all|every|each)(?: (?:of )?the)? edible (?:things?|items?|objects?)\b", r"\1 food"),
+    # Two headlines of one request ("toy out. then close the drawer")
+    (
+        r"(^|[.;!]\s+)((?:the |my )?(?:\w+ )?\w+ out)[.;!]\s+"
+        r"(?=(?:and |then |next |after that )|(?:\w+ ){1,3}(?:closed|shut|open)(?=[.;!]|$))",
+        r"\1\2, ",
+    ),
+    (r"\bone (\w+|\w+ \w+) only(?=[.,;!?]|$)", r"only one \1"),
+    (r"\bno longer (?=(?:in|on|inside) )", "not "),
+    (
+        r"\bwherever you (?:like|want),? (?:either )?(?:in )?(?:the )?(\w+(?: \w+)?)"
+        r" or (?:in )?(?:the )?(\w+(?: \w+)?)(?=[,.;]|$)",
+        r"in the \1 or the \2",
+    ),
+    # What a set of things "needs on the tray" is needed there by whoever asks for it.
+    (
+        r"(^|[.;!] )(?:this|the|each|our|my) (?:kit|set|assembly|order|customer|guest|recipe) "
+        rf"needs (?={NAMED}[^.;]* (?:in|on)\b)",
+        r"\1we need ",
+    ),
+    (
+        rf"(^|[.;!] )(?:and )?one (?:more|last) (?:thing|item) for ({NAMED} [^.,:;]*): "
+        rf"(?={NAMED}|a\b|an\b)([^.:;]*)",
+        r"\1bring \3 to \2",
+    ),
+    (
+        rf"(^|[.;!] )({NAMED} [^.,:;]*?) should (?:trade|swap|switch|change|exchange) places: ",
+        r"\1swap \2: ",
+    ),
+    # "So red is in the cup and green on the tray"
+    (
+        rf"\b(so(?: that)?|and) ({_COLOR}) (?=(?:is|goes|ends up) (?:in|on|next|to)\b)",
+        r"\1 the \2 one ",
+    ),
+    # Either of two
+    (
+        r"\bone (?:(of the (?:two |2 )?)(\w{3,}s)|(\w{3,})) or (?:the )?other(?: one)?"
+        r"(?=[.,;!?]|$| (?:and|then|with|please)\b)",
+        lambda said: f"either {said[1] or ''}{said[2] or said[3]}",
+    ),
+    (
+        r"\bone or (?:the )?other (of the (?:two |2 )?\w{3,}s|\w{3,})"
+        r"(?=[.,;!?]|$| (?:and|then|with|please)\b)",
+        r"either \1",
+    ),
+    # Of two things that are named there "one" is either, "the other one" the other.
+    (
+        rf"\b{_OF_TWO}(?:,| -)? ?\(?({_NOUNS}) or ({_NOUNS})(?:\)|, |(?= (?:should|goes|has)\b))",
+        r"either \1 or \2 ",
+    ),
+    (
+        r"\b((?:one|an?) (?:\w+ )??\w+), (?:no matter|it does not matter) which(?: one)?, "
+        r"(?=(?:in|into|on|onto|next to|beside|behind) )",
+        r"\1 ",
+    ),
+    # Of levels "on top" is the upper one.
+    (
+        r"\b(on each (?:shelf|board|level)(?: of [^.,;:]*)?)[:,] "
+        r"(the (?:\w+ )?\w+) on (?:the )?top(?:,| and|, and) "
+        r"(the (?:\w+ )?\w+) (?:below|underneath|(?:at|on) the bottom)(?=[.;!?]|$)",
+        r"\1: \2 on the upper and \3 on the lower",
+    ),
+    # What has room in something, where it is put there
+    (
+        rf"(^|[.;!] )({NAMED} [^.,:;]*?) (?:will |would |should |can )?fits? "
+        rf"(in|into|inside|on|onto) ({NAMED} [^.,:;]*?)[.,;](?: so)?(?: please)? "
+        r"(put|place|set|drop) it (?:in |inside |on )?(?:there|it)(?=[.,;!?]|$)",
+        r"\1\5 \2 \3 \4",
+    ),
+    (rf", (?=(?:anywhere|somewhere) [^.,:;]* {_FINE}[.!]?$)", ". "),
+    (r"\bwith the (\w+s) still in it\b", r"with the \1 that are in it in it"),
+    # Of several of which any will do "one" is what is spoken of.
+    (
+        r"\b((?:either|any)(?: one)? of the [^.,;]*? (?:will do|would do|works|"
+        rf"{_FINE})[.,;] (?:so |just |please )*(?:put|place|take|pick up|bring|drop)) one\b"
+        r"(?! of\b)",
+        r"\1 it",
+    ),
+    # The rest of some things, of which one is where they go
+    (
+        r"\b(?:the rest of the|the (?:other|remaining)) (\w+s) "
+        rf"((?:in|into|on|onto) {NAMED} \w+(?: \w+)?) with the (\w+) one\b(?! (?:in|on)\b)",
+        r"all the \1 except the \3 one \2 with the \3 one in it",
+    ),
+    (
+        rf"\b(?:the|these|those) ({'|'.join(NUMBERS)}) (?:{'|'.join(CATEGORIES)})s?,? "
+        rf"(?=((?:the|my) [\w ]+?)(?:, (?:the|my) [\w ]+?)*,? and (?:the|my) [\w ]+,)",
+        r"all \1 things, ",
+    ),
+    (r"\b((?:after|once|when) the (?:\w+ )?\w+s are) all (?=(?:in|on)\b)", r"\1 "),
+    (rf"^({ASKED})(just|only) ({NAMED} [^.,:;]*? (?:in|into|on|onto) {NAMED} [^.,:;]*?),? "
+     r"(?:and )?nothing else\b", r"\1put just \3, nothing else"),
+    (r"\bwill have to (?=(?:go|be)\b)", "must "),
+    (
+        r"\bthere (?:is|should be|must be) neither an? (\w+(?: \w+)?) nor an? (\w+(?: \w+)?) "
+        rf"(?=(?:in|on) {NAMED})",
+        r"neither the \1 nor the \2 should be left ",
+    ),
+    # What a pronoun means, said behind it
+    (
+        r"\b(?:it|them)((?: (?!it\b|them\b)[^.,; ]+)*), ((?:the|my) (?:\w+ ){0,2}?\w+),? i mean"
+        r"(?=[.,;!?]|$)",
+        r"\2\1",
+    ),
+    (
+        r"\b(neither (?:of the )?(\w+?)s? should (?:have|hold|contain) [^.;]*[.,;] [^.;]*? "
+        r"(?:in|into|on)) one of them\b",
+        r"\1 one of the \2s",
+    ),
+    (rf"\bneither (?:of the )?(\w+?)s? should (?:have|hold|contain) ({NAMED} [^.,:;]*?)"
+     r"(?: in (?:it|them))?(?=[.,;!?]|$| and\b)", r"\2 should not be in either \1"),
+    *TURNS_OF_PHRASE,
+)  # fmt: skip
+"""In order."""

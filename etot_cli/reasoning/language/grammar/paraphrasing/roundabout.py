@@ -1,0 +1,113 @@
+"""Roundabout ways of saying which things and which places are meant, put plainly."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
+from etot_cli.reasoning.language.words.categories import CATEGORIES
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.lexicon import LEVELS, SIZES, is_descriptive
+from etot_cli.reasoning.language.words.small_words import NAMED
+
+_CATEGORY = "|".join(CATEGORIES)
+_COMPARED = "|".join(word for word in SIZES if word.endswith(("er", "est")))
+_NOUN = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
+_END = r"(?=[.,;!?]| and\b| then\b|$)"
+_YOU = "(?:you|the robot|yourself)"
+_FREE = (
+    r"where (?:nothing else (?:is|stands|lies)(?: (?:yet|already))?|there is nothing(?: else)?"
+    r"|there is (?:still )?(?:room|space)|it is (?:free|empty))"
+)
+
+
+def _of_one_sort(said: re.Match[str]) -> str:
+    """Neither of two things of which but the second has its noun ("neither the blue nor the …")."""
+    first, word, second, other, noun = said.groups()
+    told = all(is_descriptive(item) or item in LEVELS or item in SIZES for item in (word, other))
+    return f"neither {first} {noun} nor {second} {noun}" if told else said[0]
+
+
+ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "There is fruit in the bowl; the bigger piece …"
+    (rf"\b(the (?:{_COMPARED}) )(?:piece|item|article) of (?=(?:{_CATEGORY})\b)", r"\1"),
+    (
+        rf"\b((?P<sort>{_CATEGORY})\b[^.;]*[.;] [^.;]*?\bthe (?:{_COMPARED}) )(?:piece|one)\b"
+        r"(?! of\b)",
+        lambda said: f"{said[1]}{said['sort']}",
+    ),
+    # "Blocks of every colour but red"
+    (
+        r"\b(?:(?:all|the|all the) )?(\w+s) (?:of|in) (?:every|any|all|each) colou?rs? "
+        r"(?:but|except(?: for)?|other than|apart from|save) (\w+)\b",
+        r"all the \1 except the \2 ones",
+    ),
+    # "No vial other than the red one is allowed there, so put that one there"
+    (
+        r"(^|[.;] )only (the|my) (\w+) (\w+) (?:is|are) "
+        r"(?=(?:allowed|permitted|welcome) (?:in|on)\b)",
+        r"\1no \4 other than \2 \3 one is ",
+    ),
+    (
+        r"\b(no (\w+) (?:other than|but|except(?: for)?) (the \w+) one (?:is|may be) [^.,;]*, "
+        r"so (?:please )?(?:put|place|set|stand)) (?:that one|that|it) (?=there|in\b|on\b)",
+        r"\1 \3 \2 ",
+    ),
+    # "Neither of the cups on the tray may be moved; the third goes …"
+    (
+        r"\b((?:neither|both) of (?:the|my) [^.;]*[.;,] (?:but |and )?)the third(?: one)?\b"
+        r"(?! (?:cup )?(?:from|of)\b)"
+        r"(?= (?:is|goes|should|must|may|can|has|belongs|one)\b)",
+        r"\1the other",
+    ),
+    # "Empty the beaker of its rod"
+    (rf"\b((?:empty|clear|free|rid|relieve) {_NOUN} of) its (?=\w)", r"\1 the "),
+    # "Staples are kept in the top drawer, so open that one"
+    (
+        rf"(^|[.;] )(?:(?:the|my|our) )?\w+(?: \w+)? (?:is|are) (?:usually |always |normally )?"
+        rf"(?:kept|stored) in ({_NOUN}),? so,? ((?:please |just )*(?:open|close|shut)) "
+        rf"(?:that one|that|it|this one){_END}",
+        r"\1\3 \2",
+    ),
+    # "To the chest's top", "in the desk's far right corner"
+    (rf"\b(on|onto|to) ({_NOUN}) ?'s top(?: surface)?{_END}", r"\1 the top of \2"),
+    (
+        rf"\b(the|my) ({TABLE}) ?'s "
+        r"((?:(?:far|near|front|back|rear|left|right|upper|lower|hand) ?)+"
+        r"(?:corner|edge|side|end|half))\b",
+        r"the \3 of \1 \2",
+    ),
+    (
+        r"\bon(to)? (?=the (?:(?:far|near|front|back|rear|left|right) )*corner\b)",
+        lambda said: "to " if said[1] else "at ",
+    ),
+    (r"\bneither (the (\w+)) nor (the (\w+)) (\w+)\b", _of_one_sort),
+    # "Out of the cup and onto the left side of the table"
+    (
+        rf"(\b(?:out of|off|from) (?:{NAMED}) (?:\w+ ){{0,3}}?\w+),? and (?:then )?"
+        r"(?=(?:onto|into|to|on|in|at) the (?:(?:far|near|front|back|rear|left|right) )+"
+        r"(?:corner|side|half|edge|end|part)\b)",
+        r"\1 ",
+    ),
+    # "In front of the cup, on the side facing the robot"
+    (
+        rf"\b(in front of {_NOUN}),? (?:on|at) the side (?:that is |that )?"
+        rf"(?:facing|faces|nearest to|closest to|toward|towards|near) {_YOU}{_END}",
+        r"\1",
+    ),
+    (
+        rf"\b(behind {_NOUN}),? (?:on|at) the side (?:that is |that )?"
+        rf"(?:facing|faces|pointing) away from {_YOU}{_END}",
+        r"\1",
+    ),
+    (
+        rf"\b(?:on|at) the side of ({_NOUN}) (?:that is |that )?"
+        rf"(?:facing|faces|nearest to|closest to) {_YOU}{_END}",
+        r"in front of \1",
+    ),
+    # Whatever is put down goes where there is room.
+    (rf",? {_FREE},? (?=(?:on|at|in|next to|beside|near) {NAMED})", " "),
+    (rf"(\b(?:on|onto) (?:the|my) (?:{TABLE})),? {_FREE}{_END}", r"\1"),
+)
+"""In order."""

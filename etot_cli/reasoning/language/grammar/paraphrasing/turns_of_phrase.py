@@ -1,0 +1,336 @@
+"""Ways of speaking that say no more than plain ones, and what may stay as it is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.grammar.asides.remarks import PEOPLE
+from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.world.colors import BASIC_COLORS
+
+_COLOR = "|".join(BASIC_COLORS)
+_END = r"(?=[.,;!?]|$)"
+_FINE = r"(?:fine|ok|okay|all right|alright|no problem)"
+_KEPT = r"(?:(?:can |to )?(?:stays?|remains?|is|are|be)(?: (?:left|kept))?)"
+_LEFT = r"(?:hanging|standing|sitting|left|still|just)"
+_WELL = r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"
+_SO_LONG = (
+    r"(?:for )?(?:long enough|(?:too|so|very) long|ages|hours|days|weeks"
+    r"|quite (?:some|a) (?:time|while))"
+)
+_AFTERWARDS = (
+    r"(?:afterwards|after that|(?:at|in) the end|(?:when|once|after) you are (?:done|finished)"
+    r"|(?:when|once) you have finished)"
+)
+_ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
+_IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
+_TO_GO = (
+    rf"{NAMED} (?:\w+ ){{1,3}}?"
+    r"(?:has to|have to|needs? to|must|should|belongs?|goes?|go|wants? to)\b"
+)
+_STAYS = {"it": "it stays", "them": "they stay"}
+
+TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        r"\b(i|we) (need|want|would like) (?:easy |free |quick )?access to "
+        rf"(?:the (?:inside|interior) of )?(?={NAMED})",
+        r"\1 \2 to get into ",
+    ),
+    (
+        rf"\b((?:close|shut) {NAMED} \w+(?: \w+)??) after (it|them){_END}",
+        r"\1 behind \2",
+    ),
+    (rf"(?<=[.;,] )th(?:at|is) one (?=is (?:far |much |way )?too \w+{_END})", "it "),
+    (r"\b(?:gripped|grasped|held) (?:by |in )?(?=(?:whichever|whatever|any) way\b)", "in "),
+    # "Any box will do for the pen; just put it in there"
+    (
+        rf"\b(?:any|either) (\w+(?: \w+)?) (?:will|would) do for ({NAMED} \w+(?: \w+)?)[;.,:] "
+        r"((?:so |and |just |please |simply )*)(put|get|place|set|drop|stick) it "
+        r"(in|on|into|onto|inside)(?: (?:there|it|one))?(?=[.,;!?]|$| (?:without|and|then)\b)",
+        r"\3\4 \2 \5 any \1",
+    ),
+    (
+        rf"(^|[.;!] )(?:please,? )?no open (\w+?)(s?)(?: (?:at|in) the end)?(?:,? please)?{_END}",
+        lambda said: f"{said[1]}make sure that no {said[2]} is open",
+    ),
+    (
+        r"\bha(s|ve) no business (?:being )?(?=(?:in|on|inside)\b)",
+        lambda said: f"{'does' if said[1] == 's' else 'do'} not belong ",
+    ),
+    # What several things are to be, one of them standing
+    (
+        r"\b((?:want|would like|like to see|want to see|make sure|make sure that) "
+        r"[^.;!?]*?\b(?:in|on|inside|open|closed|shut)\b[^.;!?,]*?),? and "
+        rf"({NAMED} (?:\w+ )??\w+|both (?:the |my )?\w+)"
+        r"(?<! tower)(?<! stack)(?<! pile) (?:still )?"
+        rf"(?:standing(?: up| upright)?|upright){_END}",
+        r"\1, and \2 should be upright",
+    ),
+    (
+        r"(?<!tower )(?<!stack )(?<!pile )\b(should|must|has to|have to|needs to) (?:still )?"
+        r"be (?:still )?standing"
+        rf"(?: up| upright)?(?= (?:in|at) the end{_END}|{_END})",
+        r"\1 be upright",
+    ),
+    # What somebody "forgot to do", and is asked for next
+    (
+        rf"(^|[.;!] )(?!nobody\b|no one\b){PEOPLE} (?:has |have )?(?:just )?"
+        r"(?:forgot|forgotten) to "
+        rf"((?:open|close|shut|put|place|take|move|bring) [^.;,!?]*?)[.;,!]"
+        r" (?:so )?(?:please |kindly |(?:would|do) you mind |(?:could|can|would|will) you "
+        r"(?:please )?)*(?:see(?:ing)? to|tak(?:e|ing) care of|deal(?:ing)? with|do(?:ing)?"
+        rf"|fix(?:ing)?|sort(?:ing)? out) (?:it|that|this)(?: for (?:me|us))?{_END}",
+        r"\1\2",
+    ),
+    # Who finds it fine if it stays open need not have it so
+    (
+        rf"\bit (?:is|would be|will be) {_FINE}(?: (?:by|with|for) (?:me|us))? "
+        rf"(?:if|for|when) ({NAMED} (?:\w+ )*?\w+|it|they|them) {_KEPT} "
+        rf"(?=(?:open|closed|shut)(?: (?:afterwards|after that|in the end))?{_END})",
+        r"\1 may stay ",
+    ),
+    (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe),? (?:please|pls|plz)(?= (?:and|then|but)\b)", ""),
+    # "There is a drawer hanging open", "shut the drawer that was left open"
+    (
+        r"(^|[.;!,] )there (is|are) ((?:an?|one|two|some|the) \w+(?: \w+)??) "
+        rf"(?:(?:that|which) (?:is|are) )?(?:{_LEFT} )?"
+        r"(?=(?:wide )?(?:open|ajar)(?:,|[.;!] | and\b))",
+        r"\1there \2 \3 that \2 ",
+    ),
+    (
+        rf"\b((?:close|shut) {NAMED} \w+(?: \w+)??) "
+        rf"(?:(?:that|which) (?:is|are|was|were|has been) )?{_LEFT} "
+        rf"(?=(?:wide )?(?:open|ajar)(?: and\b|{_END}))",
+        r"\1 that is ",
+    ),
+    # Where it goes, said of what was named before
+    (
+        rf"(^|[.;!] )((?:now|next|then|and) )*({NAMED} (?:\w+ )*?\w+), "
+        rf"(?=(?:into|onto|in|on) {NAMED} (?:\w+ )*?with (?:it|them){_END})",
+        r"\1\2\3: ",
+    ),
+    # Which of the places that were named is none of theirs
+    (
+        r", (?:and )?(?:neither|none|not one) of them (in|into|on|onto) "
+        rf"(?=(?:the|that) \w+ one{_END})",
+        r", but not \1 ",
+    ),
+    (rf"\btake (it|them) (?=there{_END}|there (?:and|then)\b)", r"bring \1 "),
+    (
+        rf"\bha(?:s its|ve its|ve their) (?:home|place|spot)s? (?=(?:in|on|inside) {NAMED})",
+        "belong ",
+    ),
+    # What "comes off first" and goes somewhere
+    (
+        rf"\b((?:but|and|then) )?({NAMED} (?:\w+ )?\w+) "
+        r"(?:comes|goes|gets taken|is taken) off first"
+        r"(?: and|, and| and then|, then) (?=(?:goes|is put) )",
+        r"\1first \2 ",
+    ),
+    (
+        rf"\b({NAMED} (?:{_COLOR}) one (?:is|goes|ends up|sits) (?:in|on|on top of|next to)) "
+        rf"({_COLOR}){_END}",
+        r"\1 the \2 one",
+    ),
+    (rf"(^|[.;!,] )only (?={NAMED} (?:\w+ )*?\w+ (?:has|needs?) to go away: )", r"\1just "),
+    (
+        rf"\b({NAMED} (?:\w+ )*?\w+) (?:has|have|needs?|must|should|is|are) (?:to )?"
+        rf"(?:go|be put|be tidied|be cleared) away: "
+        rf"(?=(?:(?:in|into|on|onto) )?{NAMED}|\w+ (?:drawer|shelf|board)\b)",
+        r"\1: ",
+    ),
+    # Of the two that were named it is said which is to be on which
+    (
+        r"(\bthere (?:is|are) an? [^.;,]*? on (?:top of )?an? [^.;,]*[.;,] )((?:so |please )*)"
+        r"(?:turn|swap|switch|reverse|flip|change) (?:the|their|this) (?:order|stack) "
+        r"(?:around |round |over )?(?=so (?:that )?)so (?:that )?",
+        r"\1\2make sure that ",
+    ),
+    (
+        rf"\b((?:tidy|clear|put|store|stow|pack) away {NAMED} [^.,:;]*), "
+        rf"(?=(?:in|into) {NAMED} \w+(?: (?!or\b)\w+)?(?: or {NAMED} \w+(?: \w+)?)?"
+        rf"(?:{_END}(?!,)|,? and (?:then )?(?:close|shut)\b"
+        r"|, (?:i do not (?:mind|care)|no matter|it does not matter|whichever)\b))",
+        r"\1 ",
+    ),
+    (
+        r"(^|[.;!] )((?:please |just )*)(?:sort|tidy up|tidy|put away) (?:these|this|the following)"
+        rf"(?: away| up)?: (?=[^.:;]* (?:to|in|into|on|onto) {NAMED})",
+        r"\1\2",
+    ),
+    # Where somebody will eat it from, and "there" behind that
+    (
+        rf"\b((?:i|we) (?:want|would like|need) to (?:eat|drink|serve|cut) {NAMED} (?:\w+ )??\w+) "
+        rf"(?:from|off|on|in|out of) ({NAMED} (?:\w+ )??\w+),? so ((?:please )?)"
+        rf"(?:put|lay|place|set|bring) (it|them) there{_END}",
+        r"\1, so \3bring \4 to \2",
+    ),
+    # A reason between two requests
+    (
+        rf"(,? so (?:that )?(?:it|they) (?:stays?|keeps?|remains?) {_WELL})(?= and (?:then )?\w+)",
+        r"\1,",
+    ),
+    # A reason ahead of a request
+    (
+        rf"(^|[.;!] )(?:in order |so as )?to keep (it|them) ({_WELL}), {_ASKED_FOR}",
+        lambda said: f"{said[1]}{said[4]}, so that {_STAYS[said[2]]} {said[3]}",
+    ),
+    (
+        rf"(^|[.;!] )(?:in order |so as )?to keep ({NAMED} (?:\w+ )??\w+?(s?)) ({_WELL}), "
+        rf"((?:please )?(?:put|place|store|move|set|leave) )?(it|them) {_ASKED_FOR}",
+        lambda said: (
+            f"{said[1]}{said[5] or ''}{said[2]} {said[7]}, so that {_STAYS[said[6]]} {said[4]}"
+            if bool(said[3]) == (said[6] == "them")
+            else said[0]
+        ),
+    ),
+    # How it was for too long, behind a request
+    (rf", (?=(?:it|that) has been (?:open|closed|shut) {_SO_LONG}{_END}(?!,))", ". "),
+    # Ways of taking hold of a thing, and places, of which any will do
+    (
+        r"[,;.:] an? (\w+) (grasp|grip) (?:and|or) an? (\w+) \2 "
+        rf"(?:is|are|would be) (?:both |equally )?{_FINE}{_END}",
+        r" with a \1 \2 or a \3 \2",
+    ),
+    (
+        rf"\b(?:one|any|either) of the (?:two )?(\w+?)(?:(?<=[xsh])es|s)((?: please)?), "
+        rf"({_COLOR}) or ({_COLOR})"
+        rf"(?:, (?:both|either|each) (?:is|are|would be) (?:equally )?{_FINE})?{_END}",
+        r"the \3 \1 or the \4 \1\2",
+    ),
+    (
+        rf"\b(?:an?|one|any|either) (\w+),? \(?(?:either )?(?:the )?({_COLOR}) or (?:the )?"
+        rf"({_COLOR})(?: one)?(?:\)|{_END})",
+        r"a \2 \1 or a \3 \1",
+    ),
+    # What is to be in what "has" it, and by when; all that is so is so in the end
+    (
+        rf"( in it,? (?:and )?with (?:its|the) door (?:closed|shut)) {_AFTERWARDS}{_END}",
+        r"\1",
+    ),
+    (
+        rf"\b(there (?:should|must) be no [^.,;:]*? (?:in|on) {NAMED} \w+(?: \w+)??),?"
+        rf" {_AFTERWARDS}(?=;|[.!] )",
+        r"\1",
+    ),
+    # What goes somewhere first and what goes on top of that
+    (
+        r"(^|[.;!] )((?:(?!and\b|then\b|not\b|but\b)\w+ ){1,5}?goes (?:in|into|on|onto) "
+        rf"{NAMED} \w+(?: \w+)?) first,?"
+        rf" (?:and|then|and then) (?={NAMED} [^.,;:]* on top of (?:that|it){_END})",
+        r"\1first \2, then ",
+    ),
+    # What is not somewhere yet and is to go there
+    (
+        r"(^|[.;!,] )((?:please |now |then )*)(?:whatever|whichever) (\w+) (?:is|are) not"
+        rf"(?: already| yet)? ((?:in|on) {NAMED} \w+(?: (?!already\b|yet\b)\w+)?)"
+        r"(?: already| yet)?, "
+        rf"(?:please )?(put|place|bring|move) (?:it|them) there{_END}",
+        r"\1\2\5 all the \3 that is not \4 \4",
+    ),
+    (
+        r"\b(the (?:end|final|target|goal) (?:state|situation|arrangement)) (?:that )?"
+        r"(?:i|we) (?:want|need|would like)(?= is\b|:)",
+        r"\1",
+    ),
+    (
+        rf"(^|[.;!,] )i am afraid(?: that)?,? (?={_TO_GO})",
+        r"\1",
+    ),
+    (r"\bone of the others(?! \w)", "one of the other ones"),
+    # Of two it is said what is done with neither
+    (
+        rf"\bneither ({NAMED} [^.,;:]*?) nor ({NAMED} [^.,;:]*?) "
+        r"(?:may|must|should|can|shall|is to|are to) (?=(?:be|go|move|stand|stay|end up)\b)",
+        r"\1 and \2 must not ",
+    ),
+    # "It is not the cup but the jar that goes there"
+    (
+        rf"\bit is not ({NAMED} [^.,;:]*?) (that|which) ([^.,;:]*?),? "
+        rf"but ({NAMED} [^.,;:]*?){_END}",
+        r"it is \4 \2 \3, not \1",
+    ),
+    (
+        rf"\bit is not ({NAMED} [^.,;:]*?),? "
+        rf"but ({NAMED} [^.,;:]*? (?:that|which) [^.,;:]*?){_END}",
+        r"it is \2, not \1",
+    ),
+    # What is not somewhere yet and is to go there, told by one verb
+    (
+        rf"\b((?:that|which) (?:is|are) not (?:yet |already )?)((?:in|on) {NAMED} \w+(?: \w+)?)"
+        r"(?: yet| already)? ((?:now |still )?(?:should|must|shall|needs? to|has to|have to|is to"
+        r"|are to|goes|go|belongs?|can)\b(?: (?:be|go|put|placed|moved|brought|too|also))*) there"
+        rf"{_END}",
+        r"\1\2 \3 \2",
+    ),
+    (
+        rf"\b({NAMED} (?:\w+ )??\w+) (?:should|must|has to|needs to) (?:be|end up) "
+        rf"(?:free|clear|rid) of (?:any |all )?(?:the )?(\w+s)(?: in the end| afterwards)?{_END}",
+        r"remove all the \2 from \1",
+    ),
+    (r"\b(?:(?:may|can|could|must|would) i|i (?:would |must )?) ?ask that\b", "make sure that"),
+    (
+        rf"(^|[.;!] )(?!(?:i|we|you)\b){PEOPLE} (?:says?|said|thinks?|reckons?) "
+        rf"(?:that )?(?={_TO_GO})",
+        r"\1",
+    ),
+    (r"\bin (its|their|his|her) stead\b", r"in \1 place"),
+    (rf"\b(?:can|could|may|might) i (?:please )?trouble you for (?={NAMED})", "hand me "),
+    (
+        rf"\b(?:down|up|out) (from {NAMED} \w+(?: \w+)?) (?:and |then |and then )?"
+        r"(?=(?:into|onto) )",
+        r"\1 ",
+    ),
+    # How a thing is by now
+    (
+        r"\b((?:that|which) (?:is|are)) (?:still|currently|now|right now|at the moment|at present) "
+        rf"(?={_IS_SO}{_END})",
+        r"\1 ",
+    ),
+    (
+        rf"\b((?:that|which) (?:is|are) {_IS_SO}) (?:already|still|currently|now|right now|anyway"
+        rf"|at the moment|at present|just now)(?=[.,;!?]|$| (?:and|then)\b)",
+        r"\1",
+    ),
+    (
+        rf"\b((?:that|which) (?:is|are) not (?:in|on) {NAMED} \w+(?: \w+)??) already(?= \w)",
+        r"\1",
+    ),
+    # "Is the cup on the tray? If not, put it there."
+    (
+        rf"(^|[.;!] )(is|are) ({NAMED} \w+(?: \w+)?) ((?:in|on) {NAMED} \w+(?: \w+)?)"
+        r"(?: already| yet)?\? if (?:not|(?:it|they) (?:is|are) not),? ",
+        r"\1if \3 \2 not \4, ",
+    ),
+    # A thing that is found somewhere
+    (
+        rf"(^|[.;!] )((?:in|on|inside) {NAMED} \w+(?: \w+)?) you (?:will |can |should |may )?find "
+        r"((?:an?|some|the|two|three) \w+(?: \w+)?)(?=[.;:!])",
+        lambda said: (
+            f"{said[1]}there {'are' if said[3].split()[0] in ('two', 'three') else 'is'} "
+            f"{said[3]} {said[2]}"
+        ),
+    ),
+    (
+        rf"(^|[.;!] )({NAMED} (?:\w+ )??(?!that\b|which\b)\w+) "
+        r"(?:that |which )?you (?:will |can )?find "
+        r"(?=(?:between|in|on|behind|beside|under|next to|near) [^.,;:]*? "
+        r"(?:belongs?|goes?|should|must|has to|needs to)\b)",
+        lambda said: (
+            f"{said[1]}{said[2]} that "
+            f"{'are' if said[2].endswith('s') and not said[2].endswith('ss') else 'is'} "
+        ),
+    ),
+    # What was opened is closed
+    (
+        r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)(?:close|shut) up "
+        rf"(?=(?:again|after|afterwards|when|once|in the end)\b|{_END})",
+        r"\1\2close it ",
+    ),
+    (
+        r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)close up" + _END,
+        r"\1\2close it",
+    ),
+)
+"""In order."""

@@ -1,0 +1,1 @@
+"""The parser combinators, their input, and the small words that all rules share."""

@@ -1,0 +1,1 @@
+"""Rules for noun phrases, places and states: which things, where, and how they are."""

@@ -1,0 +1,346 @@
+"""Rules for where something is to go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    Rule,
+    either,
+    one_of,
+    optional,
+    phrase,
+    quiet,
+    separated,
+    sequence,
+    spanned,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    EXACTLY,
+    OPTIONAL_COMMA,
+    after,
+    alternatives,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
+from etot_cli.reasoning.language.grammar.phrases.levels import AT_LEVEL, NEXT_LEVEL
+from etot_cli.reasoning.language.grammar.phrases.modifiers import (
+    BETWEEN,
+)
+from etot_cli.reasoning.language.grammar.phrases.steads import STEAD, WITH, told_by_it
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Beside,
+    Destination,
+    Modifier,
+    NounPhrase,
+    Toward,
+    in_a_stance,
+)
+from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
+
+TOP = "top"
+"""The word of a destination on top of something: of a shelf, its top board. What is "at the top"
+or the bottom has boards."""
+AS_SAID = "there, as was said"
+"""The word of a destination that is left out, which the clause before says."""
+ONWARD = "onward"
+"""The word of a destination to which something goes from another one, to which it is likened."""
+ACROSS = "over to"
+"""The word of a destination that things are brought over to, be it into it or beside it."""
+FILLED = "filled"
+"""The word of a destination that is filled or loaded: what has an inside is so there."""
+EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
+"""What each of several things is to be beside."""
+TARGETS = sequence(
+    alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
+)
+
+
+_HOMES = frozenset(spellings(places.HOME))
+
+
+def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination | None]:
+    """Where things go, but for where they were ("to its original position")."""
+
+    def build(targets: tuple[NounPhrase, ...]) -> Destination | None:
+        home = any(f"{said} {np.text}" in _HOMES for np in targets for said in ("to", "in"))
+        upon = any(np.head in spellings(nouns.STACK) for np in targets)
+        return None if home else Destination(Toward.ON if upon else toward, targets)
+
+    return build
+
+
+def _region(regions: tuple[Nearby, ...], phrases: Any) -> tuple[Beside, ...]:
+    return tuple(Beside(relation, () if phrases is None else (phrases,)) for relation in regions)
+
+
+def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
+    return (Beside(relation, nps),)
+
+
+_CLOSE_BY = f"{places.NEARBY[Nearby.NEXT_TO]}, {places.NEARBY[Nearby.NEAR]}"
+_NEARBY = one_of({**places.NEARBY, Nearby.NEAR: places.GOES_NEAR, Nearby.AWAY: places.GOES_AWAY})
+_REGION = one_of(places.REGIONS)
+_ITS_SIDE = one_of(places.ITS_SIDE)
+_SIDE_OF_IT = one_of(
+    {Nearby.LEFT: "left [hand] side, left", Nearby.RIGHT: "right [hand] side, right"}
+)
+_REGION_OF_IT = one_of(places.REGION_OF_IT)
+_ABREAST = valued(
+    either(
+        "side by side, close[r] together, as close together",
+        sequence(_CLOSE_BY, "each other, one another"),
+    ),
+    lambda _: _beside(Nearby.NEXT_TO, EACH_OTHER),
+)
+BESIDE = spanned(
+    either(
+        sequence(
+            EXACTLY,
+            _NEARBY,
+            noun_phrase,
+            optional("than (it is|they are) [now], than (now|before), as possible"),
+            build=_beside,
+        ),
+        sequence(places.ACROSS, noun_phrase, build=lambda np: _beside(Nearby.NEAR, np)),
+        sequence(
+            _ITS_SIDE,
+            build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),
+        ),
+        sequence(
+            "on, to, at",
+            noun_phrase,
+            "'s",
+            _SIDE_OF_IT,
+            build=lambda np, relation: _beside(relation, np),
+        ),
+        sequence(
+            "in, on, to, at, near, by",
+            noun_phrase,
+            "'s",
+            _REGION_OF_IT,
+            build=lambda np, regions: _region(regions, np),
+        ),
+        _ABREAST,
+        valued(BETWEEN, lambda pair: (Beside(Nearby.BETWEEN, pair),)),
+        sequence(
+            EXACTLY,
+            _REGION,
+            optional(sequence("of, belonging to", noun_phrase), None),
+            build=_region,
+        ),
+    ),
+    lambda text, found: tuple(replace(item, text=text) for item in found),
+)
+BESIDES = valued(
+    separated(BESIDE, either(COMMA, "and, but"), most=3),
+    lambda found: tuple(item for several in found for item in several),
+)
+INTO = sequence(places.INTO, TARGETS, build=_toward(Toward.INSIDE))
+ONTO = sequence(
+    phrase(places.ONTO),
+    TARGETS,
+    build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
+)
+
+
+def _upon_what_is_in(outer: Destination, np: NounPhrase) -> Destination | None:
+    """On what lies in a vessel ("in the basket on top of the towel")."""
+    (around, *more) = outer.targets
+    if more or outer.word or around.pronoun or np.pronoun or np.modifiers:
+        return None
+    return Destination(Toward.ON, (np.told_by(Modifier(Prep.IN, (around,))),))
+
+
+_AT_END = sequence(
+    one_of(places.AT_END), TARGETS, build=lambda end, targets: Destination(Toward.ON, targets, end)
+)
+OVER = sequence(
+    places.OVER, TARGETS, build=lambda targets: Destination(Toward.ON, targets, places.OVER)
+)
+
+
+_to = sequence(places.TO, TARGETS, build=_toward(Toward.TO))
+_free = either(
+    sequence(
+        f"(to|in|into|at|on|onto) ({places.FREE_SPOT}) (on [top of]|of)",
+        TARGETS,
+        build=_toward(Toward.ON),
+    ),
+    sequence(
+        f"(to|in|into|at) ({places.FREE_SPOT}) (in|inside)", TARGETS, build=_toward(Toward.INSIDE)
+    ),
+    sequence(places.SOMEWHERE_FREE, either(ONTO, INTO)),
+    sequence(either(ONTO, INTO), places.SOMEWHERE_FREE),
+)
+_top_of = sequence(
+    places.ONTO,
+    noun_phrase,
+    "'s",
+    "top, surface",
+    build=lambda np: Destination(Toward.ON, (np,), TOP),
+)
+_beside_something = valued(BESIDES, lambda found: Destination(Toward.BESIDE, beside=found))
+_BESIDE_IT = sequence(
+    EXACTLY,
+    one_of(places.NEARBY),
+    phrase("it, them"),
+    build=lambda near, said: _beside(near, NounPhrase(pronoun=said, text=said)),
+)
+_place = either(
+    INTO,
+    ONTO,
+    _AT_END,
+    OVER,
+    _to,
+    _free,
+    _top_of,
+    AT_LEVEL,
+    NEXT_LEVEL,
+    WITH,
+    sequence(WITH, OPTIONAL_COMMA, either(INTO, ONTO), build=told_by_it),
+    STEAD,
+    sequence(
+        STEAD,
+        OPTIONAL_COMMA,
+        either(INTO, ONTO),
+        build=lambda stead, around: replace(stead, around=(around,)),
+    ),
+    sequence(
+        either(INTO, ONTO), STEAD, build=lambda around, stead: replace(stead, around=(around,))
+    ),
+    valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
+    valued(phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")),
+    valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
+    _beside_something,
+    sequence(
+        _ABREAST,
+        BESIDES,
+        build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
+    ),
+    sequence(INTO, OPTIONAL_COMMA, places.ONTO, noun_phrase, build=_upon_what_is_in),
+    sequence(
+        either(ONTO, _to, INTO),
+        OPTIONAL_COMMA,
+        optional(places.SOMEWHERE),
+        BESIDES,
+        build=lambda surface, found: replace(surface, beside=found),
+    ),
+    sequence(
+        # "On the table, left side"
+        either(ONTO, _to, INTO),
+        COMMA,
+        optional("the"),
+        spanned(_REGION_OF_IT, lambda text, found: (found, text)),
+        build=lambda surface, said: replace(
+            surface, beside=tuple(Beside(near, text=said[1]) for near in said[0])
+        ),
+    ),
+    sequence(
+        either(_ABREAST, sequence(BESIDES, COMMA), _BESIDE_IT),
+        either(ONTO, _to, INTO),
+        build=lambda found, surface: replace(surface, beside=found),
+    ),
+)
+destination = Rule(
+    sequence(
+        optional(places.SOMEWHERE),
+        either(
+            _place,
+            sequence(places.UP_OR_DOWN, either(INTO, ONTO, _to, _beside_something)),
+            sequence("directly, straight", either(INTO, ONTO)),
+        ),
+    )
+)
+_any_of_them = separated(destination, small_words.OR, most=5)
+STANCE = either(phrase(manner.STANDS, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING))
+"""How things are to be where they go, before that place."""
+DESTINATIONS = Rule(
+    either(
+        _any_of_them,
+        sequence(STANCE, _any_of_them, build=in_a_stance),
+        sequence(
+            small_words.EITHER, _any_of_them, build=lambda found: found if found[1:] else None
+        ),
+        sequence(
+            _any_of_them,
+            OPTIONAL_COMMA,
+            manner.NOT_BOTH,
+            build=lambda found: found if sum(len(item.targets) for item in found) > 1 else None,
+        ),
+    )
+)
+
+
+def denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
+    """Where things are not to be."""
+    return tuple(replace(item, denied=True) for item in out)
+
+
+def rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
+    """A place in place of others ("not in the red box but in the blue one", which is a box)."""
+    (*_, noun) = ("", *(np.head for item in out for np in item.targets))
+
+    def named(np: NounPhrase) -> NounPhrase:
+        return np.called(noun) if noun and np.head == "one" else np
+
+    return (*(item.going_to(named) for item in where), *denied(out))
+
+
+_BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")
+INSTEAD = sequence(DESTINATIONS, _BUT, DESTINATIONS, build=rather)
+"""Behind "not": where things are not to go, and where they are."""
+WHERE = Rule(
+    either(
+        DESTINATIONS,
+        sequence(
+            DESTINATIONS,
+            OPTIONAL_COMMA,
+            either(
+                f"{nouns.CONTRAST}, [and|but] never, anywhere (but|except)",
+                sequence(after("anywhere"), "except"),
+                sequence(after("rather", "prefer"), "than"),
+            ),
+            optional(verbs.BEING),
+            separated(destination, "or, nor", most=3),
+            build=lambda where, out: (*where, *denied(out)),
+        ),
+        sequence(
+            # "On top of the box instead of under it"
+            DESTINATIONS,
+            OPTIONAL_COMMA,
+            "(instead of|rather than|not|and not) (under|underneath|below|beneath) [it|them]",
+            build=lambda where: where if all(item.toward is Toward.ON for item in where) else None,
+        ),
+        sequence("not", INSTEAD),
+        quiet(
+            sequence("neither", separated(destination, "nor, or"), _BUT, DESTINATIONS, build=rather)
+        ),
+    )
+)
+"""Where things are to go, and where they are not."""
+_directed = either(
+    sequence(places.INTO_DIRECTED, TARGETS, build=_toward(Toward.INSIDE)),
+    sequence(places.ONTO_DIRECTED, TARGETS, build=_toward(Toward.ON)),
+    _to,
+    _free,
+)
+_directed = either(
+    _directed,
+    sequence(
+        # "Out of the box and onto the table, somewhere left of the cup"
+        _directed,
+        OPTIONAL_COMMA,
+        optional(places.SOMEWHERE),
+        BESIDES,
+        build=lambda surface, found: replace(surface, beside=found),
+    ),
+)
+DIRECTED = sequence(optional(small_words.EITHER), separated(_directed, small_words.OR, most=5))

@@ -1,0 +1,96 @@
+"""A clause with some of its things left out, or changed otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.phrases.modifiers import (
+    excepting,
+)
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    AgainClause,
+    AvoidClause,
+    Clause,
+    EnsureClause,
+    MoveClause,
+    PickClause,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+    TowerClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Modifier,
+    NounPhrase,
+    Things,
+)
+from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None:
+    """A clause without some of the things that it is about ("…, except the blue one"), of those
+    that its last phrase means, or that ``at`` an index.
+    """
+    some = left_out.prep is Prep.EXCEPT and not left_out.denied
+
+    def without(np: NounPhrase) -> NounPhrase | None:
+        # "Any cup, put it there, but not the red one" is said of what "it" was chosen from.
+        single = (some or (left_out.prep is Prep.QUALITY and left_out.denied)) and _is_one(np)
+        return None if np.pronoun == "it" or single else np.told_by(left_out)
+
+    return changed(clause, without, at)
+
+
+def changed(
+    clause: Clause, change: Callable[[NounPhrase], NounPhrase | None], at: int = -1
+) -> Clause | None:
+    """A clause with one of the phrases for what it is about changed, the last one by default; None
+    where that cannot be changed.
+    """
+
+    def without(things: Things) -> Things | None:
+        phrases = [*things.phrases]
+        new = change(phrases[at])
+        if new is None:
+            return None
+        phrases[at] = new
+        return replace(things, phrases=tuple(phrases))
+
+    match clause:
+        case PutClause(groups=(group,)) if rest := without(group.things):
+            return replace(clause, groups=(replace(group, things=rest),))
+        case EnsureClause(states=(state,)) if rest := without(Things(state.subjects)):
+            return EnsureClause((replace(state, subjects=rest.phrases),))
+        case (
+            PickClause(things=things)
+            | RemoveClause(things=things)
+            | MoveClause(things=things)
+            | TowerClause(things=things)
+            | AgainClause(things=Things() as things)
+            | AvoidClause(things=Things() as things)
+        ) if rest := without(things):
+            return replace(clause, things=rest)
+    return None
+
+
+def of_the_things(clause: Clause, said: Modifier) -> Clause | None:
+    """What stands behind a place is said of what goes there only if it cannot be of the place."""
+    found = excluding(clause, said)
+    return replace(found, far_fetched=1) if isinstance(found, PutClause | EnsureClause) else found
+
+
+def but_some(clause: PutClause, group: PutGroup) -> Clause | None:
+    """All of them go to one place but for some that go to another."""
+    out = excepting(group.things.phrases)
+    found = None if out is None or group.things.either else excluding(clause, out)
+    return replace(found, groups=(*found.groups, group)) if isinstance(found, PutClause) else None
+
+
+def _is_one(np: NounPhrase) -> bool:
+    """Whether a phrase means one thing, of which nothing can be left out."""
+    several = not np.words or singular(np.head) != np.head or matches_any(np.head, THING_NOUNS)
+    known = np.determiner in ("", "the", "this", "that", "my")
+    return known and not (several or is_category(np.head))

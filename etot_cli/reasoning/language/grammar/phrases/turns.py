@@ -1,0 +1,75 @@
+"""Rules for which of several things comes first or last, or in which direction they are taken."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    one_of,
+    optional,
+    separated,
+    sequence,
+    some,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    LIST,
+    OPTIONAL_COMMA,
+    THEN,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.syntax.clauses import Turns
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
+from etot_cli.reasoning.language.words import manner, small_words
+
+
+def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
+    """Things that go first or last; none of them is "the first" itself, and "biggest first" says it
+    of all.
+    """
+    ends = any(np.head in ("first", "last") or np.text in manner.SUPERLATIVES for np in nps)
+    return None if ends else nps
+
+
+_FIRST_OF_THEM = either(
+    sequence(
+        separated(noun_phrase, LIST, most=2), f"first, {small_words.BEFORE_ALL}", build=_named_ones
+    ),
+    sequence("first", separated(noun_phrase, LIST, most=2), build=_named_ones),
+    sequence(manner.STARTING_WITH, noun_phrase, build=lambda np: (np,)),
+)
+_LAST_OF_THEM = sequence(separated(noun_phrase, LIST, most=2), "last", build=_named_ones)
+SWEEP = one_of(manner.SWEEPS)
+_THEN = either(LIST, sequence(OPTIONAL_COMMA, THEN))
+_NEXT = sequence(_THEN, noun_phrase, optional(small_words.COUNTED))
+_ONE_BY_ONE = either(
+    sequence(
+        "in (the|this) [following] order [of]",
+        OPTIONAL_COMMA,
+        noun_phrase,
+        some(sequence(_THEN, noun_phrase), least=1, most=5),
+        build=lambda first, more: (first, *more),
+    ),
+    sequence(
+        either(sequence(noun_phrase, "first"), sequence("first", noun_phrase)),
+        some(_NEXT, least=1, most=5),
+        build=lambda first, more: _named_ones((first, *more)),
+    ),
+)
+TURN = either(
+    valued(_ONE_BY_ONE, lambda nps: ("all", nps)),
+    valued(_FIRST_OF_THEM, lambda nps: ("first", nps)),
+    valued(_LAST_OF_THEM, lambda nps: ("last", nps)),
+    valued(SWEEP, lambda text: ("sweep", text)),
+)
+
+
+def turns_of(said: Sequence[Any]) -> Turns | None:
+    """What was said of turns among other things, None where it was said twice."""
+    found = [item for item in said if item[0] in ("first", "last", "sweep", "all")]
+    ends = {name for name, _ in found} <= {"first", "last"}
+    if len(dict(found)) < len(found) or not (ends or len(found) == 1):
+        return None
+    return Turns(**dict(found))

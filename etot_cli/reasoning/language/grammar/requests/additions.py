@@ -1,0 +1,240 @@
+"""Rules for what is said behind a place: together, upright, lying, in which order, with what."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    at_end,
+    either,
+    one_of,
+    optional,
+    phrase,
+    sequence,
+    silent,
+    some,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, NOUN_WORD, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.modifiers import (
+    PLAIN_MODIFIER,
+    quality_alone,
+)
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, with_all
+from etot_cli.reasoning.language.grammar.phrases.states import SO, state_of
+from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
+from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Modifier,
+    NounPhrase,
+    State,
+    Things,
+    in_a_stance,
+)
+from etot_cli.reasoning.language.words import manner, nouns
+from etot_cli.reasoning.language.words.lexicon import same_noun
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
+
+GROUPING = either(
+    phrase(manner.ANYHOW, Grouping.ANY),
+    phrase(manner.TOGETHER, Grouping.TOGETHER),
+    phrase(manner.SEPARATELY, Grouping.SEPARATELY),
+)
+BY_COLOR = phrase(manner.BY_COLOR, ("color", ()))
+
+
+def _still_so(nps: tuple[NounPhrase, ...], still: bool, predicate: Any) -> State | None:
+    """How things are to be; "still" so they are by now, or it is told that they are not."""
+    state = state_of(nps, predicate)
+    return replace(state, kept=True) if state and still and state.destinations else state
+
+
+def _still_there(nps: tuple[NounPhrase, ...], still: bool, where: tuple[Destination, ...]) -> State:
+    """Where things are to be that are there by now."""
+    return State(nps, where, kept=still)
+
+
+CONDITION = sequence(
+    "with",
+    NP_LIST,
+    optional(phrase("still [standing|lying|sitting|resting]", True), False),
+    silent(optional("standing, lying, sitting, resting")),
+    SO,
+    build=_still_so,
+)
+_STILL_SO = sequence(
+    NP_LIST,
+    phrase("still [standing|lying|sitting|resting]", True),
+    DESTINATIONS,
+    build=_still_there,
+)
+"""The same without a word before it ("…, the pen still inside it")."""
+_CONDITIONS = sequence(
+    "with",
+    PUT_GROUPS,
+    build=lambda groups: (
+        ("with", tuple(State(group.things.phrases, group.destinations) for group in groups))
+        if groups[1:] and not any(group.things.either for group in groups)
+        else None
+    ),
+)
+"""Several things that are to be beside another, each on a side of its own."""
+_RATHER = "with, unless that tells which"
+
+
+def _unless_told_by(found: Any) -> Any:
+    """In "in the jar with the pen and the cap in the box", without a comma, the pen rather tells
+    which jar, where that is so.
+    """
+    several = isinstance(found, State) and len(found.subjects) > 1
+    return (_RATHER, (found,)) if several else found
+
+
+_EXTRA = sequence(
+    either(
+        CONDITION,
+        _CONDITIONS,
+        sequence(
+            phrase(manner.STANDING, ("stance", Nearby.UPRIGHT)),
+            silent(optional(manner.NOT_LYING)),
+        ),
+        phrase(manner.LYING, ("stance", Nearby.LYING)),
+        manner.FITTING,
+        sequence(optional("but"), either(GROUPING, TURN)),
+        BY_COLOR,
+        sequence("including, even", noun_phrase, build=lambda np: ("including", np)),
+        phrase(manner.ONE_EACH, ("each", ())),
+        sequence(
+            "one",
+            either("per, for each, to each", sequence("in, into, on, onto", "each, every")),
+            some(NOUN_WORD, least=1, most=3),
+            build=lambda words: ("apart", words),
+        ),
+        phrase("each, apiece", ("apart", ())),
+        sequence(
+            either(
+                sequence(phrase("all, both"), either("of them", at_end)),
+                sequence(phrase(nouns.ALL_SO_MANY), optional("of them")),
+                sequence(phrase(nouns.THE_SO_MANY), "of them"),
+                one_of(
+                    {
+                        "all of it": "all of it, the whole lot [of it]",
+                        "each of the": "each of them",
+                        "every one of the": "every [single|last] one [of them]",
+                    }
+                ),
+            ),
+            build=lambda said: ("whole", said),
+        ),
+        phrase(manner.NOT_BOTH, ("one", ())),
+        sequence(
+            either(
+                phrase("(that|which) is [currently]", False),
+                phrase("(that|which) are [currently]", True),
+            ),
+            either(PLAIN_MODIFIER, quality_alone),
+            build=lambda several, modifier: ("that", (several, modifier)),
+        ),
+        f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another), "
+        "in (any|whatever) order",
+    ),
+    build=lambda *found: found[0] if found else (),
+)
+EXTRA = either(sequence(COMMA, either(_EXTRA, _STILL_SO)), sequence(_EXTRA, build=_unless_told_by))
+EXTRAS = some(EXTRA, most=3)
+
+
+def _each_of(whole: NounPhrase, words: tuple[str, ...]) -> NounPhrase:
+    """Each place of what things go to: "on the shelf, one on each board"; a drawer is one."""
+    if same_noun(whole.head, words[-1]):
+        return whole
+    several = (*words[:-1], f"{words[-1]}s")
+    return NounPhrase("the", several, (Modifier(Prep.OF, (whole,)),), text=" ".join(several))
+
+
+def put_of(
+    groups: tuple[PutGroup, ...], extras: Any, grouping: Grouping = Grouping.ANY
+) -> PutClause | None:
+    """A clause of what goes where with what is said about it, None where that does not fit."""
+    groupings = [item for item in extras if isinstance(item, Grouping)]
+    conditions = tuple(item for item in extras if isinstance(item, State))
+    said = [item for item in extras if isinstance(item, tuple) and item]
+    conditions += tuple(
+        state for name, states in said if name in ("with", _RATHER) for state in states
+    )
+    for one in (np for name, np in said if name == "including"):
+        every = [np for group in groups for np in group.things.phrases]
+        all_told = with_all(every[0], one) if len(every) == 1 else None
+        if all_told is None:
+            return None
+        groups = (replace(groups[0], things=replace(groups[0].things, phrases=all_told)),)
+    turns = turns_of(said)
+    named = {item[0] for item in said}
+    if each := next((words for name, words in said if name == "apart" and words), ()):
+        groups = tuple(group.going_to(partial(_each_of, words=each)) for group in groups)
+    if "apart" in named and not groupings and len(groups) == 1:
+        groupings = [Grouping.SEPARATELY]
+    elif "apart" in named:
+        return None
+    chosen = len(groups) == 1 and groups[0].things.either
+    if len(groupings) > 1 or turns is None or ("one" in named and not chosen):
+        return None
+    grouping = groupings[0] if groupings else grouping
+    described = [_that_are(groups, *item[1]) for item in said if item[0] == "that"]
+    if described:
+        (only, *more) = described
+        if more or only is None:
+            return None
+        groups = only
+    for whole in (item[1] for item in said if item[0] == "whole"):
+        things = groups[0].things
+        nps = all_of(things.phrases, whole)
+        if (nps == things.phrases and not nps[1:]) or groups[1:]:
+            return None
+        groups = (replace(groups[0], things=replace(things, phrases=nps)),)
+    for stance in (item[1] for item in said if item[0] == "stance"):
+        there = [in_a_stance(stance, group.destinations) for group in groups]
+        if None in there:
+            return None
+        groups = tuple(replace(g, destinations=w or ()) for g, w in zip(groups, there, strict=True))
+    return PutClause(
+        groups,
+        grouping,
+        conditions,
+        turns,
+        by_color="color" in named,
+        far_fetched=2 * len(described) + 2 * (_RATHER in named),
+        one_each="each" in named,
+    )
+
+
+def left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    """A clause that leaves things where they are."""
+    found = put_of(groups, extras)
+    return None if found is None else replace(found, stays=True)
+
+
+def kept_together(text: str, clause: PutClause) -> PutClause:
+    """What is kept together in one of several places is brought there."""
+    together = "together" in text.replace(",", "").split() and clause.grouping is Grouping.ANY
+    return replace(clause, stays=False, grouping=Grouping.TOGETHER) if together else clause
+
+
+def _that_are(
+    groups: tuple[PutGroup, ...], several: bool, modifier: Modifier
+) -> tuple[PutGroup, ...] | None:
+    """Things that are described behind the place ("everything on the rack that is black")."""
+    (np, *more), (group, *others) = groups[0].things.phrases, groups
+    bare = np.words[-1:] in (("everything",), ("anything",), ("something",))
+    plural = not bare and np.determiner in ("those", "these", "all", "all the", "all those")
+    if more or others or np.modifiers or plural != several or not (bare or plural):
+        return None
+    things = Things((replace(np, modifiers=(modifier,), text=f"{np.text} that"),))
+    return (replace(group, things=things),)

@@ -1,0 +1,319 @@
+"""Rules for turning things upright or on their side, swapping and replacing them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    optional,
+    phrase,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COLON,
+    OPTIONAL_COMMA,
+    not_ahead,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.coordination import of_each
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    PutClause,
+    ReorientClause,
+    SwapClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import forbidden, manner, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.world.spatial import Nearby
+
+_stood_up = partial(ReorientClause, stance=Nearby.UPRIGHT)
+_laid_down = partial(ReorientClause, stance=Nearby.LYING)
+_IT = Things((NounPhrase(pronoun="it", text="it"),))
+_THEM = Things((NounPhrase(pronoun="them", text="them"),))
+_HOW = sequence(
+    optional("around, round"),
+    optional(
+        either(
+            phrase(f"{manner.UPRIGHT}, {manner.TURNED_UP}", (Nearby.UPRIGHT, False)),
+            phrase(manner.FITTING, (None, True)),
+        ),
+        (None, False),
+    ),
+    optional(phrase(manner.IF_NEEDED, True), False),
+    build=lambda how, needed: (how[0], how[1] or needed),
+)
+"""Behind what is turned: to stand, or just so that it fits."""
+TURNED = either(
+    sequence(verbs.REORIENTED, _HOW),
+    sequence(
+        "tipped, stood, set",
+        f"back {manner.UPRIGHT}, {manner.UPRIGHT}, {manner.TURNED_UP}",
+        build=lambda: (Nearby.UPRIGHT, False),
+    ),
+)
+"""What is done with a thing that is turned, in the passive."""
+_INTO = "in, into, inside, down into, to"
+
+
+def _into_it(things: Things, np: NounPhrase) -> PutClause:
+    """What is turned "so that it points into" what it is put "in" then."""
+    return put_to(things, (Destination(Toward.INSIDE, (np,)),))
+
+
+TURNED_INTO = sequence(
+    verbs.REORIENT,
+    THINGS,
+    manner.FITS_INTO,
+    _INTO,
+    noun_phrase,
+    OPTIONAL_COMMA,
+    "and then, and, then, ~comma",
+    verbs.PLACE,
+    "(it|them) (in|inside|into it) [there|it]",
+    build=_into_it,
+)
+_upright_meanwhile = partial(ReorientClause, stance=Nearby.UPRIGHT, meanwhile=True)
+HELD_MEANWHILE = either(
+    sequence(
+        "[always|while|by] (keeping|holding)",
+        THINGS,
+        manner.LEVEL,
+        silent(optional(manner.ON_THE_WAY)),
+        build=_upright_meanwhile,
+    ),
+    sequence(
+        forbidden.WITHOUT,
+        either(
+            sequence(verbs.TILT, THINGS),
+            sequence("letting", THINGS, verbs.TILTS),
+        ),
+        silent(optional(manner.ON_THE_WAY)),
+        build=_upright_meanwhile,
+    ),
+    sequence(forbidden.WITHOUT, THINGS, verbs.TILTING, build=_upright_meanwhile),
+    phrase(manner.TURNED_AS_NEEDED, ReorientClause(_IT, meanwhile=True)),
+)
+"""Behind what is put somewhere: how it is turned, or kept, meanwhile."""
+KEPT_UPRIGHT = either(
+    sequence(
+        "[always] (keep|hold|keeping|holding)",
+        THINGS,
+        manner.LEVEL,
+        silent(phrase(manner.ON_THE_WAY)),
+        build=_upright_meanwhile,
+    ),
+    sequence("[always] (keep|hold|keeping|holding)", THINGS, "level", build=_upright_meanwhile),
+    sequence(
+        forbidden.DO_NOT,
+        either(sequence(verbs.TILT, THINGS), sequence("let", THINGS, verbs.TILTS)),
+        silent(optional(manner.ON_THE_WAY)),
+        build=_upright_meanwhile,
+    ),
+    sequence(
+        silent(optional(f"{verbs.ENSURE}, {small_words.SO_THAT}")),
+        ALL_THINGS,
+        f"(does|do|must|should|may|can|is to|are to|will) not ({verbs.TILTS}|be tilted)",
+        build=_upright_meanwhile,
+    ),
+)
+"""The same in a clause of its own."""
+
+
+def _kept_upright(things: Things) -> ReorientClause:
+    """What is to stay upright; "it" is what is put somewhere meanwhile."""
+    again = all(np.pronoun for np in things.phrases)
+    return ReorientClause(things, Nearby.UPRIGHT, meanwhile=again)
+
+
+def _staying_so(things: Things, stance: Nearby) -> ReorientClause:
+    """What stays as it stands or lies."""
+    upright = stance is Nearby.UPRIGHT
+    return _kept_upright(things) if upright else ReorientClause(things, stance)
+
+
+def _held_upright(things: Things) -> ReorientClause | None:
+    """What "hold it upright" says of what is put somewhere; else it is to be in the hand."""
+    again = all(np.pronoun for np in things.phrases)
+    return _upright_meanwhile(things) if again else None
+
+
+def turned(things: Things, how: tuple[Nearby | None, bool]) -> ReorientClause:
+    """Things that are turned, to stand or as they have to be."""
+    stance, to_fit = how
+    return ReorientClause(things, stance, meanwhile=to_fit)
+
+
+REORIENT = either(
+    sequence(
+        phrase(verbs.REORIENT),
+        THINGS,
+        _HOW,
+        build=lambda verb, things, how: turned(
+            things, (Nearby.UPRIGHT, how[1]) if verb == "upright" else how
+        ),
+    ),
+    sequence(
+        verbs.ORIENTATION,
+        either(phrase("its (orientation|pose)", _IT), phrase("their orientation[s]", _THEM)),
+        optional(phrase(manner.IF_NEEDED, True), False),
+        build=lambda things, needed: ReorientClause(things, meanwhile=needed),
+    ),
+    sequence(
+        verbs.ORIENTATION,
+        either(
+            sequence("the (orientation|pose) of", THINGS),
+            sequence(THINGS, "'s (orientation|pose)"),
+        ),
+        optional(either(phrase(manner.IF_NEEDED, True), phrase(manner.FITTING, True)), False),
+        build=lambda things, needed: ReorientClause(things, meanwhile=needed),
+    ),
+    sequence(verbs.TURNING_OF, THINGS, build=ReorientClause),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.TO_BE_DONE),
+            sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+            sequence("have, having, get, getting", ALL_THINGS),
+            sequence(verbs.CAN, ALL_THINGS, "[please] be"),
+            sequence(small_words.WISH_IF, ALL_THINGS, verbs.WERE_DONE),
+        ),
+        TURNED,
+        build=turned,
+    ),
+    sequence(ALL_THINGS, "need[s]", verbs.REORIENT, _HOW, build=turned),
+    TURNED_INTO,
+    KEPT_UPRIGHT,
+    sequence(
+        verbs.TURN,
+        THINGS,
+        f"back {manner.UPRIGHT}, {manner.UPRIGHT}, {manner.TURNED_UP}",
+        build=_stood_up,
+    ),
+    sequence(verbs.KEEP, THINGS, f"{manner.UPRIGHT}, {manner.TURNED_UP}", build=_kept_upright),
+    sequence("hold[ing]", THINGS, f"{manner.ERECT}, level", build=_held_upright),
+    sequence(
+        f"{verbs.LAY}, {verbs.TIP}",
+        THINGS,
+        optional("down"),
+        manner.LYING,
+        build=_laid_down,
+    ),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.STAY),
+            sequence(verbs.ENSURE, ALL_THINGS, verbs.STAY),
+        ),
+        either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
+        silent(optional(manner.ON_THE_WAY)),
+        build=_staying_so,
+    ),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}"),
+            sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to (be|stand), {verbs.DONE}"))),
+        ),
+        either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
+        silent(optional(manner.ON_THE_WAY)),
+        build=ReorientClause,
+    ),
+    sequence(
+        verbs.PUT_DOWN,
+        THINGS,
+        manner.LYING,
+        build=_laid_down,
+    ),
+)
+STANDS_UP = either(
+    sequence(ALL_THINGS, optional(f"{verbs.BE}, {verbs.LIES}"), manner.ERECT, build=_stood_up),
+    sequence(ALL_THINGS, optional("is, are, (has|have) been"), TURNED, build=turned),
+)
+HAVING_TURNED = either(
+    sequence(
+        verbs.REORIENTED,
+        THINGS,
+        _HOW,
+        build=turned,
+    ),
+    sequence(
+        "a (turn|rotation|reorientation|re orientation|flip) of", THINGS, build=ReorientClause
+    ),
+)
+"""What has been turned by then ("having turned it, …", "after a rotation of the pen, …")."""
+"""What stands by then ("once it is upright, …")."""
+_IN_ITS_PLACE = sequence(
+    noun_phrase,
+    "[to] where",
+    noun_phrase,
+    places.IS_THERE,
+    build=lambda one, other: (one, other),
+)
+
+
+def _replaced(old: NounPhrase, new: NounPhrase) -> PutClause:
+    return put_to(Things((new,)), (Destination(Toward.STEAD, (old,), "replace"),))
+
+
+def _swapped(things: Things) -> SwapClause:
+    """Things that swap places; "the blocks in the red bowl and the blue bowl" are those in both
+    bowls.
+    """
+    first, *more = things.phrases
+    several = singular(first.head) != first.head and all(np.head != first.head for np in more)
+    each = of_each(things.phrases) if more and several and not things.either else None
+    return SwapClause(things if each is None else replace(things, phrases=each))
+
+
+SWAP = either(
+    sequence(
+        verbs.SWAP,
+        THINGS,
+        optional("around, round, over"),
+        not_ahead(COLON),  # what it explains would be done beside it
+        build=_swapped,
+    ),
+    sequence(
+        verbs.WANTED,
+        "the (positions|places) of",
+        THINGS,
+        "[to be] (exchanged|swapped|switched)",
+        build=_swapped,
+    ),
+    sequence(
+        optional(f"have, let, make, can, could, may, {verbs.WANT}"),
+        THINGS,
+        verbs.CHANGE_PLACES,
+        build=_swapped,
+    ),
+    sequence(
+        noun_phrase,
+        verbs.CHANGE_PLACES,
+        "with",
+        noun_phrase,
+        build=lambda one, other: SwapClause(Things((one, other))),
+    ),
+    sequence(
+        verbs.SET_DOWN,
+        _IN_ITS_PLACE,
+        OPTIONAL_COMMA,
+        "and vice versa, and the other way (round|around)",
+        build=lambda pair: SwapClause(Things(pair)),
+    ),
+    sequence(
+        "swap[ping], exchang(e|ing), switch[ing]",
+        noun_phrase,
+        "with, for, by",
+        noun_phrase,
+        build=lambda one, two: SwapClause(Things((one, two))),
+    ),
+    sequence("replac(e|ing)", noun_phrase, "with, for, by", noun_phrase, build=_replaced),
+)

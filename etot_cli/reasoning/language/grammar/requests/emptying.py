@@ -1,0 +1,246 @@
+"""What is emptied, cleared or tidied, or is to be without what is in or on it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    Parser,
+    either,
+    one_of,
+    optional,
+    phrase,
+    sequence,
+    silent,
+    variants,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    OPTIONAL_COMMA,
+)
+from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
+from etot_cli.reasoning.language.grammar.phrases.destinations import (
+    DESTINATIONS,
+    DIRECTED,
+)
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
+    AvoidClause,
+    Clause,
+    PutClause,
+    RemoveClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    CLEARED,
+    Destination,
+    Modifier,
+    NounPhrase,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import matches_any, singular
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def contents_of(np: NounPhrase, where: Prep, part: tuple[str, ...] = ()) -> NounPhrase:
+    """What is in or on something, or on a ``part`` of it, whatever it is."""
+    modifier = Modifier(where, (np,), part if where is Prep.ON else CLEARED)
+    upon = where is Prep.ON or np.words[-1:] in DESKS
+    text = f"everything {'on' if upon else 'in'} {np.text}"
+    return NounPhrase("all", ("objects",), (modifier,), text=text)
+
+
+def emptied(
+    things: Things, where: Any = None, *, held: Prep | None = None, part: tuple[str, ...] = ()
+) -> Clause:
+    """What takes all out of things, or off a ``part`` of them, and brings it somewhere; a drawer is
+    empty whatever stands on it.
+    """
+    inside = [np.words and matches_any(np.head, ("drawer",)) for np in things.phrases]
+    ways = [held or (Prep.IN if drawer else Prep.FROM) for drawer in inside]
+    contents = Things(tuple(map(partial(contents_of, part=part), things.phrases, ways)))
+    if where is None:
+        return RemoveClause(contents)
+    # "Empty the box on the right" rather says which box.
+    which = all(item.toward is Toward.BESIDE and not item.beside[0].phrases for item in where)
+    return replace(put_to(contents, where), far_fetched=2 * which)
+
+
+ANYTHING = Things((NounPhrase(words=("anything",), text="anything"),))
+
+
+def stays_empty(
+    np: NounPhrase, far_fetched: int = 0, toward: Toward = Toward.INSIDE
+) -> AvoidClause:
+    """Nothing is to be put into what stays empty, or is to be so and is already."""
+    where = Destination(toward, (np,))
+    return AvoidClause(Avoid.PUT, ANYTHING, (where,), not_left=True, far_fetched=far_fetched)
+
+
+def to_be_empty(things: Things) -> tuple[Clause, ...]:
+    """What is to be empty is emptied, or stays so where nothing is in it."""
+    return emptied(things), *(stays_empty(np, 1) for np in things.phrases[:1])
+
+
+def is_emptying(clause: Clause) -> bool:
+    """Whether things are to be without what is in or on them, wherever that goes."""
+    return isinstance(clause, RemoveClause) and all(
+        [item.words for item in np.modifiers] == [CLEARED] for np in clause.things.phrases
+    )
+
+
+def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutClause | None:
+    """Who tidies a place brings away what is there; several things are tidied away themselves.
+    "Tidy up everything on the tray" does not say where to.
+    """
+    named = all_of(things.phrases, said)
+    if (things.are_any and not away) or (said and named == things.phrases and not named[1:]):
+        return None
+    things = replace(things, phrases=named)
+    plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
+    things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
+    cost = 1 if verb.startswith("tidy") else 2  # who clears a plate rather means what is on it
+    return replace(put_to(things, where), far_fetched=0 if things_said else cost)
+
+
+def _to_be_bare(found: tuple[Prep | None, tuple[str, ...], Things]) -> tuple[Clause, ...]:
+    """What takes all off things, or out of them; the one thing that is so already stays so."""
+    at, part, things = found
+    (np, *more) = things.phrases
+    toward = Toward.ON if at else Toward.INSIDE
+    stays = () if part or more or np.modifiers else (stays_empty(np, 1, toward),)
+    return emptied(things, held=at, part=part), *stays
+
+
+def _nothing_there(said: str) -> Parser:
+    """Where there is to be nothing, behind words for that; it stays so where it is so already."""
+    places = {(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}
+    return variants(
+        sequence(
+            said,
+            one_of(places),
+            ALL_THINGS,
+            silent(optional(small_words.ANY_MORE)),
+            build=lambda at, things: (*at, things),
+        ),
+        _to_be_bare,
+    )
+
+
+_HOLDS_NOTHING = "contains nothing, contain nothing, holds nothing, hold nothing"
+_TOP = ("top",)
+
+
+_TOP_OF = sequence("the (top|surface) of", ALL_THINGS)
+_OF_ALL_ON_IT = """
+    of (what|whatever|everything [(that|which)]|anything [(that|which)]|all (that|which))
+    (is|lies|stands|rests) (on [top of]|in|inside) (it|them),
+    of everything (on|in|inside) (it|them), of everything
+"""
+_ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
+
+
+TO_BE_EMPTY = either(
+    variants(
+        sequence(
+            either(
+                sequence(ALL_THINGS, verbs.MODAL),
+                sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+                sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+                sequence("let, have", ALL_THINGS, "be"),
+            ),
+            optional(phrase("both, all"), ""),
+            manner.EMPTIED,
+            build=lambda things, said: Things(all_of(things.phrases, said)),
+        ),
+        to_be_empty,
+    ),
+    _nothing_there(verbs.NOTHING_IS),
+)
+"""What is said of how things are to be, rather than of what is to be done."""
+
+
+EMPTY = either(
+    sequence(
+        "empty[ing] [out], unload[ing]",
+        optional(_ALL_THAT_IS),
+        THINGS,
+        optional(DESTINATIONS, None),
+        build=emptied,
+    ),
+    sequence(
+        either(verbs.BRING, verbs.REMOVE),
+        "[all] (the|its) contents",
+        SOURCE,
+        optional(DIRECTED, None),
+        build=lambda np, where: emptied(Things((np,)), where),
+    ),
+    sequence(
+        phrase(verbs.TIDY),
+        THINGS,
+        optional(phrase("away, up"), ""),
+        DESTINATIONS,
+        optional(sequence(OPTIONAL_COMMA, phrase("all, both"), "of them"), ""),
+        build=_tidied,
+    ),
+    sequence(
+        verbs.TIDY,
+        THINGS,
+        DIRECTED,
+        build=lambda things, where: put_to(things, where) if things.are_any else None,
+    ),
+    sequence(
+        verbs.CLEAR,
+        ALL_THINGS,
+        silent(optional(_OF_ALL_ON_IT)),
+        optional(DESTINATIONS, None),
+        build=partial(emptied, held=Prep.FROM),
+    ),
+    sequence(
+        either(
+            sequence(verbs.CLEAR, _TOP_OF),
+            sequence(_TOP_OF, verbs.MODAL, manner.EMPTIED),
+            sequence(verbs.ENSURE, _TOP_OF, verbs.BE, manner.EMPTIED),
+            sequence(verbs.WANTED, _TOP_OF, optional("to be"), manner.EMPTIED),
+        ),
+        optional(DESTINATIONS, None),
+        build=partial(emptied, held=Prep.ON, part=_TOP),
+    ),
+    sequence(
+        verbs.GET_OUT,
+        "everything, it all, all things",
+        "out of, off [of]",
+        sequence(NP_LIST, build=lambda nps: Things(nps) if nps[1:] else None),
+        optional(DIRECTED, None),
+        build=emptied,
+    ),
+    sequence(
+        "clear[ing], clean[ing], empty[ing]",
+        ALL_THINGS,
+        "out",
+        optional(DESTINATIONS, None),
+        build=emptied,
+    ),
+    TO_BE_EMPTY,
+    variants(sequence("mak(e|ing)", ALL_THINGS, manner.EMPTIED), to_be_empty),
+    variants(sequence(verbs.ENSURE, ALL_THINGS, _HOLDS_NOTHING), to_be_empty),
+)
+
+
+IS_EMPTY = variants(
+    sequence(
+        ALL_THINGS,
+        either(
+            sequence(verbs.BE, silent(optional("then, all")), manner.EMPTIED),
+            _HOLDS_NOTHING,
+        ),
+    ),
+    to_be_empty,
+)
+"""What something is done for ("so that the box is empty")."""
+NOTHING_THERE = _nothing_there(verbs.NOTHING_IS_SO)

@@ -1,0 +1,129 @@
+"""What is filled, loaded, used for things or covered."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    one_of,
+    optional,
+    quiet,
+    sequence,
+    some,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.destinations import (
+    FILLED,
+    TARGETS,
+)
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.requests.emptying import emptied
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    CoverClause,
+    PutClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.places import ON_IT, Prep
+
+
+def _lidded(lids: Things) -> PutClause | None:
+    """What was filled gets its lid ("put the lid on")."""
+    here = (Destination(Toward.HERE, word=ON_IT),)
+    named = all(np.words and singular(np.words[-1]) == "lid" for np in lids.phrases)
+    return put_to(lids, here) if named else None
+
+
+def _filled(toward: Toward, np: NounPhrase, things: Things) -> PutClause:
+    return put_to(things, (Destination(toward, (np,), FILLED),))
+
+
+def _used(
+    np: NounPhrase, toward: Toward, things: Things, more: Any, no: NounPhrase | None = None
+) -> PutClause:
+    """Each of several vessels gets what it is used for; ``no``: that is not used for it."""
+    pairs = (_filled(toward, np, things), *(_filled(Toward.TO, *pair) for pair in more))
+    groups = tuple(group for put in pairs for group in put.groups)
+    if no is not None:
+        ruled_out = Destination(toward, (no,), denied=True)
+        groups = tuple(replace(g, destinations=(*g.destinations, ruled_out)) for g in groups)
+    return PutClause(groups)
+
+
+def _used_for(
+    nps: tuple[NounPhrase, ...], things: Things | None, toward: Toward
+) -> PutClause | None:
+    """Things go into or onto any of several, or what was spoken of does into or onto one."""
+    if things is not None and len(nps) == 1:
+        return None  # that is told above
+    them = NounPhrase(pronoun="them", text="them")
+    return put_to(things or Things((them,)), (Destination(toward, nps, FILLED),))
+
+
+_ANY_OF = sequence(either(TARGETS, NP_LIST), optional("[~comma] or both"))
+
+
+FILL = quiet(
+    either(
+        sequence(
+            one_of({Toward.INSIDE: verbs.FILL, Toward.TO: verbs.LOAD}),
+            noun_phrase,
+            "with",
+            THINGS,
+            build=_filled,
+        ),
+        sequence(
+            # "Load the pan with the egg, and the tray with the cup"
+            one_of({Toward.INSIDE: verbs.FILL, Toward.TO: verbs.LOAD}),
+            noun_phrase,
+            "with",
+            ALL_THINGS,
+            some(
+                sequence(LIST, noun_phrase, "with", ALL_THINGS, build=lambda *pair: pair),
+                least=1,
+                most=4,
+            ),
+            build=lambda toward, np, things, more: _used(np, toward, things, more),
+        ),
+        sequence(
+            "use",
+            noun_phrase,
+            one_of({Toward.INSIDE: "to (hold|keep|store)", Toward.TO: "for"}),
+            ALL_THINGS,
+            some(sequence(LIST, noun_phrase, "for", ALL_THINGS, build=lambda *pair: pair), most=4),
+            optional(sequence(OPTIONAL_COMMA, "[and|but] not", noun_phrase), None),
+            build=_used,
+        ),
+        *(
+            sequence(
+                "use",
+                _ANY_OF,
+                optional(sequence("for", ALL_THINGS), None),
+                build=partial(_used_for, toward=toward),
+            )
+            for toward in (Toward.INSIDE, Toward.TO)
+        ),
+    )
+)
+
+
+COVER = either(
+    sequence(verbs.PLACE, THINGS, "[back] on", build=_lidded),
+    sequence(verbs.COVER, THINGS, "with", THINGS, build=CoverClause),
+    sequence(verbs.COVER, THINGS, optional("with (its|their|a) lid"), build=CoverClause),
+    sequence(verbs.UNCOVER, ALL_THINGS, build=partial(emptied, held=Prep.ON)),
+)

@@ -1,0 +1,83 @@
+"""Rules for putting things on both sides of something, or beside others that were not meant."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    phrase,
+    sequence,
+)
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Beside,
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import places
+from etot_cli.reasoning.language.words.lexicon import (
+    singular,
+)
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
+
+
+def flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
+    """Two things, one to the left and one to the right of another ("a cup on each side of it");
+    one alone may only be on either side.
+    """
+    (np, *more) = things.phrases
+    single = not more and singular(np.head) == np.head and "either" not in said
+    if single and np.determiner not in ("a", "an", "one", "two", "both"):
+        return None
+    if not more and np.determiner in ("a", "an", "one"):
+        things = Things((replace(np, determiner="two"),))
+    sides = (Nearby.LEFT, Nearby.RIGHT)
+    where = tuple(
+        Destination(Toward.BESIDE, beside=(Beside(side, (mark,), mark.text),)) for side in sides
+    )
+    return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
+
+
+ON_BOTH_SIDES = phrase(places.ON_BOTH_SIDES)
+
+
+FLANKED = sequence(
+    "and, with", ALL_THINGS, ON_BOTH_SIDES, phrase("it", NounPhrase(pronoun="it", text="it")),
+    build=flanking,
+)  # fmt: skip
+"""Behind a clause about that ("… in the middle, with a cup on either side of it")."""
+
+
+def beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
+    """In or on what other things are in or on ("put the spoon with the forks")."""
+    things, said = found
+    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
+    if all({"other", "others", "rest"} & {*np.determiner.split(), *np.words} for np in others):
+        # "With the other pens"; in "the rag in the jar with the other brush" they rather tell which
+        told = any(item.prep is Prep.IN for np in things.phrases for item in np.modifiers)
+        return replace(put_to(things, (where,)), far_fetched=2 * told)
+    out_of = (m.prep is Prep.FROM for np in things.phrases for m in np.modifiers)
+    there = [[item.prep for item in np.modifiers] in ([Prep.IN], [Prep.ON]) for np in others]
+    if all(there) and said != "in with":
+        # "With the pen in the cup" is where the pen is, if that is there.
+        return replace(put_to(things, (where,)), far_fetched=2)
+    described = any(np.modifiers for np in others) or not all(out_of)
+    inside = said == "in with"
+    known = (*THE_WORDS, *([""] if inside else ()))  # "in with teddy", "in with it"
+    named = not described and all(
+        (np.words or (inside and np.pronoun)) and np.determiner in known for np in others
+    )
+    return put_to(things, (where,)) if named else None
+
+
+def to_others(things: Things, said: str, others: tuple[NounPhrase, ...]) -> PutClause | None:
+    """In or on what other things are in or on ("add the spoon to the forks in the drawer")."""
+    told = all(any(m.prep in (Prep.IN, Prep.ON) for m in np.modifiers) for np in others)
+    where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
+    return replace(put_to(things, (where,)), far_fetched=2) if told else None

@@ -1,0 +1,36 @@
+"""Rules for laying things down: they lie where they are put."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import either, sequence
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, in_a_stance
+from etot_cli.world.spatial import Nearby
+
+
+def _laid_down(things: Things, where: tuple[Destination, ...], extras: Any) -> PutClause | None:
+    """What lies where it is put; "upright" and "back" say something else of it."""
+    lying = in_a_stance(Nearby.LYING, where)
+    return None if lying is None else put_of((PutGroup(things, lying),), extras)
+
+
+LAID_DOWN = sequence(
+    "lay[ing]",
+    either(sequence(THINGS, "down"), sequence("down", THINGS)),
+    DESTINATIONS,
+    EXTRAS,
+    build=_laid_down,
+)
+
+
+def rather_laid_down(text: str, clause: PutClause) -> PutClause:
+    """Putting that is said so: who lays a thing down somewhere wants it to lie, if it can."""
+    verb, *words = text.split()
+    laid = verb in ("lay", "laying") and {"down", "down,"} & {*words}
+    return replace(clause, far_fetched=clause.far_fetched + 1) if laid else clause

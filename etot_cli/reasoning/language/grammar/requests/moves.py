@@ -1,0 +1,233 @@
+"""Rules for opening and closing, by whichever handle, and for what is to be so if it is not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    optional,
+    phrase,
+    quiet,
+    sequence,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    EMPTY_WORDS,
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
+from etot_cli.reasoning.language.grammar.requests.doors import SET_TO_STATE
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, MoveClause, Turns
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+
+
+def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
+    """In "if the drawer is closed, open it": what is open already stays so anyway."""
+    again = moved.things.phrases[0].pronoun and len(moved.things.phrases) == 1
+    if not again or moved.opens == (word == "open"):
+        return None
+    return MoveClause(Things(subjects), moved.opens, guarded=True)
+
+
+def _in_turn(moved: MoveClause) -> MoveClause | None:
+    """Several things that are named, in the order in which they are."""
+    nps = moved.things.phrases
+    return replace(moved, turns=Turns(all=nps)) if nps[1:] and not moved.things.either else None
+
+
+def _lifted(things: Things) -> MoveClause:
+    """What swings up when it is opened; "it" is rather what was taken hold of."""
+    again = all(np.pronoun for np in things.phrases)
+    return MoveClause(things, opens=True, far_fetched=int(again))
+
+
+_PLAIN_MOVE = either(
+    sequence("lift[ing] [up], rais(e|ing)", THINGS, build=_lifted),
+    *(
+        sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))
+        for verb, opens in (("open[ing]", True), ("clos(e|ing), shut[ting]", False))
+    ),
+    *(
+        sequence(verb, THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
+        for verb, opens in (
+            (
+                f"{verbs.OPEN}, (pull[ing]|slid(e|ing)|draw[ing]|eas(e|ing)) out",
+                True,
+            ),
+            (f"{verbs.CLOSE}, (push[ing]|slid(e|ing)|eas(e|ing)|shov(e|ing)) [back] in", False),
+        )
+    ),
+    *(
+        sequence(
+            verb, THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
+        )
+        for verb, particle, opens in (
+            (verbs.PULL_OPEN, manner.OPEN_STATE, True),
+            ("swing[ing], fling[ing], throw[ing]", "wide", True),
+            (verbs.PUSH_SHUT, manner.CLOSED_STATE, False),
+            (verbs.PUSH, manner.TO, False),
+            ("pull[ing], slid(e|ing), draw[ing], eas(e|ing)", f"[{manner.FULLY}] out", True),
+            ("push[ing], slid(e|ing), eas(e|ing), shov(e|ing)", f"[back|{manner.FULLY}] in", False),
+            (
+                "giv(e|ing)",
+                f"{manner.A_PUSH} [so [that] it is|until it is|till it is] (shut|closed),"
+                f" {manner.A_PUSH} to (close|shut) it",
+                False,
+            ),
+        )
+    ),
+)
+
+
+def _by_handle(handled: tuple[NounPhrase, ...], moved: MoveClause) -> MoveClause | None:
+    """In "grasp the handle of the drawer and open it" that is the drawer."""
+    again = bool(moved.things.phrases[0].pronoun)
+    if again != bool(handled):
+        return None
+    return replace(moved, things=Things(handled)) if again else moved
+
+
+def _handled(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
+    """What has the handle of "the drawer handle" and "the drawer's handle"."""
+    if np.head != "handle":
+        return None
+    return (
+        (replace(np, words=np.words[:-1]),) if np.words[1:] else (np.owner,) if np.owner else None
+    )
+
+
+_HANDLED = either(
+    phrase("the handle, its handle", ()),
+    sequence("the handle of", noun_phrase, build=lambda np: (np,)),
+    sequence(noun_phrase, build=_handled),
+)
+_BY_HANDLE = either(
+    sequence("(pull|pulling|use|grab|grip|hold) (the|its) handle to", _PLAIN_MOVE),
+    sequence(_PLAIN_MOVE, "(by|with|using) (the|its) handle"),
+    sequence(
+        verbs.PICK,
+        _HANDLED,
+        either(LIST, sequence(OPTIONAL_COMMA, small_words.THEN_JOINTS)),
+        _PLAIN_MOVE,
+        build=_by_handle,
+    ),
+)
+MOVE = either(
+    _PLAIN_MOVE,
+    SET_TO_STATE,
+    quiet(_BY_HANDLE),
+    *(
+        sequence(THINGS, said, build=lambda things, opens=opens: MoveClause(things, opens))
+        for said, opens in (
+            (f"need[s] ({verbs.OPEN.replace(',', '|')})", True),
+            (f"need[s] ({verbs.CLOSE.replace(',', '|')})", False),
+        )
+    ),
+    sequence(
+        # "Put the pen in and shut the door behind it"
+        _PLAIN_MOVE,
+        "behind (it|them)",
+        build=lambda moved: None if moved.opens else moved,
+    ),
+    sequence(
+        _PLAIN_MOVE,
+        OPTIONAL_COMMA,
+        either(phrase(manner.UNLESS_OPEN, True), phrase(manner.UNLESS_CLOSED, False)),
+        build=lambda moved, opens: replace(moved, guarded=True) if moved.opens == opens else None,
+    ),
+    sequence(
+        _PLAIN_MOVE,
+        OPTIONAL_COMMA,
+        valued(TURN, lambda turn: turns_of((turn,))),
+        build=lambda moved, turns: replace(moved, turns=turns),
+    ),
+    sequence(_PLAIN_MOVE, OPTIONAL_COMMA, manner.IN_THIS_ORDER, build=_in_turn),
+    sequence(
+        # "Both drawers should be open, the lower one first"
+        THINGS,
+        f"{verbs.MODAL}, {verbs.TO_BE_DONE}",
+        OPEN_OR_CLOSED,
+        OPTIONAL_COMMA,
+        valued(TURN, lambda turn: turns_of((turn,))),
+        build=lambda things, word, turns: MoveClause(things, word == "open", turns=turns),
+    ),
+)
+_THEN = either(COMMA, sequence(OPTIONAL_COMMA, "then"))
+
+
+def _if_not_there(
+    subjects: tuple[NounPhrase, ...], where: tuple[Destination, ...], things: Things, there: Any
+) -> EnsureClause | None:
+    """In "if the cup is not on the tray, put it there": if it is, it stays there anyway."""
+    same = [(item.toward, item.targets) for item in where]
+    again = same == [(item.toward, item.targets) for item in there]
+    (here, *more) = there
+    inside = all(item.toward is Toward.INSIDE for item in where)
+    words = ("there", *(("in there", "in", "inside") if inside else ("on there",)))
+    several = more or where[1:] or where[0].targets[1:]
+    again |= here.toward is Toward.HERE and here.word in words and not several
+    alone = len(things.phrases) == 1 and bool(things.phrases[0].pronoun)
+    return EnsureClause((State(subjects, where, kept=True),)) if alone and again else None
+
+
+_IF = "[only] if, in case"
+_SO_FAR = "already|yet|currently|still|now"
+_NOW = optional(f"({_SO_FAR}|right now|at the moment|by now)")
+IF_NOT_SO = quiet(
+    either(
+        sequence(
+            _IF,
+            NP_LIST,
+            f"{verbs.BE}, 's, should [still|already] be",
+            optional("already, still, currently"),
+            OPEN_OR_CLOSED,
+            _NOW,
+            _THEN,
+            EMPTY_WORDS,
+            _PLAIN_MOVE,
+            build=_if_not_so,
+        ),
+        sequence(
+            _IF,
+            NP_LIST,
+            f"(is|are) not [{_SO_FAR}]",
+            OPEN_OR_CLOSED,
+            _NOW,
+            _THEN,
+            EMPTY_WORDS,
+            _PLAIN_MOVE,
+            build=lambda nps, word, moved: _if_not_so(
+                nps, "closed" if word == "open" else "open", moved
+            ),
+        ),
+        sequence(
+            "if",
+            NP_LIST,
+            "(is|are) not [already|yet|currently]",
+            DESTINATIONS,
+            optional("already, yet, by now"),
+            _THEN,
+            EMPTY_WORDS,
+            verbs.SET_DOWN,
+            THINGS,
+            DESTINATIONS,
+            build=_if_not_there,
+        ),
+    )
+)
+"""A sentence of its own: what follows it might be asked for in that case only."""

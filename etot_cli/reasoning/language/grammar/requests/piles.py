@@ -1,0 +1,85 @@
+"""Rules for towers told pair by pair, by colours alone ("stack red on blue, green on red")."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    optional,
+    separated,
+    sequence,
+    some,
+    word,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.requests.tower_bases import NEXT
+from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
+from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color
+
+
+def _piled(
+    whole: Things | None, second: NounPhrase, first: NounPhrase, more: Any
+) -> TowerClause | None:
+    """Each thing on the one before ("stack red on blue, then green on red"), or each on the next
+    ("red on blue and blue on green").
+    """
+    pairs = ((second, first), *more)
+    if more and all(low == up for (_, low), (up, _) in pairwise(pairs)):
+        downward = (second, *(lower for _, lower in pairs))
+        again = tuple(upper for upper, _ in more)
+        return TowerClause(Things(downward), upward=False, whole=whole, again=again)
+    nps = (first, second, *(upper for upper, _ in more))
+    if any(lower not in (None, under) for under, (_, lower) in zip(nps[1:], more, strict=False)):
+        return None
+    again = tuple(lower for _, lower in more if lower is not None)
+    return TowerClause(Things(nps), upward=True, whole=whole, again=again)
+
+
+def _standing_on(pairs: Any) -> TowerClause | None:
+    """A tower told pair by pair without a verb ("blue on red, yellow on blue")."""
+    (second, first), *more = pairs
+    return _piled(None, second, first, tuple(more))
+
+
+_COLOR = sequence(
+    some(word(lambda given, text: text in SIZES), most=1),
+    word(lambda given, text: basic_color(text) is not None),
+    build=lambda size, color: NounPhrase(words=(*size, color), text=" ".join((*size, color))),
+)
+"""A colour alone, perhaps with a size ("stack red on big blue")."""
+PILED = sequence(
+    either(verbs.STACK, verbs.PUT),
+    optional(sequence(THINGS, COMMA), None),
+    _COLOR,
+    places.ONTO,
+    _COLOR,
+    some(
+        sequence(
+            NEXT,
+            _COLOR,
+            either(
+                sequence(places.ONTO, _COLOR),
+                sequence(manner.ATOP, build=lambda: ()),
+            ),
+            build=lambda upper, lower: (upper, lower or None),
+        ),
+        most=4,
+    ),
+    build=_piled,
+)
+"""Behind a verb."""
+PAIR_BY_PAIR = sequence(
+    # "Blue on red, yellow on blue"
+    separated(
+        sequence(_COLOR, f"{places.ONTO}, above, over", _COLOR, build=lambda *pair: pair),
+        NEXT,
+        most=5,
+    ),
+    build=_standing_on,
+)
+"""Without a verb."""

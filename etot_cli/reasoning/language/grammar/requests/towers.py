@@ -1,0 +1,331 @@
+"""Rules for stacking things, told by their ends, layer by layer or as a whole."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    one_of,
+    optional,
+    phrase,
+    separated,
+    sequence,
+    some,
+    valued,
+    variants,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.requests.nesting import NESTED
+from etot_cli.reasoning.language.grammar.requests.piles import PAIR_BY_PAIR, PILED
+from etot_cli.reasoning.language.grammar.requests.tower_bases import (
+    A_TOWER,
+    FIRST_TO_LAST,
+    LAYERED,
+    ON_A_BASE,
+    ONE_ON_THE_OTHER,
+    PLACED_LAYERS,
+    SO,
+)
+from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
+from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import (
+    NUMBERS,
+    is_descriptive,
+    singular,
+)
+
+_END = one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": manner.AT_TOP})
+_UPWARDS = ("bottom", "middle", "top")
+_STAYS = "stays"
+_ENDS = separated(
+    either(
+        sequence(noun_phrase, optional(verbs.BE), _END, build=lambda np, end: (np, end)),
+        sequence(
+            noun_phrase,
+            f"({verbs.STAY}|staying|remaining|kept|left) ({manner.AS_IT_IS})",
+            build=lambda np: (np, _STAYS),
+        ),
+    ),
+    LIST,
+    most=3,
+)
+
+
+def _tower(
+    things: Things, upward: bool | None, ends: Any, base: tuple[Destination, ...] = ()
+) -> TowerClause | None:
+    named = {end: np for np, end in ends or ()}
+    still = named.pop(_STAYS, None)
+    if ends and len(named) + bool(still) < len(ends):
+        return None
+    if still and (base or "bottom" in named):
+        return None
+    if still:
+        named["bottom"] = still
+    return TowerClause(things, upward, base=base, stays=still is not None, **named)
+
+
+_BETWEEN_SIZES = "medium"
+"""No noun beside "large" and "small", though some label may have to have it."""
+
+
+def _with_nouns(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:
+    """With the noun that the first of them has for those that are a colour or the like alone."""
+    bare = [all(is_descriptive(word) or word == _BETWEEN_SIZES for word in np.words) for np in nps]
+    nouns = [np.head for np, out in zip(nps, bare, strict=True) if np.words and not out]
+    named = dict.fromkeys(noun for noun in nouns if noun != "one")
+    if len(named) == 1:  # "the blue block on the big red one"
+        nps = tuple(np.called(*named) if np.is_elliptic else np for np in nps)
+    return tuple(
+        replace(np, words=(*np.words, nouns[0])) if out and np.words and nouns else np
+        for np, out in zip(nps, bare, strict=True)
+    )
+
+
+def _announced(
+    tower: tuple[int, tuple[str, ...]], nps: tuple[NounPhrase, ...]
+) -> tuple[NounPhrase, ...] | None:
+    """The layers of a tower, by the noun that it was announced with; as many as were."""
+    count, words = tower
+    if count not in (0, len(nps)):
+        return None
+    nouns = [singular(word) for word in words[-1:]]
+    return tuple(np.called(*nouns) if nouns and np.is_elliptic else np for np in nps)
+
+
+def _of_its_ends(tower: Any, base: Any, ends: Any) -> TowerClause | None:
+    """A tower of what is named at its ends and in the middle."""
+    named = _announced(tower, tuple(np for np, _ in ends))
+    if named is None or len(ends) < 2 or len(dict.fromkeys(end for _, end in ends)) < len(ends):
+        return None
+    nps = _with_nouns(named)
+    full = [(np, end) for np, (_, end) in zip(nps, ends, strict=True)]
+    if all(end in _UPWARDS for _, end in full):
+        layers = sorted(full, key=lambda layer: _UPWARDS.index(layer[1]))
+        return TowerClause(Things(tuple(np for np, _ in layers)), upward=True, base=base)
+    return _tower(Things(nps), None, full, base)
+
+
+def _rising(lowest: Any, more: Any) -> tuple[NounPhrase, ...] | None:
+    """What is named one after the other from an end on, from the bottom up ("red at the bottom,
+    then blue, then green").
+    """
+    begun = lowest[1]
+    if ({"all", "both", *NUMBERS} - {"one"}) & {*lowest[0].determiner.split()}:
+        return None  # "all blocks, smallest on top"
+    *inner, (then, _, last) = [(then, np, end) for then, (np, end) in more]
+    end = "bottom" if begun == "top" else "top"
+    if begun == "top":
+        told = all(then and side in ("", "middle") for then, _, side in inner)
+    else:
+        between = ("", "upon", "middle") if begun else ("upon",)
+        told = all((then or side == "upon") and side in between for then, _, side in inner)
+    upon = last == "upon" and begun != "top"
+    whole = told and begun in ("", "top", "bottom")
+    nps = (lowest[0], *(np for _, (np, _) in more))
+    if not whole or not (last == end or upon or (begun and then and not last)):
+        return None
+    return nps[::-1] if begun == "top" else nps
+
+
+_UPWARD = sequence(
+    OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
+)
+_LAYER = sequence(
+    noun_phrase,
+    optional(verbs.BE),
+    optional(either(_END, phrase(manner.UPON_THAT, "upon")), ""),
+    build=lambda np, end: (np, end),
+)
+_MORE_LAYERS = some(
+    sequence(
+        either(
+            sequence(OPTIONAL_COMMA, phrase(f"{small_words.THEN_JOINTS}, followed by")),
+            sequence(LIST, build=lambda: ""),
+        ),
+        _LAYER,
+        build=lambda then, layer: (then, layer),
+    ),
+    least=1,
+    most=5,
+)
+_IN_A_ROW = separated(noun_phrase, LIST, most=6)
+_LAYERS = valued(
+    either(
+        sequence(_LAYER, _MORE_LAYERS, build=_rising),
+        ONE_ON_THE_OTHER,
+        FIRST_TO_LAST,
+        sequence(_IN_A_ROW, _UPWARD, build=lambda nps, up: nps if up else nps[::-1]),
+        sequence(_UPWARD, COMMA, _IN_A_ROW, build=lambda up, nps: nps if up else nps[::-1]),
+    ),
+    _with_nouns,
+)
+"""All of a tower from the bottom up."""
+_TOWER_ENDS = optional(
+    either(
+        sequence(SO, _ENDS),
+        # In "a tower with the blue block at the bottom" "the blue" is no thing of its own.
+        sequence(_ENDS, build=lambda ends: ends if ends[0][0].determiner else None),
+        sequence(OPTIONAL_COMMA, manner.WIDEST_BELOW, build=lambda: ()),
+    ),
+    None,
+)
+
+
+_TOWER = either(
+    sequence(
+        # "Stack the red block on the green one on the blue one"
+        verbs.STACK,
+        noun_phrase,
+        some(sequence(places.ONTO, noun_phrase), least=2, most=5),
+        build=lambda top, below: TowerClause(Things((top, *below)), upward=False),
+    ),
+    sequence(
+        either(
+            sequence(verbs.STACK, THINGS, optional(f"{manner.UPON_EACH_OTHER}, up")),
+            sequence(verbs.PUT, THINGS, manner.UPON_EACH_OTHER),
+            sequence(verbs.TURN_INTO, THINGS, f"(in|into) {verbs.A_TOWER}"),
+            sequence(verbs.WANT, THINGS, "(stacked|piled) [up]", optional(manner.UPON_EACH_OTHER)),
+        ),
+        optional(_UPWARD, None),
+        optional(DESTINATIONS, ()),
+        _TOWER_ENDS,
+        build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
+    ),
+    PILED,
+    NESTED,
+    sequence(
+        # "Put the blocks on the tray, stacked", "the blocks go on the tray in a stack"
+        either(sequence(verbs.PUT, THINGS), sequence(THINGS, verbs.MODAL)),
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        either(f"(stacked|piled) [up] [{manner.UPON_EACH_OTHER}]", manner.UPON_EACH_OTHER),
+        _TOWER_ENDS,
+        build=lambda things, base, ends: _tower(things, None, ends, base),
+    ),
+    sequence(
+        # "The blocks should be stacked on the tray"
+        THINGS,
+        verbs.MODAL,
+        "(stacked|piled) [up]",
+        optional(manner.UPON_EACH_OTHER),
+        optional(DESTINATIONS, ()),
+        _TOWER_ENDS,
+        build=lambda things, base, ends: _tower(things, None, ends, base),
+    ),
+    sequence(
+        f"{verbs.BUILD}, {verbs.WANT}",
+        optional(_UPWARD, None),
+        verbs.OUT_OF,
+        THINGS,
+        optional(_UPWARD, None),
+        optional(DESTINATIONS, ()),
+        _TOWER_ENDS,
+        build=lambda before, things, after, base, ends: (
+            None
+            if before is not None and after is not None
+            else _tower(things, before if after is None else after, ends, base)
+        ),
+    ),
+    sequence(
+        THINGS,
+        verbs.FORM_A_TOWER,
+        optional(_UPWARD, None),
+        optional(DESTINATIONS, ()),
+        _TOWER_ENDS,
+        build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
+    ),
+    sequence(
+        THINGS,
+        verbs.FORM_A_TOWER,
+        SO,
+        _LAYERS,
+        build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
+    ),
+    ON_A_BASE,
+    LAYERED,
+    sequence(A_TOWER, optional(DESTINATIONS, ()), SO, _ENDS, build=_of_its_ends),
+    sequence(
+        # "Make a pile: yellow on top of the red block"
+        A_TOWER,
+        SO,
+        noun_phrase,
+        places.ONTO,
+        noun_phrase,
+        build=lambda tower, *nps: (
+            None
+            if (named := _announced(tower, nps[::-1])) is None
+            else TowerClause(Things(_with_nouns(named)), upward=True)
+        ),
+    ),
+    variants(
+        sequence(A_TOWER, optional(DESTINATIONS, ()), optional(SO), _LAYERS),
+        lambda found: [
+            TowerClause(Things(nps), upward=True, base=found[1])
+            for nps in [_announced(found[0], found[2])]
+            if nps is not None
+        ],
+    ),
+    sequence(
+        either(verbs.STACK, sequence(verbs.BUILD, verbs.OUT_OF)),
+        optional(sequence(THINGS, optional("up"), SO), None),
+        _LAYERS,
+        build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
+    ),
+)
+
+
+_TOP_AND_BOTTOM = {"bottom", "top"}
+
+
+def _only_ends(ends: Any) -> TowerClause | None:
+    """A tower of what is said to be at the bottom, on top and perhaps in the middle."""
+    whole = {end for _, end in ends} >= _TOP_AND_BOTTOM
+    return _of_its_ends((0, ()), (), ends) if whole else None
+
+
+def _only_layers(first: Any, more: Any) -> TowerClause | None:
+    """A tower without a verb: one of its layers is said to be at the bottom and one on top."""
+    ends = {first[1], *(end for _, (_, end) in more)}
+    nps = _rising(first, more)
+    layers = None if nps is None or not ends >= _TOP_AND_BOTTOM else Things(_with_nouns(nps))
+    return None if layers is None else TowerClause(layers, upward=True)
+
+
+STACKED = either(
+    PLACED_LAYERS,
+    PAIR_BY_PAIR,
+    sequence(_ENDS, build=_only_ends),
+    sequence(_LAYER, _MORE_LAYERS, build=_only_layers),
+    sequence(
+        THINGS,
+        either(
+            f"(stacked|piled) [up] [{manner.UPON_EACH_OTHER}]",
+            f"in a (tower|stack|pile), {manner.UPON_EACH_OTHER}",
+        ),
+        optional(DESTINATIONS, ()),
+        _TOWER_ENDS,
+        build=lambda things, base, ends: _tower(things, None, ends, base),
+    ),
+)
+"""The same without a verb ("three blocks stacked, the red one on top")."""
+
+
+def _based(base: tuple[Destination, ...], tower: TowerClause) -> TowerClause | None:
+    """A tower of several things on what is named before it ("on the tray, build a tower …")."""
+    (np, *more) = tower.things.phrases
+    several = more or singular(np.head) != np.head
+    return replace(tower, base=base) if several and not tower.base else None
+
+
+TOWER = either(_TOWER, sequence(DESTINATIONS, OPTIONAL_COMMA, _TOWER, build=_based))

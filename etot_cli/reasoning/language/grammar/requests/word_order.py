@@ -1,0 +1,203 @@
+"""Rules for clauses that put things somewhere and name the place before the thing, or the things
+last.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    optional,
+    quiet,
+    sequence,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COLON,
+    COMMA,
+    OPTIONAL_COMMA,
+    not_after,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.destinations import (
+    DESTINATIONS,
+    WHERE,
+)
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.turns import TURN
+from etot_cli.reasoning.language.grammar.requests.additions import (
+    BY_COLOR,
+    CONDITION,
+    GROUPING,
+    put_of,
+)
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.lexicon import (
+    NUMBERS,
+    is_descriptive,
+    singular,
+)
+
+BROUGHT = either(
+    sequence(f"{verbs.PUT}, get[ting], {verbs.GATHER}", THINGS),
+    sequence(verbs.WANTED, ALL_THINGS),
+    sequence(ALL_THINGS, verbs.MODAL),
+)
+"""What is to go somewhere, in any mood."""
+SAID_AHEAD = sequence(
+    BROUGHT,
+    either(
+        sequence(either(GROUPING, BY_COLOR), OPTIONAL_COMMA),
+        sequence(COMMA, either(TURN, CONDITION), COMMA),
+        valued(sequence(OPTIONAL_COMMA, manner.IN_THIS_ORDER, OPTIONAL_COMMA), lambda _: ()),
+    ),
+    WHERE,
+    build=lambda things, said, where: put_of(put_to(things, where).groups, (said,)),
+)
+"""What may follow the place stands before it."""
+
+
+def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> PutClause | None:
+    """A place and what goes there; "next to the tape" is no "next, to the tape", and "to the big
+    bowl" no bowl to the big one.
+    """
+    last = [*where[-1].targets, *(np for item in where[-1].beside for np in item.phrases)][-1:]
+    if not nps[0].determiner and any(
+        not (np.words or np.pronoun) or is_descriptive(np.head) for np in last
+    ):
+        return None
+    # "Take it out and put in the cup" rather puts it into that.
+    vague = any(item.toward is Toward.TO or item.word == "in" for item in where)
+    return replace(put_to(Things(nps), where), far_fetched=int(vague))
+
+
+FRONTED = quiet(
+    sequence(
+        either(
+            # "The pen is to be taken out and put in the cup" puts no cup in there.
+            sequence(not_after(*verbs.BEING_TAKEN), verbs.PUT, DESTINATIONS),
+            sequence(
+                DESTINATIONS,
+                OPTIONAL_COMMA,
+                either(verbs.PUT, "go[es], belong[s], come[s]"),
+            ),
+        ),
+        NP_LIST,
+        build=_fronted,
+    )
+)
+"""The place before the thing."""
+PLACE_AHEAD = quiet(
+    sequence(
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        NP_LIST,
+        build=lambda where, nps: (
+            _fronted(where, nps) if all(item.targets or item.beside for item in where) else None
+        ),
+    )
+)
+"""The same, where the verb was said before ("…, and beside it, the spoon")."""
+_THESE = "(this|these|the following) [things|objects|items]"
+FOLLOWING = sequence(
+    either(
+        sequence(f"{verbs.PUT}, set up, arrange, lay out, have", _THESE, DESTINATIONS, COMMA),
+        sequence(
+            either(sequence(_THESE, verbs.MODAL), "what (goes|belongs|should go|should be)"),
+            DESTINATIONS,
+            COLON,
+        ),
+    ),
+    NP_LIST,
+    build=lambda where, nps: put_to(Things(nps), where),
+)
+
+
+def _counted(whole: NounPhrase, nps: tuple[NounPhrase, ...]) -> bool:
+    """Whether so many things are named as was said ("both fruits, apple and pear")."""
+    return {"both": 2, **NUMBERS}.get((whole.determiner.split() or [""])[-1]) == len(nps)
+
+
+def _named_behind(
+    whole: NounPhrase, where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]
+) -> PutClause | None:
+    """Several things that are announced together; "the green one" is one of these."""
+    noun = singular(whole.head)
+    every = noun == whole.head and whole.words == ("everything",)
+    counted = _counted(whole, nps)
+    some = not whole.determiner and is_category(whole.head)  # "food in the basket: …"
+    several = nps[1:] or (not whole.determiner and nps[0].is_elliptic)
+    if not several or not (every or counted or some or whole.determiner in _ALL_THESE):
+        return None
+    if noun == whole.head and not (every or counted or some):
+        return None
+    named = (np.called(noun) if np.is_elliptic else np for np in nps)
+    return put_to(Things(tuple(named), whole=whole), where)
+
+
+_ALL_THESE = ("", "the", "these", "those", "all", "all the")
+_THAT_IS = "(that is|those are|namely|meaning) [~comma]"
+_LISTED = sequence(COMMA, _THAT_IS, NP_LIST, OPTIONAL_COMMA)
+LISTED = quiet(
+    sequence(
+        either(
+            sequence(verbs.PUT, noun_phrase, _LISTED),
+            sequence(noun_phrase, _LISTED, verbs.MODAL),
+            sequence(
+                # "Both fruits, apple and pear, must go in the bowl"
+                noun_phrase,
+                sequence(COMMA, NP_LIST, COMMA),
+                verbs.MODAL,
+                build=lambda whole, nps: (
+                    (replace(whole, determiner=whole.determiner.split()[-1]), nps)
+                    if _counted(whole, nps)
+                    else None
+                ),
+            ),
+            sequence(verbs.WANTED, noun_phrase, _LISTED, optional("to (go|be)")),
+        ),
+        DESTINATIONS,
+        build=lambda found, where: _named_behind(found[0], where, found[1]),
+    )
+)
+"""The same before the place ("the fruit, that is the apple and the pear, goes in the bowl")."""
+NAMED_BEHIND = quiet(
+    sequence(
+        either(
+            sequence(f"{verbs.PUT}, {verbs.TIDY}, {verbs.GATHER}", noun_phrase),
+            sequence(noun_phrase, verbs.MODAL),
+            sequence(verbs.WANTED, noun_phrase),
+        ),
+        DESTINATIONS,
+        COMMA,
+        optional(f"{_THAT_IS}, i mean"),
+        NP_LIST,
+        build=_named_behind,
+    )
+)
+"""What goes somewhere is named one by one at the end."""
+ANNOUNCED = quiet(
+    either(
+        sequence(noun_phrase, DESTINATIONS, COLON, NP_LIST, build=_named_behind),
+        sequence(DESTINATIONS, COLON, NP_LIST, build=_fronted),
+    )
+)
+"""The same without a verb ("food in the basket: the apple and the pear", "in the basket: …")."""
+ALONG_WITH = sequence(
+    verbs.PUT,
+    NP_LIST,
+    DESTINATIONS,
+    OPTIONAL_COMMA,
+    "together with, along with, as well as",
+    NP_LIST,
+    build=lambda things, where, more: put_to(Things((*things, *more)), where),
+)

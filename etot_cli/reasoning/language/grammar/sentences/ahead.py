@@ -1,0 +1,82 @@
+"""Rules for what is said ahead of a request: what is left out, and where something is not to be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    Parser,
+    either,
+    optional,
+    sequence,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, denied, rather
+from etot_cli.reasoning.language.grammar.phrases.exclusions import changed
+from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT, Reading
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Modifier,
+    NounPhrase,
+    State,
+)
+from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.places import Prep
+
+_NOT_THIS = either(
+    sequence(small_words.IN_STEAD, noun_phrase, OPTIONAL_COMMA),
+    # "Not the cup should be empty" says nothing of another one.
+    sequence("not", noun_phrase, COMMA),
+)
+
+
+def _elsewhere(out: tuple[Destination, ...], rest: Reading) -> Reading | None:
+    """A sentence that begins with where something is not to be."""
+    match rest[0].clause:
+        case PutClause(groups=(group,)) as clause:
+            group = replace(group, destinations=rather(out, group.destinations))
+            return (replace(rest[0], clause=replace(clause, groups=(group,))), *rest[1:])
+        case EnsureClause(states=(State(destinations=(_, *_)) as state,)) as clause:
+            state = replace(state, destinations=rather(out, state.destinations))
+            return (replace(rest[0], clause=replace(clause, states=(state,))), *rest[1:])
+    return None
+
+
+def _without(out: Modifier, rest: Reading) -> Reading | None:
+    """A sentence that begins with what is left out; "it" behind that is what is not meant ("not the
+    tray, the cup on it").
+    """
+    (first, *more) = out.phrases
+    if first.pronoun == "it":
+        return None  # "not it would be nice if …" leaves nothing out
+
+    def told(np: NounPhrase) -> NounPhrase:
+        upon = (
+            replace(item, phrases=(first,)) if [n.pronoun for n in item.phrases] == ["it"] else item
+            for item in np.modifiers
+        )
+        contrasted = out.prep is Prep.CONTRAST and not more
+        return (replace(np, modifiers=tuple(upon)) if contrasted else np).told_by(out)
+
+    clause = changed(rest[0].clause, told)
+    return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
+
+
+def not_so(chain: Parser) -> Parser:
+    """What is not meant, or not to be, and then what is asked for."""
+    there = sequence(
+        small_words.NOT_THERE, optional(verbs.BEING), valued(DESTINATIONS, denied), OPTIONAL_COMMA
+    )
+    return either(
+        sequence(LEFT_OUT, COMMA, chain, build=_without),
+        sequence(
+            valued(_NOT_THIS, lambda np: Modifier(Prep.CONTRAST, (np,))), chain, build=_without
+        ),
+        sequence(there, chain, build=_elsewhere),
+    )

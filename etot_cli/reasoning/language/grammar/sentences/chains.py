@@ -1,0 +1,365 @@
+"""Rules for clauses one after the other, and what joins them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from operator import add
+
+from etot_cli.reasoning.language.grammar.conditions.ensuring import OF_SEVERAL
+from etot_cli.reasoning.language.grammar.conditions.left_alone import UNTOUCHED
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    Parser,
+    Part,
+    either,
+    one_of,
+    optional,
+    phrase,
+    remembered,
+    sequence,
+    some,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    EMPTY_WORDS,
+    LIST,
+    OPTIONAL_COMMA,
+    after,
+)
+from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
+    NP_LIST,
+    THINGS,
+    begins_like_a_verb,
+)
+from etot_cli.reasoning.language.grammar.phrases.states import (
+    BESIDES_SO,
+    MEANWHILE_SO,
+    OPEN_OR_CLOSED,
+    SHUT,
+    ensured,
+    holding_only,
+    states,
+)
+from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, is_emptying
+from etot_cli.reasoning.language.grammar.requests.grasping import WITH_A_GRASP
+from etot_cli.reasoning.language.grammar.requests.word_order import PLACE_AHEAD
+from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.doubles import so_in_turn
+from etot_cli.reasoning.language.grammar.sentences.headlines import (
+    HEADLINE,
+    LEFT_SO,
+    PLACED,
+    left_so,
+    timed,
+)
+from etot_cli.reasoning.language.grammar.sentences.not_before import NOT_BEFORE
+from etot_cli.reasoning.language.grammar.sentences.passives import (
+    ALSO_DONE,
+    BEFORE_PLACED,
+    THEN_HELD,
+    THEN_PLACED,
+    THEN_TURNED,
+    goes_on,
+)
+from etot_cli.reasoning.language.grammar.sentences.past import EARLIER, LATER, then_done
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.topics import sources
+from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
+from etot_cli.reasoning.language.grammar.sentences.which_clauses import (
+    WHICH_FIRST_GETS,
+    WHICH_GOES_ON,
+    WHICH_IN_TURN_IS,
+    WHICH_IS_MOVED,
+    held_by,
+    named_last,
+)
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    AgainClause,
+    AvoidClause,
+    Clause,
+    EnsureClause,
+    PickClause,
+    PutClause,
+    RemoveClause,
+    TowerClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
+from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.places import Prep
+
+Joined = tuple[tuple[str, Reading], ...]
+"""Readings with what joins them."""
+
+
+def _onward(where: tuple[Destination, ...]) -> AgainClause | None:
+    """What was put somewhere goes on to another place; "on top" says no such thing."""
+    named = all(item.targets and not item.targets[0].pronoun for item in where)
+    return AgainClause(None, destinations=where) if named else None
+
+
+def once_more(things: Things) -> AgainClause | None:
+    """Of which the same is asked for as before."""
+    return None if begins_like_a_verb(things.phrases[0]) else AgainClause(things)
+
+
+def _another(things: Things) -> AgainClause | None:
+    """What comes second; "the apple on the plate" rather goes there."""
+    placed = any(item.prep in (Prep.IN, Prep.ON) for np in things.phrases for item in np.modifiers)
+    return None if placed else once_more(things)
+
+
+def _also(things: Things) -> AgainClause:
+    """Behind a place, which it may be one more of."""
+    return AgainClause(things, trailing=True)
+
+
+def joint(name: str, *parts: Part) -> Parser:
+    """What goes on a sentence, with a name for what joins it."""
+    return sequence(*parts, build=lambda reading: (name, reading))
+
+
+_SO = sequence(
+    # "…, which should be closed afterwards": what was named last
+    "which [then] (should|must|has to|needs to|is to) [then] be [left|kept]",
+    OPEN_OR_CLOSED,
+    build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
+)
+ENDING_WITH = "(end|ending|finish|finishing) [up] [~comma] with"
+WITH_MORE_SO = either(
+    joint(
+        "and",
+        OPTIONAL_COMMA,
+        "with",
+        plain(either(sequence(NP_LIST, SHUT, build=left_so), UNTOUCHED)),
+    ),
+    joint("and", LIST, ENDING_WITH, plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so))),
+    joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
+    joint("and", OPTIONAL_COMMA, plain(MEANWHILE_SO)),
+    joint(
+        # "I want the box empty and the tray holding the pen only"
+        "and",
+        LIST,
+        plain(sequence(holding_only(verbs.HOLDING), build=ensured)),
+    ),
+)
+"""How other things are to be besides ("…, with the door closed")."""
+JOINED = either(
+    joint("and", either(COMMA, LIST), LEFT_SO),
+    joint("and", OPTIONAL_COMMA, plain(WITH_A_GRASP)),
+    WITH_MORE_SO,
+    joint("mere and", "and", LED_CLAUSE),
+    joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
+    joint("purpose", small_words.PURPOSE, LED_CLAUSE),
+    joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
+    joint("before", OPTIONAL_COMMA, LATER),
+    joint(
+        # "… and, before you close it, put the pen in"
+        "then",
+        OPTIONAL_COMMA,
+        "and, then, and then, but",
+        OPTIONAL_COMMA,
+        sequence(
+            LATER, OPTIONAL_COMMA, LED_CLAUSE, build=lambda later, rest: rest + then_done(later)
+        ),
+    ),
+    joint("and", either(COMMA, LIST, small_words.JOINTS), NOT_BEFORE),
+    joint("after", OPTIONAL_COMMA, EARLIER),
+    joint(
+        # "… and once they are out, close it"
+        "then",
+        OPTIONAL_COMMA,
+        "and",
+        OPTIONAL_COMMA,
+        sequence(EARLIER, OPTIONAL_COMMA, valued(LED_CLAUSE, then_done), build=add),
+    ),
+    joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
+    joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
+    joint("emptied", LIST, PLACED),
+    joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
+    joint("passive, then", timed(BEFORE_PLACED)),
+    joint(
+        # "…, but first the cup on the tray"
+        "and",
+        OPTIONAL_COMMA,
+        optional("and, but"),
+        sequence(
+            one_of(
+                {
+                    Order.FIRST: small_words.LEADING_FIRST,
+                    Order.BEFORE_THAT: small_words.LEADING_BEFORE,
+                    Order.LAST: small_words.LEADING_LAST,
+                }
+            ),
+            OPTIONAL_COMMA,
+            PLACED,
+            # "…, last, the cup in the box first" is two orders for one thing.
+            build=lambda order, placed: (
+                None
+                if placed[0].order is not Order.SAID
+                else (replace(placed[0], order=order, far_fetched=1),)
+            ),
+        ),
+    ),
+    joint(
+        "so that", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))
+    ),
+    joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(IS_EMPTY)),
+    joint("and", COMMA, timed(_SO)),
+    joint("and", COMMA, WHICH_IS_MOVED),
+    joint("which", COMMA, WHICH_GOES_ON),
+    joint("which in turn", COMMA, WHICH_IN_TURN_IS),
+    joint("after", COMMA, WHICH_FIRST_GETS),
+    joint("and", COMMA, so_in_turn(phrase("which", (NounPhrase(pronoun="it", text="which"),)))),
+    joint("while", OPTIONAL_COMMA, small_words.WHILE, LED_CLAUSE),
+    joint(
+        "then",
+        OPTIONAL_COMMA,
+        small_words.THEN_JOINTS,
+        OPTIONAL_COMMA,
+        EMPTY_WORDS,
+        either(plain(sequence(THINGS, build=once_more)), HEADLINE),
+    ),
+    joint(
+        "then",
+        OPTIONAL_COMMA,
+        after("first", "firstly"),
+        small_words.COUNTED_JOINTS,
+        COMMA,
+        either(LED_CLAUSE, plain(sequence(THINGS, build=once_more)), HEADLINE),
+    ),
+    joint(
+        "counted",
+        OPTIONAL_COMMA,
+        after("first", "firstly"),
+        small_words.COUNTED_JOINTS,
+        either(LED_CLAUSE, plain(sequence(THINGS, build=once_more)), HEADLINE),
+    ),
+    joint(
+        "then",
+        LIST,
+        after("first"),
+        either(plain(sequence(THINGS, build=_another)), plain(VERBLESS)),
+        f"{small_words.COUNTED}, after that, afterward, later",
+    ),
+    joint(
+        "then",
+        OPTIONAL_COMMA,
+        small_words.ONWARD,
+        plain(sequence(optional("back"), DESTINATIONS, build=_onward)),
+    ),
+)
+
+
+_LATER = frozenset({"then", "counted", "passive, then", "which", "before"})
+
+
+def _maybe_denied(done: Reading, clause: Reading) -> Reading:
+    """In "do not touch the cup and open the drawer" the drawer may be denied, too."""
+    before = done[-1].clause
+    if (
+        not isinstance(before, AvoidClause)
+        or not before.negated
+        or isinstance(clause[0].clause, AvoidClause)
+    ):
+        return done
+    return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
+
+
+def _also_left(before: Clause, clause: Reading) -> Reading:
+    """In "the cup stays where it is, the pen too" the pen does, whatever was asked for before."""
+    too = clause[0].clause
+    if not (isinstance(before, AvoidClause) and isinstance(too, AgainClause) and too.things):
+        return clause
+    return (replace(clause[0], clause=replace(before, things=too.things)), *clause[1:])
+
+
+def _is_told_of(before: Clause, joint: str, after: Clause) -> bool:
+    """Whether a clause says of a stack, which one before it takes apart or turns over, what its own
+    rules have to understand.
+    """
+    match before:
+        case TowerClause(reverses=True):
+            return joint == "so that"
+        case RemoveClause(stacked=True):
+            return any(np.determiner == "its" for np in nodes(after) if isinstance(np, NounPhrase))
+    return False
+
+
+def _is_denied(clause: Clause) -> bool:
+    """Whether a clause says what is not to be done, or not to be so."""
+    match clause:
+        case AvoidClause():
+            return clause.negated and not clause.needless
+        case EnsureClause(states=states):
+            return any(state.denied for state in states)
+    return False
+
+
+def _done_after(done: Reading, clause: Reading) -> Reading:
+    """What was asked for, after something else. That comes before all of it, but for what speaks of
+    what was done with the same things ("put the pen in and close it once the pen is in").
+    """
+    *before, last = done
+    put = clause[0].clause
+    same = isinstance(put, PutClause) and any(
+        isinstance(said.clause, PutClause)
+        and [np.words for np in said.clause.groups[0].things.phrases]
+        == [np.words for np in put.groups[0].things.phrases]
+        for said in before
+    )
+    if before and len(clause) == 1 and same:
+        return (*before, *then_done(clause), *then_done((last,)))
+    return (*clause, *then_done(done))
+
+
+def chained(first: Reading, more: Joined) -> Reading | None:
+    """Clauses in the order in which they are to be done, by what joins them."""
+    done = first
+    for said, clause in more:
+        put = done[-1].clause if said == "listed" else None
+        put = None if isinstance(clause[0].clause, RemoveClause) else put
+        if isinstance(put, PutClause) and not any(sources(item.things) for item in put.groups):
+            return None  # several things with their places are one clause
+        if said == "emptied" and not is_emptying(done[-1].clause):
+            return None  # behind another verb that may be said of this, too
+        if said.startswith("passive") and not goes_on(done[-1].clause, clause[0].clause):
+            return None
+        before = done[-1].clause
+        if said == "purpose" and isinstance(before, PickClause) and before.wanted:
+            return None  # "I want the box to have the cup in it" does not ask for the box
+        if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
+            return None  # "keep it open while you …"; else the hand would do two things
+        if _is_told_of(done[-1].clause, said, clause[0].clause):
+            return None
+        if said not in _LATER and len(done) == 1:
+            clause = _also_left(before, clause)
+        if said == "mere and":
+            further = clause[0].clause
+            if isinstance(further, EnsureClause) and further.far_fetched == OF_SEVERAL:
+                return None  # "the cup on the tray and the pen in it go in the box"
+            done = _maybe_denied(done, clause)
+        if said == "before" and _is_denied(before):
+            return None  # "do not put it there before …" rather asks for both
+        if said in ("which", "which in turn"):
+            named = named_last if said == "which" else held_by
+            goes_there = named(before, clause[0].clause)
+            if goes_there is None:
+                return None
+            clause = (replace(clause[0], clause=goes_there),)
+        if said == "after" and is_emptying(before) and is_emptying(clause[0].clause):
+            return None  # "clear it; when it is empty, …" goes on with something else
+        if said == "after":
+            done = _done_after(done, clause)
+        else:
+            done = (*done, *(then_done(clause) if said in _LATER else clause))
+        if said == "counted":
+            done = (*done[:-1], replace(done[-1], far_fetched=1))
+    return done
+
+
+GOES_ON = some(either(JOINED, joint("listed", LIST, HEADLINE)), most=12)
+"""What may follow a clause without a verb."""
+BARE_CHAIN = sequence(HEADLINE, GOES_ON, build=chained)
+CHAIN = remembered(sequence(either(LED_CLAUSE, NOT_BEFORE), some(JOINED, most=12), build=chained))

@@ -1,0 +1,65 @@
+"""Rules for what stays so while something else is done ("keep it upright as you move it …")."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    optional,
+    sequence,
+    silent,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
+from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading
+from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    PickClause,
+    PutClause,
+    ReorientClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Things
+from etot_cli.reasoning.language.words import manner, small_words
+from etot_cli.world.spatial import Nearby
+
+
+def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
+    """What stays so while something else is done; nothing is done with something in the hand."""
+    held = any(isinstance(said.clause, PickClause) for said in first)
+    return None if held else (*first, *rest)
+
+
+def _kept_upright(things: Things, rest: Reading) -> Reading | None:
+    """What is kept upright while it is put somewhere."""
+    put = rest[0].clause
+    if not isinstance(put, PutClause) or len(put.groups) != 1:
+        return None
+    (group,) = put.groups
+    if not all(np.pronoun for np in group.things.phrases):
+        return None
+    again = ReorientClause(group.things, Nearby.UPRIGHT, meanwhile=True)
+    put = replace(put, groups=(replace(group, things=things),))
+    return (replace(rest[0], clause=put), Spoken(again, rest[0].position), *rest[1:])
+
+
+MEANWHILE = either(
+    sequence(small_words.WHILE, LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
+    sequence(
+        either(
+            sequence("[always] (keep|hold)", THINGS),
+            sequence(
+                ALL_THINGS,
+                "(must|should|has to|have to|needs to|need to|is to|are to) [always]"
+                " (be kept|be held|stay|remain)",
+            ),
+        ),
+        f"{manner.ERECT}, {manner.LEVELED}",
+        silent(optional(small_words.ALL_ALONG)),
+        OPTIONAL_COMMA,
+        f"{small_words.WHILE}, when [you [are]], and, and then, throughout as you",
+        CHAIN,
+        build=_kept_upright,
+    ),
+)

@@ -1,0 +1,202 @@
+"""Rules for what has been done by then: "once the pen is in the box, …"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
+    either,
+    optional,
+    phrase,
+    sequence,
+    silent,
+    some,
+    valued,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.requests.arrangements import HAVING_TURNED, STANDS_UP
+from etot_cli.reasoning.language.grammar.requests.emptying import emptied
+from etot_cli.reasoning.language.grammar.requests.putting import OUT_AND_INTO, brought
+from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
+from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    EnsureClause,
+    MoveClause,
+    PickClause,
+    PutClause,
+    RemoveClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import manner, small_words, verbs
+
+SO = sequence(
+    ALL_THINGS,
+    optional(f"{verbs.BE}, {verbs.LIES}, (has|have) been"),
+    OPEN_OR_CLOSED,
+    build=lambda things, word: MoveClause(things, word == "open"),
+)
+_TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)"
+_TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
+_NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
+"""Not before what has been done with it next ("taken out and put on the tray")."""
+_SO_BY_THEN = either(
+    sequence(
+        ALL_THINGS,
+        f"{verbs.BE}, (is|are) {verbs.BEING}, {verbs.LIES}, {small_words.GONE},"
+        " (is|are) out [of the way], (is|are) (up|down|back|away),"
+        f" (is|are|gets|get|has been|have been) ({verbs.DONE_WITH_IT}) [down|away|over]",
+        DESTINATIONS,
+        build=put_to,
+    ),
+    sequence(
+        ALL_THINGS,
+        verbs.BE,
+        OUT_AND_INTO,
+        build=lambda things, moved: PutClause((brought(things, *moved),)),
+    ),
+    sequence(ALL_THINGS, "(is|are) (out|off|away) and", DESTINATIONS, build=put_to),
+    sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
+    sequence(
+        ALL_THINGS,
+        f"(is|are) (out|off|out of the way), (is|are|has been|have been) ({_TAKEN_AWAY})",
+        _NO_MORE,
+        build=RemoveClause,
+    ),
+    sequence(
+        ALL_THINGS,
+        _TAKEN_BY_THEN,
+        silent(either("out, off, away, down", SOURCE)),
+        "and [then] [been]",
+        verbs.DONE,
+        DESTINATIONS,
+        build=put_to,
+    ),
+    STANDS_UP,
+    SO,
+    sequence(ALL_THINGS, f"{verbs.BE}, (has|have) been", manner.EMPTIED, build=emptied),
+    sequence(
+        # "Once the plate has been cleared of the cup"
+        noun_phrase,
+        "(is|has been|gets) (cleared|emptied|freed|rid|relieved) of, is (free|clear|empty) of",
+        ALL_THINGS,
+        build=lambda source, things: RemoveClause(things, source),
+    ),
+    sequence(
+        noun_phrase,
+        "(holds|contains|has [got]) [now]",
+        ALL_THINGS,
+        build=lambda np, held: put_to(held, (Destination(Toward.INSIDE, (np,)),)),
+    ),
+)
+"""What has been done or is so by then ("once the pear has been put into the bowl")."""
+_HAVING_DONE = either(
+    *(
+        sequence(said, ALL_THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
+        for said, opens in (("opened, pulled open", True), ("closed, shut, pushed shut", False))
+    ),
+    *(
+        sequence(
+            said, ALL_THINGS, particle, build=lambda things, opens=opens: MoveClause(things, opens)
+        )
+        for said, particle, opens in (
+            ("pulled, slid", f"{manner.OPEN_STATE}, out", True),
+            ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
+        )
+    ),
+    sequence(f"{verbs.DONE}, {verbs.BROUGHT}", ALL_THINGS, DESTINATIONS, build=put_to),
+    sequence(
+        "left, kept",
+        NP_LIST,
+        OPEN_OR_CLOSED,
+        build=lambda nps, word: EnsureClause((State(nps, word=word, kept=True),)),
+    ),
+    sequence(verbs.PICKED_UP, THINGS, build=PickClause),
+    HAVING_TURNED,
+    sequence(
+        f"{verbs.TAKEN_AWAY}, took (out|off|away), cleared away",
+        ALL_THINGS,
+        optional(SOURCE, None),
+        build=RemoveClause,
+    ),
+    sequence(
+        "taken, took, removed, moved, cleared, lifted, got, pulled",
+        ALL_THINGS,
+        either(SOURCE, phrase("out, off, away", "")),
+        build=lambda things, source: RemoveClause(things, source or None),
+    ),
+)
+
+
+def _by_then(reading: Reading) -> Reading:
+    """With what has been taken away by then marked so."""
+    clause = reading[0].clause
+    if not isinstance(clause, RemoveClause):
+        return reading
+    return (replace(reading[0], clause=replace(clause, by_then=True)), *reading[1:])
+
+
+def then_done(clause: Reading) -> Reading:
+    """A reading that is to be done after what was said before."""
+    first = clause[0]
+    if first.order is Order.SAID:
+        first = replace(first, order=Order.THEN)
+    return (first, *clause[1:])
+
+
+def _gapped(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> PutClause:
+    return put_to(Things(nps), where)
+
+
+DONE_BY_THEN = valued(
+    either(
+        sequence(optional("you have, having, you"), either(LED_CLAUSE, plain(_HAVING_DONE))),
+        plain(_SO_BY_THEN),
+    ),
+    _by_then,
+)
+"""What has been done by then, behind "until" or "before"."""
+LATER = sequence(small_words.BEFORE, either(LED_CLAUSE, plain(_SO_BY_THEN)))
+"""What comes after the rest of a sentence ("before the drawer is closed")."""
+EARLIER = valued(
+    either(
+        sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
+        sequence(
+            # "… have taken the pen off it and stood it in the cup"
+            small_words.AFTER,
+            plain(_HAVING_DONE),
+            "and [then]",
+            plain(_HAVING_DONE),
+            build=lambda first, next_: first + then_done(next_),
+        ),
+        sequence("having [first|already|just|previously|beforehand]", plain(_HAVING_DONE)),
+        sequence(
+            small_words.BY_THEN,
+            plain(_SO_BY_THEN),
+            some(
+                sequence(
+                    optional(COMMA),
+                    "and [(once|when|after|as soon as)]",
+                    # "… has been put on the tray and the pen in the cup"
+                    plain(either(_SO_BY_THEN, sequence(NP_LIST, DESTINATIONS, build=_gapped))),
+                ),
+                most=3,
+            ),
+            build=lambda first, more: sum(more, first),
+        ),
+    ),
+    _by_then,
+)
+"""What comes before the rest of a sentence."""

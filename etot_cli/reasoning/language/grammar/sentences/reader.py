@@ -1,0 +1,193 @@
+"""Reads an instruction's text into syntax trees, all readings of every sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from etot_cli.reasoning.language.grammar.asides.aside_clauses import says_nothing
+from etot_cli.reasoning.language.grammar.paraphrasing.normalizing import normalized
+from etot_cli.reasoning.language.grammar.parsers.input import Input, TooManyReadings
+from etot_cli.reasoning.language.grammar.parsers.trees import reading_cost
+from etot_cli.reasoning.language.grammar.sentences.accounting import unaccounted
+from etot_cli.reasoning.language.grammar.sentences.sentences import readings
+from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
+from etot_cli.reasoning.language.grammar.text.spelling import (
+    Correction,
+    corrected,
+    exchanged,
+    pet_form,
+    shortened,
+)
+from etot_cli.reasoning.language.grammar.text.splitting import (
+    COMMA,
+    MAX_CHARACTERS,
+    MAX_SENTENCES,
+    MAX_WORDS,
+    sentences_of,
+    spaced,
+    words_in,
+)
+from etot_cli.reasoning.language.words import known, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.patterns import spellings, words_of
+from etot_cli.reasoning.language.words.small_words import LOOK_FOR
+
+_TOLD = sorted(
+    (tuple(said.split()) for said in spellings(verbs.THE_ROBOT)),
+    key=len,
+    reverse=True,
+)
+"""Before what it does, the longest first."""
+_DOING = words_of((verbs.OPEN, verbs.CLOSE, LOOK_FOR)) | known.VERB_WORDS
+_JOINTS = (COMMA, "and", "then", "first")
+SHOWN_WORDS = 4
+MAX_READINGS = 200
+"""Readings of one sentence that are held against the scene; sensible sentences have up to 96."""
+
+
+class UnreadableError(Exception):
+    """Text that the grammar does not cover.
+
+    Args:
+        words: the words at which reading stopped.
+        understood: what comes before them.
+        why: what is wrong with them.
+        without: the sentence without those words, where it may be read so.
+        unread: the sentence that has no reading; which words are to blame is still to be found.
+    """
+
+    def __init__(
+        self,
+        words: str,
+        understood: str,
+        why: str = "",
+        without: str = "",
+        unread: Input | None = None,
+    ) -> None:
+        self.words = words
+        self.understood = understood
+        self.why = why
+        self.without = without
+        self.unread = unread
+        super().__init__(words)
+
+
+@dataclass(frozen=True, slots=True)
+class Sentence:
+    """A sentence's readings, the simplest first, each as clauses in the order they are put."""
+
+    text: str
+    readings: tuple[tuple[Spoken, ...], ...]
+    costs: tuple[int, ...]
+    """How far-fetched they are."""
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """All sentences, and the slips of the pen that were put right in them."""
+
+    sentences: tuple[Sentence, ...]
+    corrections: tuple[Correction, ...]
+
+
+def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read:
+    """All sentences of an instruction.
+
+    Args:
+        text: the instruction, normalized.
+        vocabulary: words of the scene's objects, normalized.
+        common: slips in the grammar's own words are put right, too; nothing else is worth it.
+
+    Raises:
+        UnreadableError: part of the text is not covered by the grammar.
+    """
+    if len(text) > MAX_CHARACTERS:
+        raise UnreadableError(
+            text[:40], "", f"it has more than {MAX_CHARACTERS} characters; shorten it"
+        )
+    parts = sentences_of(text)
+    if not any(character.isalnum() for part in parts for character in part):
+        raise UnreadableError(text.strip()[:40], "", "it says nothing")
+    if len(parts) > MAX_SENTENCES:
+        raise UnreadableError(
+            parts[MAX_SENTENCES],
+            ". ".join(parts[:3]),
+            f"it has more than {MAX_SENTENCES} sentences",
+        )
+    spelled = vocabulary | {f"{word}s" for word in vocabulary}
+    sentences: list[Sentence] = []
+    corrections: dict[Correction, None] = {}
+    for part in parts:
+        if len(parts) > 1 and says_nothing(part):
+            continue
+        before = ". ".join(parts[: len(sentences)])
+        words: list[str] = []
+        plain = _asked(words_in(part), vocabulary)
+        for word in plain:
+            # What stands before "the" is a verb, and no noun of the scene.
+            verb = not words and plain[1:2] in known.BEFORE_NOUNS
+            known_one = verb or is_known(word, vocabulary)
+            meant = None if known_one else pet_form(word, spelled) or corrected(word, spelled)
+            meant = meant if meant or known_one else shortened(word, spelled)
+            if common and meant is None and not known_one:
+                meant = exchanged(word, known.all_words()) or corrected(word, known.all_words())
+            if meant is not None:
+                corrections[Correction(word, meant)] = None
+            words.append(meant or word)
+        sentences.append(_sentence(tuple(words), before, vocabulary))
+    if common and not corrections:
+        raise UnreadableError(text[:40], "", "no word of it is misspelt")
+    return Read(tuple(sentences), tuple(corrections))
+
+
+def _asked(words: tuple[str, ...], vocabulary: frozenset[str]) -> tuple[str, ...]:
+    """What is told of the robot as what it is to do ("the robot picks the cup up and lifts it")."""
+    told = next((said for said in _TOLD if words[: len(said)] == said), ())
+    ahead = words[len(told) :]
+    said = [
+        singular(word) if before in _JOINTS and singular(word) in _DOING else word
+        for word, before in zip(ahead, (COMMA, *ahead), strict=False)
+    ]
+    narrated = told and not {*told} & vocabulary and [*ahead] != said
+    return tuple(said) if narrated and ahead[0] not in {*_DOING, "needs"} else words
+
+
+def is_known(word: str, vocabulary: Iterable[str]) -> bool:
+    """Whether a word is one of the scene's or of the grammar's."""
+    single = singular(word)
+    if word in known.GRAMMAR_WORDS or any(single == singular(item) for item in vocabulary):
+        return True
+    return word in known.all_words()
+
+
+def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -> Sentence:
+    if len(words) > MAX_WORDS:
+        why = f"one sentence has over {MAX_WORDS} words; make it several sentences"
+        raise UnreadableError(shown(words), before, why)
+    given = Input(words, vocabulary)
+    try:
+        found = readings(given)
+        if len(found) > MAX_READINGS:
+            raise TooManyReadings
+    except TooManyReadings:
+        why = "this can be read in too many ways; make it several sentences"
+        raise UnreadableError(shown(words), before, why) from None
+    if not found:
+        raise UnreadableError(shown(words), before, unread=given)
+    over = {reading: unaccounted(words, reading) for reading in found}
+    found = [reading for reading in found if over[reading] is None]
+    if not found:
+        word = next(word for word in over.values() if word is not None)
+        why = "it would be read over here; say it in a sentence of its own"
+        raise UnreadableError(word, before, why)
+    costs = sorted(((reading_cost(reading), n) for n, reading in enumerate(found)))
+    return Sentence(spaced(words), tuple(found[n] for _, n in costs), tuple(c for c, _ in costs))
+
+
+def shown(words: tuple[str, ...]) -> str:
+    """Some words, or the first of them, as a message has them."""
+    return spaced(words[:SHOWN_WORDS]).strip(", ") + (" …" if len(words) > SHOWN_WORDS else "")
+
+
+__all__ = ["Read", "Sentence", "UnreadableError", "is_known", "normalized", "read", "shown"]

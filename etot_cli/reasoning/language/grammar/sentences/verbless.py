@@ -1,0 +1,90 @@
+"""Rules for where things go that are said without a verb."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    sequence,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COLON,
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.destinations import (
+    DESTINATIONS,
+    DIRECTED,
+    FILLED,
+    INTO,
+    ONTO,
+)
+from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_PLACES, respective
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
+from etot_cli.reasoning.language.grammar.phrases.successions import (
+    FIRST_THEN,
+    put_in_turn,
+)
+from etot_cli.reasoning.language.grammar.requests.additions import (
+    EXTRAS,
+    put_of,
+)
+from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
+from etot_cli.reasoning.language.grammar.requests.putting import brought
+from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
+from etot_cli.reasoning.language.grammar.requests.word_order import (
+    ANNOUNCED,
+)
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
+
+
+def _put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    """Each thing to its place; "cup off the tray, tray in the box" does not send both there."""
+    for np in (np for group in groups for np in group.things.phrases[:-1]):
+        if {"off", "out"} & {*np.text.split()[1:]}:
+            return None
+    return put_of(groups, extras)
+
+
+def _listed(place: NounPhrase, things: Things) -> PutClause | None:
+    """What a table says of a place; "teapot: tray" rather says where the teapot goes, and "mugs on
+    the tray: the white ones" which go there.
+    """
+    which = place.modifiers and any(np.is_elliptic for np in things.phrases)
+    put = put_to(things, (Destination(Toward.TO, (place,), FILLED),))
+    return None if which else replace(put, far_fetched=1)
+
+
+VERBLESS = either(
+    sequence(noun_phrase, COLON, ALL_THINGS, build=_listed),
+    ANNOUNCED,
+    sequence(
+        # "Into the bin with it"
+        either(INTO, ONTO),
+        "with",
+        ALL_THINGS,
+        build=lambda where, things: put_to(things, (where,)),
+    ),
+    sequence(
+        ALL_THINGS,
+        sequence(SOURCE, LIST, either(DIRECTED, DESTINATIONS)),
+        build=lambda things, moved: PutClause((brought(things, *moved),)),
+    ),
+    sequence(PUT_GROUPS, EXTRAS, build=_put_down),
+    sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
+    sequence(
+        NP_LIST,
+        RESPECTIVE_PLACES,
+        build=lambda nps, where: None if (g := respective(nps, where)) is None else PutClause(g),
+    ),
+)
+"""Places for things without a word for doing; only whole sentences are so."""

@@ -1,0 +1,320 @@
+"""Rules for what is wanted or wished for, and for what is said to be what goes somewhere."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Grouping
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    one_of,
+    optional,
+    phrase,
+    quiet,
+    sequence,
+    silent,
+    some,
+)
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    EMPTY_WORDS,
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED, WHERE
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
+from etot_cli.reasoning.language.grammar.phrases.states import (
+    PREDICATE,
+    being,
+    containing,
+    state_of,
+)
+from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
+from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
+from etot_cli.reasoning.language.grammar.sentences.passives import PASSIVE
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Clause,
+    EnsureClause,
+    PickClause,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+    put_to,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.words import nouns, small_words, verbs
+
+
+def _wanted_in_hand(things: Things) -> PickClause | None:
+    """Who wants something off the tray does not say that it is to be held, nor who wants all."""
+    away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
+    said = {word for np in things.phrases for word in np.determiner.split()}
+    every = {"all", "both", "each", "every"} & said
+    return None if away or every else PickClause(things, wanted=True)
+
+
+def _shared(things: Things, place: NounPhrase) -> PutClause | None:
+    """Several things that have one place."""
+    put = put_to(things, (Destination(Toward.TO, (place,), FILLED),))
+    return replace(put, grouping=Grouping.TOGETHER) if things.may_be_several else None
+
+
+def _its_own(things: Things, place: NounPhrase) -> PutClause | None:
+    """Things of which each is to have a place "of its own"."""
+    own = place.determiner == "a" and place.words[:1] == ("different",)
+    return put_to(things, (Destination(Toward.TO, (place,), FILLED),)) if own else None
+
+
+def _in_company(things: Things, np: NounPhrase, where: tuple[Destination, ...]) -> PutClause | None:
+    """What joins a thing where that is, or what is to be with it at a place."""
+    if not where:
+        return put_to(things, (Destination(Toward.WITH, (np,), "join"),))
+    together = replace(things, phrases=(*things.phrases, np))
+    return None if things.either else put_to(together, where)
+
+
+WANTED = either(
+    PASSIVE,
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.TO_HAVE),
+            sequence(NP_LIST, verbs.TO_EACH_HAVE, build=lambda nps: Things(all_of(nps, "each"))),
+        ),
+        noun_phrase,
+        build=_its_own,
+    ),
+    sequence(
+        either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
+        WHERE,
+        EXTRAS,
+        build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
+    ),
+    sequence(
+        either(
+            sequence(f"have, let, {verbs.CAN}", ALL_THINGS, "[please] join"),
+            sequence(ALL_THINGS, verbs.JOIN),
+        ),
+        noun_phrase,
+        build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
+    ),
+    sequence(
+        # "Let the pen keep the cap company (in the cup)"
+        either(
+            sequence(f"have, let, {verbs.CAN}", ALL_THINGS, "[please] keep"),
+            sequence(ALL_THINGS, verbs.KEEP_COMPANY),
+        ),
+        noun_phrase,
+        "company",
+        optional(DESTINATIONS, ()),
+        build=_in_company,
+    ),
+    sequence(
+        noun_phrase,
+        verbs.JOINED_BY,
+        ALL_THINGS,
+        build=lambda np, things: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
+    ),
+    sequence(optional("have, let, make"), ALL_THINGS, verbs.SHARE, noun_phrase, build=_shared),
+    sequence(
+        # "The pen I want in the cup"
+        ALL_THINGS,
+        verbs.WANTED,
+        optional("it, them"),
+        DESTINATIONS,
+        build=put_to,
+    ),
+    quiet(
+        sequence(
+            # "On the tray I want the cup with the pen in it"
+            DESTINATIONS,
+            OPTIONAL_COMMA,
+            either(
+                sequence(f"{verbs.WANTED}, {verbs.STANDS_THERE}", NP_LIST),
+                sequence(NP_LIST, verbs.IS_THERE),
+            ),
+            build=lambda where, nps: EnsureClause((State(nps, where),)),
+        )
+    ),
+    sequence(verbs.WANTED, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
+    sequence(verbs.WANTED, ALL_THINGS, verbs.GONE, noun_phrase, build=RemoveClause),
+    sequence(
+        ALL_THINGS,
+        f"{verbs.MODAL}, {verbs.COME_AWAY}",
+        optional("gone"),
+        SOURCE,
+        build=RemoveClause,
+    ),
+    sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down", build=RemoveClause),
+    sequence(
+        verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=_wanted_in_hand
+    ),
+)
+_WERE_SO = either(being(verbs.WERE), containing(verbs.CONTAINED))
+WISHED = sequence(
+    small_words.WISH_IF,
+    EMPTY_WORDS,
+    _WERE_SO,
+    some(
+        sequence(
+            LIST,
+            optional("if, that"),
+            either(
+                _WERE_SO,
+                # "… and the vase on the plate": the verb is left out.
+                sequence(NP_LIST, PREDICATE, build=state_of),
+            ),
+        ),
+        most=5,
+    ),
+    build=lambda first, more: EnsureClause((first, *more)),
+)
+"""How it would be nice for things to be."""
+_THING = "(thing|things|one|ones|object|objects|item|items)"
+_LEFT = silent(optional("[to be] (left|remaining)"))
+_WHAT_GOES = either(
+    sequence(
+        phrase(f"the only {_THING}", True),
+        optional(f"[that|which] ({verbs.MODAL}|i want|we want|i need), that, which"),
+        _LEFT,
+    ),
+    sequence(phrase("all", True), f"that ({verbs.MODAL}), [that] (i|we) (want|need)", _LEFT),
+    sequence(
+        phrase(f"what, the {_THING} (that|which)", False), f"{verbs.MODAL}, (i|we) (want|need)"
+    ),
+)
+"""What is there, or (True) alone is there."""
+_NO_MORE = "and nothing else, but nothing else"
+_IT_IS = "it is, it 's"
+_IS = f"{verbs.BE}, should be, must be, has to be, needs to be, shall be"
+
+
+def _there(things: Things, only: bool, where: tuple[Destination, ...]) -> Clause | None:
+    """What is to be there, or (``only``) alone in the end."""
+    if not only:
+        return put_to(things, where)
+    (first, *more) = things.phrases
+    alone = (replace(first, determiner="only the"), *more)
+    return None if things.either else EnsureClause((State(alone, where),))
+
+
+def _nothing_but(where: tuple[Destination, ...], things: Things) -> Clause | None:
+    """What alone is to be there, be it there by now or not."""
+    clause = _there(things, True, where)
+    return replace(clause, far_fetched=1) if isinstance(clause, EnsureClause) else None
+
+
+def _at(place: NounPhrase) -> tuple[Destination, ...]:
+    return (Destination(Toward.TO, (place,)),)
+
+
+def _belonging(things: Things, where: tuple[Destination, ...]) -> EnsureClause:
+    """Where things have their place."""
+    return EnsureClause((State(things.phrases, where),))
+
+
+_PLACE_FOR = "the [proper|right|correct|best|usual|natural] (home|place|spot) (for|of)"
+_ENSURED = silent(optional(verbs.ENSURE))
+_THE_ONE = "is the one [that|which]"
+_POINTED_OUT = either(
+    phrase("that, it, this", NounPhrase(pronoun="it", text="that")),
+    noun_phrase,
+)
+TOLD_APART = either(
+    # "The cup is the only thing that goes on the tray", "what belongs there is the cup"
+    sequence(_ENSURED, ALL_THINGS, _IS, _WHAT_GOES, DESTINATIONS, build=_there),
+    sequence(
+        _ENSURED,
+        _WHAT_GOES,
+        DESTINATIONS,
+        _IS,
+        ALL_THINGS,
+        build=lambda only, where, things: _there(things, only, where),
+    ),
+    sequence(
+        # "The cup and nothing else should be on the tray", "there should only be the cup"
+        either(
+            sequence(ALL_THINGS, OPTIONAL_COMMA, _NO_MORE, OPTIONAL_COMMA, verbs.MODAL),
+            sequence(verbs.THERE_BE_ONLY, ALL_THINGS),
+            sequence("mak(e|ing)", ALL_THINGS, f"the only {_THING}", _LEFT),
+        ),
+        DESTINATIONS,
+        build=lambda things, where: _there(things, True, where),
+    ),
+    sequence(
+        # "I want nothing on the tray but the cup"
+        "(i|we) want nothing, nothing (should|must) be [left]",
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        nouns.EXCEPT,
+        ALL_THINGS,
+        build=_nothing_but,
+    ),
+    sequence(
+        # "It is the cup that goes in the box", "it's the cup I want in the box"
+        _IT_IS,
+        ALL_THINGS,
+        either(
+            sequence("that, which", f"{verbs.MODAL}, {verbs.WANTED}"),
+            f"{verbs.WANTED}",
+            sequence(optional("that, which"), verbs.TO_BE_DONE_BY_YOU, verbs.SET_DOWN),
+        ),
+        DESTINATIONS,
+        build=put_to,
+    ),
+    sequence(
+        # "The left ball is the one that you should pick up"
+        either(sequence(_POINTED_OUT, _THE_ONE), sequence("it is", noun_phrase, "that, which")),
+        verbs.TO_BE_DONE_BY_YOU,
+        verbs.PICK,
+        build=lambda np: PickClause(Things((np,))),
+    ),
+    sequence(
+        _POINTED_OUT,
+        _THE_ONE,
+        "i want, i need, we want, we need, to be picked up, to be lifted",
+        build=lambda np: PickClause(Things((np,)), wanted=True),
+    ),
+    sequence(
+        _POINTED_OUT,
+        _THE_ONE,
+        ALL_THINGS,
+        verbs.MODAL,
+        one_of({Toward.INSIDE: "in, into, inside", Toward.ON: "on, onto"}),
+        build=lambda np, things, toward: put_to(things, (Destination(toward, (np,)),)),
+    ),
+    sequence(
+        # "The spoon's home is the drawer", "the best place for the spoon is the drawer"
+        either(
+            sequence(ALL_THINGS, "'s (home|place|spot) is"),
+            sequence(_PLACE_FOR, ALL_THINGS, "is, would be"),
+        ),
+        either(DESTINATIONS, sequence(noun_phrase, build=_at)),
+        build=_belonging,
+    ),
+    sequence(
+        # "The tray is where the cup goes", "… where I want the cup"
+        noun_phrase,
+        either(
+            sequence("is where", ALL_THINGS, verbs.BELONG),
+            sequence(
+                "is where you [(should|must|will|can|have to|need to|are to)]",
+                verbs.SET_DOWN,
+                ALL_THINGS,
+            ),
+            sequence("is where", verbs.WANTED, ALL_THINGS, optional("to (be|go|stand|lie)")),
+            sequence(
+                f"(is|would be) {_PLACE_FOR}",
+                ALL_THINGS,
+            ),
+        ),
+        build=lambda np, things: _belonging(things, _at(np)),
+    ),
+)
+"""What goes somewhere, said so that it stands out."""

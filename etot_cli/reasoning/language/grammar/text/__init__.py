@@ -1,0 +1,1 @@
+"""An instruction as it was typed: cut into sentences and words, slips of the pen put right."""

@@ -1,0 +1,1 @@
+"""Which of the things that fit a noun phrase are meant."""

@@ -1,0 +1,119 @@
+"""What is somewhere by the time that it is spoken of: what has been moved there, or away."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.discourse import Discourse
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
+from etot_cli.world.state import owner_of
+
+
+def _same(one: Thing, other: Thing) -> bool:
+    """Whether something at one place is at the other, which may be a part of it or all of it."""
+    parts = None in (one.part, other.part) or one.part == other.part
+    boards = None in (one.board, other.board) or one.board == other.board
+    return one.name == other.name and parts and boards
+
+
+def _surfaces(place: Place, discourse: Discourse) -> list[Thing]:
+    """In or on what a place is; beside something it is on what that stands on."""
+    if place.where is not None:
+        return [*discourse.things(place.where)]
+    beside = (near for near in place.beside if near.relation is not Nearby.AWAY)
+    marks = [thing for near in beside for thing in discourse.things(*near.landmarks)]
+    states = discourse.scene.states
+    return [Thing(owner_of(at)) for t in marks if t.name in states for at in states[t.name].on]
+
+
+def _is_at(place: Place, prep: Prep, marks: Sequence[Thing], discourse: Discourse) -> bool:
+    """Whether what is put at a place is in or on something then."""
+    if prep is Prep.ON and place.relation is not Relation.ON:
+        return False
+    surfaces = _surfaces(place, discourse)
+    return any(_same(mark, surface) for mark in marks for surface in surfaces)
+
+
+def there_by_now(
+    things: Sequence[Thing],
+    fitting: Sequence[Thing],
+    prep: Prep,
+    marks: Sequence[Thing],
+    text: str,
+    discourse: Discourse,
+) -> tuple[Thing, ...]:
+    """All that is in or on something, given what was there at the start.
+
+    Args:
+        things: what was there.
+        fitting: what the words fit wherever it is.
+        prep: how they are to it.
+        marks: in or on what.
+        text: the phrase, for messages.
+        discourse: what has been put where.
+
+    Raises:
+        AmbiguousReference: it is open whether something has been moved there, or away.
+    """
+    found = [*things]
+    for thing, places in discourse.placed.items():
+        if thing not in fitting:
+            continue
+        known = [place for place in places if place is not None]
+        ways = {_is_at(place, prep, marks, discourse) for place in known}
+        ways |= {thing in things} if len(known) < len(places) else set()
+        if len(ways) > 1:
+            raise AmbiguousReference(text, list(dict.fromkeys(t.name for t in (*things, thing))))
+        along = any(
+            place.relation is Relation.ON and _same(other, at)
+            for place in known
+            for at in _surfaces(place, discourse)
+            for other in found
+        )
+        if ways == {True} and thing not in found:
+            found.append(thing)
+        elif ways == {False} and thing in found and not along:
+            found.remove(thing)
+    return tuple(found)
+
+
+def is_empty_by_now(thing: Thing, discourse: Discourse) -> bool:
+    """Whether nothing is in a thing once all is where it has been put so far."""
+    states = discourse.scene.states
+    for name, state in states.items():
+        inside = {Thing(name): (None,), **discourse.placed}[Thing(name)]
+        for place in inside:
+            before = place is None and owner_of(state.inside or "") == thing.name
+            if before or (
+                place is not None
+                and place.relation is Relation.INSIDE
+                and any(_same(thing, at) for at in _surfaces(place, discourse))
+            ):
+                return False
+    return True
+
+
+def note_placed(discourse: Discourse, put: Put) -> None:
+    """Notes where things have been put; of a choice it is open whether they have been."""
+    for index in put.what:
+        chosen = len(discourse.referents[index].options) == 1
+        for thing in discourse.things(index):
+            before = discourse.placed.pop(thing, (None,))
+            off = all(place is None or _is_anywhere(place, discourse) for place in before)
+            if put.removal or not off:
+                discourse.moved_on |= {thing} if before != (None,) else set()
+            discourse.placed[thing] = put.places if chosen else (*put.places, *before)
+
+
+def is_off(thing: Thing, discourse: Discourse) -> bool:
+    """Whether a thing has been taken from somewhere and waits on the desk."""
+    places = discourse.placed.get(thing, (None,))
+    return all(place is not None and _is_anywhere(place, discourse) for place in places)
+
+
+def _is_anywhere(place: Place, discourse: Discourse) -> bool:
+    """Whether a place is but the desk, such as where what is taken away waits."""
+    return place.where is not None and discourse.is_desk(place.where) and not place.beside

@@ -1,0 +1,1 @@
+"""Which places destinations are: in, on and beside things, at parts of surfaces."""

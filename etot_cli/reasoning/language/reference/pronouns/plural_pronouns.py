@@ -1,0 +1,87 @@
+"""What "them" stands for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from etot_cli.reasoning.builtin.roles import Role
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference, Mention
+from etot_cli.reasoning.language.reference.memory.discourse import Discourse
+from etot_cli.reasoning.language.reference.memory.spoken_of import (
+    TARGETS,
+    are_several,
+    clauses_of,
+    fits,
+    openable,
+)
+from etot_cli.reasoning.language.words.lexicon import singular
+
+
+def meant_by_them(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
+    """What "them" stands for, by referent.
+
+    Raises:
+        AmbiguousReference: it may stand for several.
+    """
+    for clause in clauses_of(discourse):
+        if clause in discourse.stacks and role is not Role.CONTAINER:
+            # What stands on the bottom goes with it; what goes on them goes on top.
+            bottom, top = discourse.stacks[clause]
+            return (bottom if role in (Role.THEME, Role.ANY) else top,)
+        found = acted_on(discourse, [m for m in discourse.mentions if m.clause == clause], role)
+        several = len(found) > 1 or any(are_several(discourse, index) for index in found)
+        emptied = emptied_by(discourse, clause, role) if found else ()
+        if emptied:
+            # "Empty the bins and put them on the rack": what was in them, or these.
+            named = [discourse.referents[index].text for index in (*found, *emptied)]
+            raise AmbiguousReference(text, named)
+        if several:
+            return found
+    found = acted_on(discourse, discourse.mentions, role)
+    said = [mention for mention in discourse.mentions if mention.referent in found]
+    options = [option for index in found for option in discourse.referents[index].options]
+    single = len(found) == 1 and all(len(option) == 1 for option in options)
+    plural = any(singular(mention.noun) != mention.noun for mention in said)  # "the pliers"
+    if single and not plural and not any(item.several or item.whatever for item in said):
+        others = _several_named(discourse, role) if role in TARGETS else ()
+        if others and not {*others} & {*found}:
+            return others  # "take the cup to the drawers and put it on them", of one chest
+        raise AmbiguousReference(text, [item.text for item in discourse.referents])
+    if not found and role is Role.PART and len(openable(discourse)) > 1:
+        return openable(discourse)  # "a pen in each of two drawers, and close them"
+    return found or _several_named(discourse, role)
+
+
+def _several_named(discourse: Discourse, role: Role) -> tuple[int, ...]:
+    """The only several things of which but something was said ("the cups are dirty; put them")."""
+    named = {
+        mention.referent
+        for mention in discourse.mentions
+        if singular(mention.noun) != mention.noun and fits(discourse, mention.referent, role)
+    }
+    return tuple(named) if len(named) == 1 else ()
+
+
+def emptied_by(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:
+    """What a clause took everything out of or off, where it is several things."""
+    said = [mention for mention in discourse.mentions if mention.clause == clause]
+    texts = [discourse.referents[m.referent].text for m in said if m.role is Role.THEME]
+    return tuple(
+        mention.referent
+        for mention in said
+        if mention.role is Role.ANY
+        and all(text.startswith("everything in ") for text in texts)
+        and len(discourse.things(mention.referent)) > 1
+        and fits(discourse, mention.referent, role)
+    )
+
+
+def acted_on(discourse: Discourse, mentions: Sequence[Mention], role: Role) -> tuple[int, ...]:
+    """The referents that some mentions are of, in a role."""
+    return tuple(
+        dict.fromkeys(
+            mention.referent
+            for mention in mentions
+            if mention.role in (Role.THEME, Role.PART) and fits(discourse, mention.referent, role)
+        )
+    )
