@@ -244,18 +244,10 @@ def _nested(modifiers: tuple[Modifier, ...]) -> tuple[Modifier, ...] | None:
 MODIFIERS = sequence(some(MODIFIER, most=4), build=_nested)
 
 
-OF_ALL = sequence(
-    # "Two cups, neither of them red"
-    "~comma [and] (neither [one]|none|not one) of (them|which) [is|are|being]",
-    either(PLAIN_MODIFIER, CONTENTS, QUALITY),
-    either(COMMA, at_end),
-    build=denied,
-)
-"""Behind several things, what is true of none of them."""
 ONE_SUCH = either(
     sequence(
         "~comma [and|but] (one|any one|one of those) [(that|which) (is|are|stands|lies|sits)]",
-        either(PLAIN_MODIFIER, CONTENTS, quality_alone),
+        DESCRIBED,
         either(COMMA, at_end),
     ),
     sequence(
@@ -285,11 +277,13 @@ def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
 
 
 NONE_OF_THEM = sequence(
-    "[but|and] (neither|none|not one) of (them|which|these|those) [is|are|being]",
-    either(PLAIN_MODIFIER, _none_of),
+    "[but|and] (neither [one]|none|not one) of (them|which|these|those) [is|are|being]",
+    either(PLAIN_MODIFIER, CONTENTS, QUALITY, _none_of),
     build=denied,
 )
 """Behind several things, what is true of none of them."""
+OF_ALL = sequence("~comma", NONE_OF_THEM, either(COMMA, at_end))
+"""Likewise, set off by commas ("two cups, neither of them red, on the tray")."""
 CONTRASTED = quiet(
     sequence(
         either(nouns.CONTRAST, sequence(after("rather", "prefer"), "than")),
