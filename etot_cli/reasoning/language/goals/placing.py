@@ -56,8 +56,9 @@ def spread(context: Context, place: Place) -> Place:
 
 
 _ELSEWHERE = (
-    r"(?:to )?(?:(?:somewhere|some ?place) else|elsewhere|safety|a safer? (?:place|spot)"
-    r"|(?:another|a different) (?:place|spot|position))\b"
+    r"(?:(?:to|in|into|at) )?(?:(?:somewhere|some ?place) (?:else|safe)|elsewhere|safety"
+    r"|(?:an?|another) (?:(?:new|good|better|safer?|suitable|different|proper) )+(?:place|spot"
+    r"|position|location)|another (?:place|spot|position|location))\b"
 )
 """Not where it stands now."""
 
@@ -88,7 +89,9 @@ def _elsewhere(
     if more or not on_desk or place.relation is not Relation.ON:
         return {}
     named = "|".join(map(re.escape, texts))
-    told = rf"\b(?:{named}|it|them|both)(?: (?:down|away|over))? {_ELSEWHERE}"
+    named = rf"\b(?:{named}|it|them|both)\b"
+    needs = "needs?|deserves?|should (?:go|be put|be moved)"
+    told = rf"{named}(?: (?:down|away|over|{needs}))? {_ELSEWHERE}|{_ELSEWHERE} for {named}"
     if not re.search(told, context.sentence):
         return {}
     found = {}

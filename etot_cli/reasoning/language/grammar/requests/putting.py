@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID
 from etot_cli.reasoning.language.grammar.phrases.as_many import AS_MANY
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of, coordinated
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
+    BESIDE,
     DESTINATIONS,
     DIRECTED,
     INSTEAD,
@@ -168,6 +169,15 @@ def _safely(things: Things) -> PutClause:
     return put_to(things, (Destination(Toward.BESIDE, beside=tuple(away)),))
 
 
+def _taken_away(verb: str, things: Things, where: tuple[Beside, ...]) -> PutClause | None:
+    """Away from where something stands beside another one; what is in or on that is taken out."""
+    if any(item.relation is not Nearby.AWAY for item in where):
+        return None
+    beside = any(item.text.startswith(_FROM_BESIDE) for item in where)
+    put = put_to(things, (Destination(Toward.BESIDE, beside=where),))
+    return put if beside else replace(put, far_fetched=1)
+
+
 def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
     return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
 
@@ -197,6 +207,7 @@ OUT_AND_INTO = sequence(
 """From one place to another ("out of the box and on the desk")."""
 
 
+_FROM_BESIDE = ("from ", "away from the front", "away from in front")
 _A_PLACE = """
     a [new|nice|good|free|safe|proper] (place|spot|home|seat) [~comma], [some|enough] (room|space)
 """
@@ -218,6 +229,14 @@ PUT = either(
     AS_MANY,
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
     sequence("find[ing]", _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(
+        either(
+            sequence(verbs.FIND, places.A_SAFE_PLACE, "for", THINGS),
+            sequence("find[ing], giv(e|ing)", THINGS, places.A_SAFE_PLACE),
+            sequence(ALL_THINGS, "[still] (needs|need|deserves)", places.A_SAFE_PLACE),
+        ),
+        build=_safely,
+    ),
     sequence(
         "find[ing] [a|some|enough] (room|space|place|spot)",
         DESTINATIONS,
@@ -268,6 +287,7 @@ PUT = either(
         "aside, to one side",
         build=lambda things: replace(_safely(things), far_fetched=0),
     ),
+    sequence(phrase(f"{verbs.TAKE}, {verbs.REMOVE}"), THINGS, BESIDE, build=_taken_away),
     sequence(
         # With what is opened next it is rather out of the way of that.
         either(sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS), sequence(ALL_THINGS, verbs.MODAL)),

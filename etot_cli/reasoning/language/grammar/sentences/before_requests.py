@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.requests.reaching import SEPARATING
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.requests.unstacking import UNSTACK
-from etot_cli.reasoning.language.grammar.sentences.afterthoughts import TOLD_BEHIND, out_of_the_way
+from etot_cli.reasoning.language.grammar.sentences.afterthoughts import TOLD_BEHIND
 from etot_cli.reasoning.language.grammar.sentences.ahead import not_so
 from etot_cli.reasoning.language.grammar.sentences.announced import (
     ONE_FOR_EACH,
@@ -69,7 +69,14 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
 )
 from etot_cli.reasoning.language.grammar.sentences.inversions import INVERTED
 from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
-from etot_cli.reasoning.language.grammar.sentences.past import EARLIER, LATER, SO, then_done
+from etot_cli.reasoning.language.grammar.sentences.past import (
+    EARLIER,
+    LATER,
+    SO,
+    once_done,
+    out_of_the_way,
+    then_done,
+)
 from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.sentences.togetherness import PARTED
 from etot_cli.reasoning.language.grammar.sentences.topics import (
@@ -106,7 +113,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 
 
@@ -265,7 +272,7 @@ WITH_MORE_BEFORE_IT = either(
     sequence(
         f"{verbs.SET_DOWN}, {verbs.FETCH}",
         ALL_THINGS,
-        "out of the way",
+        places.NOT_IN_THE_WAY,
         _AND,
         CHAIN,
         build=out_of_the_way,
@@ -403,8 +410,8 @@ WITH_MORE_BEFORE_IT = either(
         OPTIONAL_COMMA,
         optional("[and] only then, [and] not before [then|that]"),
         OPTIONAL_COMMA,
-        valued(either(CHAIN, INVERTED), then_done),
-        build=add,
+        either(CHAIN, INVERTED),
+        build=once_done,
     ),
     sequence(
         LATER,
