@@ -56,9 +56,10 @@ def spread(context: Context, place: Place) -> Place:
 
 
 _ELSEWHERE = (
-    r"(?:(?:to|in|into|at) )?(?:(?:somewhere|some ?place) (?:else|safe)|elsewhere|safety"
+    r"(?:(?:to|in|into|at) )?(?:(?:somewhere|some ?place) (?:else|safe)|elsewhere|aside|safety"
     r"|(?:an?|another) (?:(?:new|good|better|safer?|suitable|different|proper) )+(?:place|spot"
-    r"|position|location)|another (?:place|spot|position|location))\b"
+    r"|position|location)|another (?:place|spot|position|location)"
+    r"|(?:somewhere|anywhere|wherever|where) (?:where )?(?:it|they) (?:is|are|do|does|will|can))\b"
 )
 """Not where it stands now."""
 
@@ -90,8 +91,9 @@ def _elsewhere(
         return {}
     named = "|".join(map(re.escape, texts))
     named = rf"\b(?:{named}|it|them|both)\b"
-    needs = "needs?|deserves?|should (?:go|be put|be moved)"
-    told = rf"{named}(?: (?:down|away|over|{needs}))? {_ELSEWHERE}|{_ELSEWHERE} for {named}"
+    must = "should|must|has to|have to|needs? to|is to|are to"
+    needs = rf"needs?|deserves?|(?:{must}) (?:go|be \w+)"
+    told = rf"{named}(?: (?:down|away|over|{needs}))? {_ELSEWHERE}|{_ELSEWHERE} (?:for )?{named}"
     if not re.search(told, context.sentence):
         return {}
     found = {}

@@ -87,7 +87,7 @@ BOTH_SIDES = {
     (Nearby.FRONT, Nearby.BEHIND): "in front of and behind",
     (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
 }
-_WHERE_IT = "(somewhere|anywhere|someplace|some place|wherever|where) [where] (it|they)"
+_WHERE_IT = "[to] (somewhere|anywhere|someplace|some place|wherever|where) [where] (it|they)"
 _DOES_NOT = "(does not|do not|will not|would not|can not|could not|is not|are not)"
 NOT_IN_THE_WAY = f"""
     out of the way, {_WHERE_IT} (is not|are not|will not be|is no longer) in the way,
@@ -167,11 +167,11 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.FROM: "from, off of, off, out of",
     Prep.OF: "of, belonging to",
     Prep.NEAR: NEARBY[Nearby.NEAR],
-    Prep.NEXT_TO: f"{NEARBY[Nearby.NEXT_TO]}, at",
-    Prep.LEFT: _LEFT,
-    Prep.RIGHT: _RIGHT,
-    Prep.BEHIND: f"{NEARBY[Nearby.BEHIND]}, beyond",
-    Prep.FRONT: NEARBY[Nearby.FRONT],
+    Prep.NEXT_TO: f"{NEARBY[Nearby.NEXT_TO]}, at, from (beside|next to)",
+    Prep.LEFT: f"{_LEFT}, from the left [side] of",
+    Prep.RIGHT: f"{_RIGHT}, from the right [side] of",
+    Prep.BEHIND: f"{NEARBY[Nearby.BEHIND]}, beyond, from behind",
+    Prep.FRONT: f"{NEARBY[Nearby.FRONT]}, from in front of",
     Prep.UNDER: "[from] (underneath|under|below|beneath)",
     Prep.ABOVE: "above, over",
     Prep.TOUCHING: "touching, in contact with, [right] up against, (that|which) (touches|touch)",

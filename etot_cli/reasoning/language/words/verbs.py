@@ -57,6 +57,7 @@ OUT_OF_THE_WAY = """
     (out of the way|aside|to one side), (has|have) gone out of the way
 """
 """Said of what is in nobody's way by then."""
+PUT_ASIDE = "(set[ting]|put[ting]|mov(e|ing)|lay[ing]|push[ing]) aside"
 FIND = """
     find[ing], look[ing] for, search[ing] for, choos(e|ing), select[ing], pick[ing] [out]
 """

@@ -283,8 +283,13 @@ PUT = either(
         build=_changing,
     ),
     sequence(
-        either(sequence(verbs.PUT, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
-        "aside, to one side",
+        either(
+            sequence(
+                either(sequence(verbs.PUT, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
+                "aside, to one side",
+            ),
+            sequence(verbs.PUT_ASIDE, THINGS),
+        ),
         build=lambda things: replace(_safely(things), far_fetched=0),
     ),
     sequence(phrase(f"{verbs.TAKE}, {verbs.REMOVE}"), THINGS, BESIDE, build=_taken_away),
