@@ -59,7 +59,8 @@ _ELSEWHERE = (
     r"(?:(?:to|in|into|at) )?(?:(?:somewhere|some ?place) (?:else|safe)|elsewhere|aside|safety"
     r"|(?:an?|another) (?:(?:new|good|better|safer?|suitable|different|proper) )+(?:place|spot"
     r"|position|location)|another (?:place|spot|position|location)"
-    r"|(?:somewhere|anywhere|wherever|where) (?:where )?(?:it|they) (?:is|are|do|does|will|can))\b"
+    r"|(?:somewhere|anywhere|where|wherever|so that|such that) (?:where )?(?:it|they)"
+    r" (?:is|are|do|does|will|can)|out of the way(?! of\b))\b"
 )
 """Not where it stands now."""
 
@@ -92,7 +93,7 @@ def _elsewhere(
     named = "|".join(map(re.escape, texts))
     named = rf"\b(?:{named}|it|them|both)\b"
     must = "should|must|has to|have to|needs? to|is to|are to"
-    needs = rf"needs?|deserves?|(?:{must}) (?:go|be \w+)"
+    needs = rf"needs?|deserves?|(?:{must}) (?:go|be \w+)|to (?:be|go)|(?:to be )?(?:moved|put|set)"
     told = rf"{named}(?: (?:down|away|over|{needs}))? {_ELSEWHERE}|{_ELSEWHERE} (?:for )?{named}"
     if not re.search(told, context.sentence):
         return {}

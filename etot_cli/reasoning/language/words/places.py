@@ -87,7 +87,10 @@ BOTH_SIDES = {
     (Nearby.FRONT, Nearby.BEHIND): "in front of and behind",
     (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
 }
-_WHERE_IT = "[to] (somewhere|anywhere|someplace|some place|wherever|where) [where] (it|they)"
+_WHERE_IT = """
+    [to] (somewhere|anywhere|someplace|some place|wherever|where|so that|such that) [where]
+    (it|they)
+"""
 _DOES_NOT = "(does not|do not|will not|would not|can not|could not|is not|are not)"
 NOT_IN_THE_WAY = f"""
     out of the way, {_WHERE_IT} (is not|are not|will not be|is no longer) in the way,
@@ -138,7 +141,7 @@ NEARBY: dict[Nearby, str] = {
 GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to, as (close|near) to"
 GOES_AWAY = f"""
     {NEARBY[Nearby.AWAY]}, as far [away] from,
-    {_WHERE_IT} {_DOES_NOT} (block|obstruct|hinder|blocking|obstructing|in the way of)
+    {_WHERE_IT} {_DOES_NOT} (block|obstruct|hinder|blocking|obstructing|[be] in the way of)
 """
 IT_HAS: dict[Prep, str] = {
     Prep.FRONT: "behind (it|them)",

@@ -158,13 +158,15 @@ def _changing(
     return put_to(Things((np,)).taken_from(at), named)
 
 
-def _safely(things: Things) -> PutClause:
-    """Out of the way: of what "the ball in front of the drawer" is said to be in front of."""
+def _safely(things: Things, rather: bool = True) -> PutClause:
+    """Out of the way, of what "the ball in front of the drawer" is said to be in front of, unless
+    what comes next ``rather`` tells of what.
+    """
     marks = [
         m for np in things.phrases for m in np.modifiers if m.prep in (Prep.FRONT, Prep.BEHIND)
     ]
     if len(things.phrases) > 1 or [m.denied for m in marks] != [False]:
-        return replace(put_to(things, DOWN), far_fetched=1)
+        return replace(put_to(things, DOWN), far_fetched=int(rather))
     away = (Beside(Nearby.AWAY, m.phrases, m.phrases[0].text) for m in marks)
     return put_to(things, (Destination(Toward.BESIDE, beside=tuple(away)),))
 
@@ -228,7 +230,7 @@ _COMES_AND_GOES = """
 PUT = either(
     AS_MANY,
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
-    sequence("find[ing]", _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(
         either(
             sequence(verbs.FIND, places.A_SAFE_PLACE, "for", THINGS),
@@ -283,22 +285,17 @@ PUT = either(
         build=_changing,
     ),
     sequence(
-        either(
-            sequence(
-                either(sequence(verbs.PUT, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
-                "aside, to one side",
-            ),
-            sequence(verbs.PUT_ASIDE, THINGS),
-        ),
-        build=lambda things: replace(_safely(things), far_fetched=0),
-    ),
-    sequence(phrase(f"{verbs.TAKE}, {verbs.REMOVE}"), THINGS, BESIDE, build=_taken_away),
-    sequence(
         # With what is opened next it is rather out of the way of that.
-        either(sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS), sequence(ALL_THINGS, verbs.MODAL)),
-        places.SAFELY,
+        either(
+            sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS),
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to be, {verbs.TO_BE_THERE}"))),
+        ),
+        either(phrase("aside, to one side", False), phrase(places.SAFELY, True)),
         build=_safely,
     ),
+    sequence(verbs.PUT_ASIDE, THINGS, build=partial(_safely, rather=False)),
+    sequence(phrase(f"{verbs.TAKE}, {verbs.REMOVE}"), THINGS, BESIDE, build=_taken_away),
     sequence(
         ALL_THINGS,
         verbs.COME_AWAY,
