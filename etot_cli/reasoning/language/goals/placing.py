@@ -59,7 +59,9 @@ _ELSEWHERE = (
     r"(?:(?:to|in|into|at) )?(?:(?:somewhere|some ?place) (?:else|safe)|elsewhere|aside|safety"
     r"|(?:an?|another) (?:(?:new|good|better|safer?|suitable|different|proper) )+(?:place|spot"
     r"|position|location)|another (?:place|spot|position|location)"
-    r"|(?:somewhere|anywhere|where|wherever|so that|such that) (?:where )?(?:it|they)"
+    r"|(?:somewhere|anywhere) (?:that is )?not in the way"
+    r"|(?:somewhere|anywhere|(?:a (?:place|spot|position) )?where|wherever|so that|such that)"
+    r" (?:where )?(?:it|they)"
     r" (?:is|are|do|does|will|can)|out of the way(?! of\b))\b"
 )
 """Not where it stands now."""

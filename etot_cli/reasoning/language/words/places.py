@@ -88,13 +88,14 @@ BOTH_SIDES = {
     (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
 }
 _WHERE_IT = """
-    [to] (somewhere|anywhere|someplace|some place|wherever|where|so that|such that) [where]
-    (it|they)
+    ([to] (somewhere|anywhere|someplace|some place|wherever|where|so that|such that) [where]|
+    (in|into|to|at) a (place|spot|position) where) (it|they)
 """
 _DOES_NOT = "(does not|do not|will not|would not|can not|could not|is not|are not)"
 NOT_IN_THE_WAY = f"""
     out of the way, {_WHERE_IT} (is not|are not|will not be|is no longer) in the way,
-    {_WHERE_IT} (is|are|will be) out of the way, {_WHERE_IT} {_DOES_NOT} get in the way
+    {_WHERE_IT} (is|are|will be) out of the way, {_WHERE_IT} {_DOES_NOT} get in the way,
+    [to] (somewhere|anywhere|someplace|some place) [that is] (not in the way|out of the way)
 """
 """Where it hinders nothing that is done next."""
 SAFELY = f"""
@@ -102,7 +103,8 @@ SAFELY = f"""
     (in|into|to|at|on) a safe (place|spot|location), to safety,
     (somewhere|some place) (safe|free), out of harm 's way,
     {_WHERE_IT} (is|are|will be|stays|stay|remains|remain) safe,
-    {_WHERE_IT} {_DOES_NOT} (roll|fall|tip|get knocked|be knocked) (off|down|away|over)
+    {_WHERE_IT} {_DOES_NOT} (roll|fall|tip|get knocked|be knocked)
+    (down|away|over|off [the ({_DESKS})])
 """
 """Where nothing happens to it, which the plan sees to."""
 FREE_SPOT = """
@@ -112,12 +114,16 @@ FREE_SPOT = """
 """
 A_SAFE_PLACE = """
     (a|some|another) [new|good|better] (safe|safer|free|suitable|different|better|proper|good|new)
-    (place|spot|location|position)
+    (place|spot|location|position), another (place|spot|location|position),
+    somewhere (safe|safer|else)
 """
 """What is found for a thing that goes there."""
 SOMEWHERE_FREE = "(somewhere|anywhere|some place) (free|clear|empty)"
 """Before, or behind, what it is on: where there is room, which every plan looks for."""
-SOMEWHERE = "((somewhere|some place) [else]|anywhere|elsewhere) [safe|out of sight] [~comma]"
+SOMEWHERE = """
+    ((somewhere|some place) [else]|anywhere|elsewhere) [safe|out of sight] [~comma],
+    (in|at|to) a safe (place|spot) [~comma]
+"""
 """Before a place that is said more closely."""
 UP_OR_DOWN = "up, down"
 """Before a place, which is there."""

@@ -57,6 +57,10 @@ OUT_OF_THE_WAY = """
     (out of the way|aside|to one side), (has|have) gone out of the way
 """
 """Said of what is in nobody's way by then."""
+NOTHING_BLOCKS = """
+    nothing (blocks|obstructs), nothing (is|stands|remains) [left|standing] in front of,
+    nothing is [left] (blocking|obstructing|in the way of)
+"""
 PUT_ASIDE = "(set[ting]|put[ting]|mov(e|ing)|lay[ing]|push[ing]) aside"
 FIND = """
     find[ing], look[ing] for, search[ing] for, choos(e|ing), select[ing], pick[ing] [out]

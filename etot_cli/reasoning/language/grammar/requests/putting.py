@@ -234,6 +234,7 @@ PUT = either(
     sequence(
         either(
             sequence(verbs.FIND, places.A_SAFE_PLACE, "for", THINGS),
+            sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, places.SAFELY),
             sequence("find[ing], giv(e|ing)", THINGS, places.A_SAFE_PLACE),
             sequence(ALL_THINGS, "[still] (needs|need|deserves)", places.A_SAFE_PLACE),
         ),
@@ -290,6 +291,7 @@ PUT = either(
             sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS),
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to be, {verbs.TO_BE_THERE}"))),
+            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
         ),
         either(phrase("aside, to one side", False), phrase(places.SAFELY, True)),
         build=_safely,

@@ -54,7 +54,13 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     word_set,
 )
-from etot_cli.reasoning.language.words.places import FREE_SPOT, SAFELY, SOMEWHERE_FREE, Prep
+from etot_cli.reasoning.language.words.places import (
+    A_SAFE_PLACE,
+    FREE_SPOT,
+    SAFELY,
+    SOMEWHERE_FREE,
+    Prep,
+)
 from etot_cli.reasoning.language.words.small_words import (
     FRAMES,
     SO_LONG,
@@ -121,7 +127,8 @@ _FIXED = """
 _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
     f", {manner.NOT_STACKED}, {manner.STANDS_SINGLY}, {manner.ANYHOW}, {SO_LONG}"
-    f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}, {SAFELY}, {verbs.OUT_OF_THE_WAY}"
+    f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
+    f", {SAFELY}, {A_SAFE_PLACE}, {verbs.OUT_OF_THE_WAY}"
 )
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 

@@ -19,7 +19,6 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
     some,
-    valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
@@ -270,8 +269,11 @@ WITH_MORE_BEFORE_IT = either(
         )
     ),
     sequence(
-        f"{verbs.SET_DOWN}, {verbs.FETCH}",
-        ALL_THINGS,
+        either(
+            sequence(f"{verbs.SET_DOWN}, {verbs.FETCH}", ALL_THINGS),
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+        ),
         places.NOT_IN_THE_WAY,
         _AND,
         CHAIN,
@@ -373,13 +375,18 @@ WITH_MORE_BEFORE_IT = either(
                     build=put_to,
                 ),
                 sequence(ALL_THINGS, verbs.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
+                sequence(
+                    ALL_THINGS,
+                    "[safely] [moved|put] (out of the way|aside)",
+                    build=lambda things: RemoveClause(things, by_then=True, aside=True),
+                ),
                 STANDS_UP,
                 UNTOUCHED,
             )
         ),
         COMMA,
-        valued(CHAIN, then_done),
-        build=add,
+        CHAIN,
+        build=once_done,
     ),
     sequence(
         "with",

@@ -39,12 +39,14 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
     Destination,
+    Modifier,
     NounPhrase,
     State,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
 SO = sequence(
@@ -57,6 +59,17 @@ _TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|
 _TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
 _NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
 """Not before what has been done with it next ("taken out and put on the tray")."""
+
+
+def _freed(said: str, np: NounPhrase) -> PutClause:
+    """What blocks something has gone out of the way of it by then."""
+    blocking = Modifier(Prep.BLOCKING, (np,))
+    things = NounPhrase("all", ("objects",), (blocking,), text=f"everything blocking {np.text}")
+    way = "from in front of" if said.endswith("front of") else "out of the way of"
+    away = Beside(Nearby.AWAY, (np,), f"{way} {np.text}")
+    return put_to(Things((things,)), (Destination(Toward.BESIDE, beside=(away,)),))
+
+
 _SO_BY_THEN = either(
     sequence(
         ALL_THINGS,
@@ -99,6 +112,12 @@ _SO_BY_THEN = either(
     SO,
     sequence(ALL_THINGS, f"{verbs.BE}, (has|have) been", manner.EMPTIED, build=emptied),
     NOTHING_LEFT_THERE,
+    sequence(
+        phrase(verbs.NOTHING_BLOCKS),
+        noun_phrase,
+        silent(optional(small_words.ANY_MORE)),
+        build=_freed,
+    ),
     sequence(
         # "Once the plate has been cleared of the cup"
         noun_phrase,
