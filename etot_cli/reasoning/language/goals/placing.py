@@ -56,8 +56,13 @@ def spread(context: Context, place: Place) -> Place:
 
 
 _ELSEWHERE = (
-    r"(?:to )?(?:(?:somewhere|some ?place) else|elsewhere|safety|a safer? (?:place|spot)"
-    r"|(?:another|a different) (?:place|spot|position))\b"
+    r"(?:(?:to|in|into|at) )?(?:(?:somewhere|some ?place) (?:else|safe)|elsewhere|aside|safety"
+    r"|(?:an?|another) (?:(?:new|good|better|safer?|suitable|different|proper) )+(?:place|spot"
+    r"|position|location)|another (?:place|spot|position|location)"
+    r"|(?:somewhere|anywhere) (?:that is )?not in the way"
+    r"|(?:somewhere|anywhere|(?:a (?:place|spot|position) )?where|wherever|so that|such that)"
+    r" (?:where )?(?:it|they)"
+    r" (?:is|are|do|does|will|can)|out of the way(?! of\b))\b"
 )
 """Not where it stands now."""
 
@@ -88,7 +93,10 @@ def _elsewhere(
     if more or not on_desk or place.relation is not Relation.ON:
         return {}
     named = "|".join(map(re.escape, texts))
-    told = rf"\b(?:{named}|it|them|both)(?: (?:down|away|over))? {_ELSEWHERE}"
+    named = rf"\b(?:{named}|it|them|both)\b"
+    must = "should|must|has to|have to|needs? to|is to|are to"
+    needs = rf"needs?|deserves?|(?:{must}) (?:go|be \w+)|to (?:be|go)|(?:to be )?(?:moved|put|set)"
+    told = rf"{named}(?: (?:down|away|over|{needs}))? {_ELSEWHERE}|{_ELSEWHERE} (?:for )?{named}"
     if not re.search(told, context.sentence):
         return {}
     found = {}

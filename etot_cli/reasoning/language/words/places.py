@@ -87,10 +87,24 @@ BOTH_SIDES = {
     (Nearby.FRONT, Nearby.BEHIND): "in front of and behind",
     (Nearby.BEHIND, Nearby.FRONT): "behind and in front of",
 }
-SAFELY = """
-    out of the way, (to|into) (a|an|some) (free|empty|clear) (spot|place|space|area),
+_WHERE_IT = """
+    ([to] (somewhere|anywhere|someplace|some place|wherever|where|so that|such that) [where]|
+    (in|into|to|at) a (place|spot|position) where) (it|they)
+"""
+_DOES_NOT = "(does not|do not|will not|would not|can not|could not|is not|are not)"
+NOT_IN_THE_WAY = f"""
+    out of the way, {_WHERE_IT} (is not|are not|will not be|is no longer) in the way,
+    {_WHERE_IT} (is|are|will be) out of the way, {_WHERE_IT} {_DOES_NOT} get in the way,
+    [to] (somewhere|anywhere|someplace|some place) [that is] (not in the way|out of the way)
+"""
+"""Where it hinders nothing that is done next."""
+SAFELY = f"""
+    {NOT_IN_THE_WAY}, (to|into) (a|an|some) (free|empty|clear) (spot|place|space|area),
     (in|into|to|at|on) a safe (place|spot|location), to safety,
-    (somewhere|some place) (safe|free), out of harm 's way
+    (somewhere|some place) (safe|free), out of harm 's way,
+    {_WHERE_IT} (is|are|will be|stays|stay|remains|remain) safe,
+    {_WHERE_IT} {_DOES_NOT} (roll|fall|tip|get knocked|be knocked)
+    (down|away|over|off [the ({_DESKS})])
 """
 """Where nothing happens to it, which the plan sees to."""
 FREE_SPOT = """
@@ -98,9 +112,18 @@ FREE_SPOT = """
     (spot|place|space|area|part|patch)|
     (free|empty|open) space
 """
+A_SAFE_PLACE = """
+    (a|some|another) [new|good|better] (safe|safer|free|suitable|different|better|proper|good|new)
+    (place|spot|location|position), another (place|spot|location|position),
+    somewhere (safe|safer|else)
+"""
+"""What is found for a thing that goes there."""
 SOMEWHERE_FREE = "(somewhere|anywhere|some place) (free|clear|empty)"
 """Before, or behind, what it is on: where there is room, which every plan looks for."""
-SOMEWHERE = "((somewhere|some place) [else]|anywhere|elsewhere) [safe|out of sight] [~comma]"
+SOMEWHERE = """
+    ((somewhere|some place) [else]|anywhere|elsewhere) [safe|out of sight] [~comma],
+    (in|at|to) a safe (place|spot) [~comma]
+"""
 """Before a place that is said more closely."""
 UP_OR_DOWN = "up, down"
 """Before a place, which is there."""
@@ -117,11 +140,15 @@ NEARBY: dict[Nearby, str] = {
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
     Nearby.AWAY: (
         "[far|well|a safe distance] away from, far from, [well] clear of, out of the way of, "
-        "[away] from in front of, away from the front of"
+        "[away] from (in front of|beside|next to|behind), "
+        "away from the ([left|right] side|front|back|rear|left|right) of"
     ),
 }
 GOES_NEAR = f"{NEARBY[Nearby.NEAR]}, closer to, nearer to, as (close|near) to"
-GOES_AWAY = f"{NEARBY[Nearby.AWAY]}, as far [away] from"
+GOES_AWAY = f"""
+    {NEARBY[Nearby.AWAY]}, as far [away] from,
+    {_WHERE_IT} {_DOES_NOT} (block|obstruct|hinder|blocking|obstructing|[be] in the way of)
+"""
 IT_HAS: dict[Prep, str] = {
     Prep.FRONT: "behind (it|them)",
     Prep.BEHIND: "in front of (it|them)",
@@ -149,11 +176,11 @@ PREPOSITIONS: dict[Prep, str] = {
     Prep.FROM: "from, off of, off, out of",
     Prep.OF: "of, belonging to",
     Prep.NEAR: NEARBY[Nearby.NEAR],
-    Prep.NEXT_TO: f"{NEARBY[Nearby.NEXT_TO]}, at",
-    Prep.LEFT: _LEFT,
-    Prep.RIGHT: _RIGHT,
-    Prep.BEHIND: f"{NEARBY[Nearby.BEHIND]}, beyond",
-    Prep.FRONT: NEARBY[Nearby.FRONT],
+    Prep.NEXT_TO: f"{NEARBY[Nearby.NEXT_TO]}, at, from (beside|next to)",
+    Prep.LEFT: f"{_LEFT}, from the left [side] of",
+    Prep.RIGHT: f"{_RIGHT}, from the right [side] of",
+    Prep.BEHIND: f"{NEARBY[Nearby.BEHIND]}, beyond, from behind",
+    Prep.FRONT: f"{NEARBY[Nearby.FRONT]}, from in front of",
     Prep.UNDER: "[from] (underneath|under|below|beneath)",
     Prep.ABOVE: "above, over",
     Prep.TOUCHING: "touching, in contact with, [right] up against, (that|which) (touches|touch)",

@@ -51,6 +51,21 @@ A_PUT = """
     (a|an|one|the) (place|placement|placing|put|pick and place|insertion|transfer|relocation|move)
 """
 """What is performed on a thing ("do a pick of the cup")."""
+OUT_OF_THE_WAY = """
+    (is|are) [safely] (out of the way|no longer in the way|not in the way [any more]|to one side),
+    (is|are|has been|have been) [safely] (moved|put|set|taken|brought|cleared|pushed)
+    (out of the way|aside|to one side), (has|have) gone out of the way
+"""
+"""Said of what is in nobody's way by then."""
+NOTHING_BLOCKS = """
+    nothing (blocks|obstructs), nothing (is|stands|remains) [left|standing] in front of,
+    nothing is [left] (blocking|obstructing|in the way of)
+"""
+PUT_ASIDE = "(set[ting]|put[ting]|mov(e|ing)|lay[ing]|push[ing]) aside"
+FIND = """
+    find[ing], look[ing] for, search[ing] for, choos(e|ing), select[ing], pick[ing] [out]
+"""
+"""Before a place, which is no thing."""
 SET_DOWN = f"{SET}, {SHIFT}"
 PUT = f"{SET_DOWN}, leav(e|ing)"
 PLACE = "put[ting], plac(e|ing), deposit[ing], drop[ping], insert[ing], set[ting]"
@@ -144,7 +159,8 @@ ARRANGE = """
     lay|prepare|sort)
 """
 NOTHING_IS_SO = """
-    nothing (is|lies|stands|sits|remains) [left|lying|standing|sitting], there is nothing [left]
+    nothing (is|lies|stands|sits|remains) [left|lying|standing|sitting], there is nothing [left],
+    there (is not|is no longer) anything [left]
 """
 """Before where there is to be nothing, as was said before."""
 NOTHING_IS = f"""

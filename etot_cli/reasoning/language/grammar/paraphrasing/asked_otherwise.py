@@ -120,6 +120,12 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?: for you)?(?=[.,;!]|$)",
         r"\1you like",
     ),
+    # A question whose answer is what something is done with
+    (
+        r"(?:(?<=^)|(?<=[.;!?] ))which ((?!of\b|one\b)\w+(?: (?!is\b)\w+)?) is ([^.,;:!?]+)\? "
+        r"((?:(?:please|then|just|now) )*(?:\w+ ){1,4}?)(?:that one|it)\b",
+        r"whichever \1 is \2, \3it",
+    ),
     # "Have the cup hold the pen"
     (
         r"(^|[.;!?] |, |\band )((?:please |(?:could|can|would|will) you )*)"

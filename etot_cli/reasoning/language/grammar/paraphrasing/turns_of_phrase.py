@@ -67,12 +67,6 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?:standing(?: up| upright)?|upright){_END}",
         r"\1, and \2 should be upright",
     ),
-    (
-        r"(?<!tower )(?<!stack )(?<!pile )\b(should|must|has to|have to|needs to) (?:still )?"
-        r"be (?:still )?standing"
-        rf"(?: up| upright)?(?= (?:in|at) the end{_END}|{_END})",
-        r"\1 be upright",
-    ),
     # What somebody "forgot to do", and is asked for next
     (
         rf"(^|[.;!] )(?!nobody\b|no one\b){PEOPLE} (?:has |have )?(?:just )?"

@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import of_each
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.requests.unstacking import is_stack
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
     ReorientClause,
@@ -38,6 +39,14 @@ from etot_cli.world.spatial import Nearby
 
 _stood_up = partial(ReorientClause, stance=Nearby.UPRIGHT)
 _laid_down = partial(ReorientClause, stance=Nearby.LYING)
+
+
+def _still_standing(things: Things) -> ReorientClause | None:
+    """What is upright; a tower that is to be "standing" is to be there."""
+    tower = any(is_stack(np) for np in things.phrases)
+    return None if tower else ReorientClause(things, Nearby.UPRIGHT)
+
+
 _IT = Things((NounPhrase(pronoun="it", text="it"),))
 _THEM = Things((NounPhrase(pronoun="them", text="them"),))
 _HOW = sequence(
@@ -226,6 +235,7 @@ REORIENT = either(
         silent(optional(manner.ON_THE_WAY)),
         build=ReorientClause,
     ),
+    sequence(ALL_THINGS, verbs.MODAL, "[still] standing [up]", build=_still_standing),
     sequence(
         verbs.PUT_DOWN,
         THINGS,

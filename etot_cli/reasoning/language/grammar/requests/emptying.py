@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     sequence,
     silent,
+    valued,
     variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
@@ -118,17 +119,14 @@ def _to_be_bare(found: tuple[Prep | None, tuple[str, ...], Things]) -> tuple[Cla
 
 
 def _nothing_there(said: str) -> Parser:
-    """Where there is to be nothing, behind words for that; it stays so where it is so already."""
+    """Where there is nothing, behind words for that."""
     places = {(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}
-    return variants(
-        sequence(
-            said,
-            one_of(places),
-            ALL_THINGS,
-            silent(optional(small_words.ANY_MORE)),
-            build=lambda at, things: (*at, things),
-        ),
-        _to_be_bare,
+    return sequence(
+        said,
+        one_of(places),
+        ALL_THINGS,
+        silent(optional(small_words.ANY_MORE)),
+        build=lambda at, things: (*at, things),
     )
 
 
@@ -160,7 +158,7 @@ TO_BE_EMPTY = either(
         ),
         to_be_empty,
     ),
-    _nothing_there(verbs.NOTHING_IS),
+    variants(_nothing_there(verbs.NOTHING_IS), _to_be_bare),
 )
 """What is said of how things are to be, rather than of what is to be done."""
 
@@ -243,4 +241,10 @@ IS_EMPTY = variants(
     to_be_empty,
 )
 """What something is done for ("so that the box is empty")."""
-NOTHING_THERE = _nothing_there(verbs.NOTHING_IS_SO)
+NOTHING_THERE = variants(_nothing_there(verbs.NOTHING_IS_SO), _to_be_bare)
+"""The same, said of the place; it stays so where it is so already."""
+NOTHING_LEFT_THERE = valued(
+    _nothing_there(verbs.NOTHING_IS_SO),
+    lambda found: emptied(found[2], held=found[0], part=found[1]),
+)
+"""What has been taken from there by then ("once there is nothing left in the box")."""

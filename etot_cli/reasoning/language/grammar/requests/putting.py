@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID
 from etot_cli.reasoning.language.grammar.phrases.as_many import AS_MANY
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of, coordinated
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
+    BESIDE,
     DESTINATIONS,
     DIRECTED,
     INSTEAD,
@@ -157,15 +158,26 @@ def _changing(
     return put_to(Things((np,)).taken_from(at), named)
 
 
-def _safely(things: Things) -> PutClause:
-    """Out of the way: of what "the ball in front of the drawer" is said to be in front of."""
+def _safely(things: Things, rather: bool = True) -> PutClause:
+    """Out of the way, of what "the ball in front of the drawer" is said to be in front of, unless
+    what comes next ``rather`` tells of what.
+    """
     marks = [
         m for np in things.phrases for m in np.modifiers if m.prep in (Prep.FRONT, Prep.BEHIND)
     ]
     if len(things.phrases) > 1 or [m.denied for m in marks] != [False]:
-        return replace(put_to(things, DOWN), far_fetched=1)
+        return replace(put_to(things, DOWN), far_fetched=int(rather))
     away = (Beside(Nearby.AWAY, m.phrases, m.phrases[0].text) for m in marks)
     return put_to(things, (Destination(Toward.BESIDE, beside=tuple(away)),))
+
+
+def _taken_away(verb: str, things: Things, where: tuple[Beside, ...]) -> PutClause | None:
+    """Away from where something stands beside another one; what is in or on that is taken out."""
+    if any(item.relation is not Nearby.AWAY for item in where):
+        return None
+    beside = any(item.text.startswith(_FROM_BESIDE) for item in where)
+    put = put_to(things, (Destination(Toward.BESIDE, beside=where),))
+    return put if beside else replace(put, far_fetched=1)
 
 
 def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
@@ -197,6 +209,7 @@ OUT_AND_INTO = sequence(
 """From one place to another ("out of the box and on the desk")."""
 
 
+_FROM_BESIDE = ("from ", "away from the front", "away from in front")
 _A_PLACE = """
     a [new|nice|good|free|safe|proper] (place|spot|home|seat) [~comma], [some|enough] (room|space)
 """
@@ -217,7 +230,16 @@ _COMES_AND_GOES = """
 PUT = either(
     AS_MANY,
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
-    sequence("find[ing]", _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence(
+        either(
+            sequence(verbs.FIND, places.A_SAFE_PLACE, "for", THINGS),
+            sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, places.SAFELY),
+            sequence("find[ing], giv(e|ing)", THINGS, places.A_SAFE_PLACE),
+            sequence(ALL_THINGS, "[still] (needs|need|deserves)", places.A_SAFE_PLACE),
+        ),
+        build=_safely,
+    ),
     sequence(
         "find[ing] [a|some|enough] (room|space|place|spot)",
         DESTINATIONS,
@@ -264,16 +286,18 @@ PUT = either(
         build=_changing,
     ),
     sequence(
-        either(sequence(verbs.PUT, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
-        "aside, to one side",
-        build=lambda things: replace(_safely(things), far_fetched=0),
-    ),
-    sequence(
         # With what is opened next it is rather out of the way of that.
-        either(sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS), sequence(ALL_THINGS, verbs.MODAL)),
-        places.SAFELY,
+        either(
+            sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS),
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to be, {verbs.TO_BE_THERE}"))),
+            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+        ),
+        either(phrase("aside, to one side", False), phrase(places.SAFELY, True)),
         build=_safely,
     ),
+    sequence(verbs.PUT_ASIDE, THINGS, build=partial(_safely, rather=False)),
+    sequence(phrase(f"{verbs.TAKE}, {verbs.REMOVE}"), THINGS, BESIDE, build=_taken_away),
     sequence(
         ALL_THINGS,
         verbs.COME_AWAY,

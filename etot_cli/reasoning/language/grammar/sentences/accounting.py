@@ -54,7 +54,13 @@ from etot_cli.reasoning.language.words.lexicon import (
     is_descriptive,
     word_set,
 )
-from etot_cli.reasoning.language.words.places import FREE_SPOT, SOMEWHERE_FREE, Prep
+from etot_cli.reasoning.language.words.places import (
+    A_SAFE_PLACE,
+    FREE_SPOT,
+    SAFELY,
+    SOMEWHERE_FREE,
+    Prep,
+)
 from etot_cli.reasoning.language.words.small_words import (
     FRAMES,
     SO_LONG,
@@ -100,6 +106,7 @@ _FIXED = """
     closer together, contents and all, 's (top|surface), in any order, (no|any) longer, any more,
     only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
     (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
+    there (is not|is no longer) anything [left],
     (when|once|after|by the time) all is, a little open, open a little,
     open (only|just) [slightly|partly|partially|halfway], a little bit,
     before (you touch|touching|you do anything|doing anything) [to|with],
@@ -121,10 +128,16 @@ _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
     f", {manner.NOT_STACKED}, {manner.STANDS_SINGLY}, {manner.ANYHOW}, {SO_LONG}"
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
+    f", {SAFELY}, {A_SAFE_PLACE}, {verbs.OUT_OF_THE_WAY}"
 )
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 
+_FROM_ITS_SIDE = re.compile(
+    r"(?:away )?from (?:the )?(in front|(?:left |right )?side|front|back|rear|left|right) of\b"
+)
+_DOES_NOT = re.compile(r"[^~]*? (?:it|they) \w+ not\b")
+"""What is away from a thing, told by where it stood, or by what it does not do to that."""
 _LAST_FIRST = re.compile(r"\b(first|before|beforehand)(?: that)?(?: ~comma| please)*$")
 
 
@@ -245,8 +258,10 @@ def _said(node: object) -> Iterator[str]:
             yield from ("empty",) if avoid is Avoid.PUT else ()
         case Beside(text=text) if "other side of" in text:
             yield "other"
-        case Beside(relation=Nearby.AWAY, text=text) if "from in front of" in text:
-            yield "front"
+        case Beside(relation=Nearby.AWAY, text=text) if side := _FROM_ITS_SIDE.match(text):
+            yield from side[1].split()
+        case Beside(relation=Nearby.AWAY, text=text) if _DOES_NOT.match(text):
+            yield _DENIAL
         case Beside(relation=Nearby.AWAY | Nearby.AT_LEFT | Nearby.AT_RIGHT):
             yield _canonical("far")
         case Beside(relation=Nearby.AT_FRONT | Nearby.AT_BACK as side):

@@ -30,8 +30,6 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
 )
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
 from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT, Reading
-from etot_cli.reasoning.language.grammar.sentences.past import then_done
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.sentences.topics import AS_IT_IS
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
@@ -41,20 +39,16 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
     PutGroup,
     RemoveClause,
-    put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Beside,
     Destination,
     Modifier,
     NounPhrase,
     Things,
-    Toward,
 )
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.spatial import Nearby
 
 
 def _told(things: Things, said: Modifier, number: str) -> Things | None:
@@ -119,16 +113,6 @@ def _with(where: Destination, mark: NounPhrase, told: NounPhrase) -> Destination
 
     beside = tuple(replace(b, phrases=tuple(map(named, b.phrases))) for b in where.beside)
     return replace(where.going_to(named), beside=beside)
-
-
-def out_of_the_way(things: Things, rest: Reading) -> Reading | None:
-    """What is in the way of what is opened next goes away from that."""
-    match rest[0].clause:
-        case MoveClause(things=Things(phrases=(np,)), opens=True):
-            away = Beside(Nearby.AWAY, (np,), f"out of the way of {np.text}")
-            put = put_to(things, (Destination(Toward.BESIDE, beside=(away,)),))
-            return (Spoken(put, -1), *then_done(rest))
-    return None
 
 
 _CHOICE = frozenset({"a", "an", "any", "one", "any one", "some"})

@@ -19,7 +19,6 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
     some,
-    valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
@@ -39,7 +38,7 @@ from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.requests.reaching import SEPARATING
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.requests.unstacking import UNSTACK
-from etot_cli.reasoning.language.grammar.sentences.afterthoughts import TOLD_BEHIND, out_of_the_way
+from etot_cli.reasoning.language.grammar.sentences.afterthoughts import TOLD_BEHIND
 from etot_cli.reasoning.language.grammar.sentences.ahead import not_so
 from etot_cli.reasoning.language.grammar.sentences.announced import (
     ONE_FOR_EACH,
@@ -69,7 +68,14 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
 )
 from etot_cli.reasoning.language.grammar.sentences.inversions import INVERTED
 from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
-from etot_cli.reasoning.language.grammar.sentences.past import EARLIER, LATER, SO, then_done
+from etot_cli.reasoning.language.grammar.sentences.past import (
+    EARLIER,
+    LATER,
+    SO,
+    once_done,
+    out_of_the_way,
+    then_done,
+)
 from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.sentences.togetherness import PARTED
 from etot_cli.reasoning.language.grammar.sentences.topics import (
@@ -106,7 +112,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 
 
@@ -263,9 +269,12 @@ WITH_MORE_BEFORE_IT = either(
         )
     ),
     sequence(
-        f"{verbs.SET_DOWN}, {verbs.FETCH}",
-        ALL_THINGS,
-        "out of the way",
+        either(
+            sequence(f"{verbs.SET_DOWN}, {verbs.FETCH}", ALL_THINGS),
+            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+        ),
+        places.NOT_IN_THE_WAY,
         _AND,
         CHAIN,
         build=out_of_the_way,
@@ -366,13 +375,18 @@ WITH_MORE_BEFORE_IT = either(
                     build=put_to,
                 ),
                 sequence(ALL_THINGS, verbs.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
+                sequence(
+                    ALL_THINGS,
+                    "[safely] [moved|put] (out of the way|aside)",
+                    build=lambda things: RemoveClause(things, by_then=True, aside=True),
+                ),
                 STANDS_UP,
                 UNTOUCHED,
             )
         ),
         COMMA,
-        valued(CHAIN, then_done),
-        build=add,
+        CHAIN,
+        build=once_done,
     ),
     sequence(
         "with",
@@ -403,8 +417,8 @@ WITH_MORE_BEFORE_IT = either(
         OPTIONAL_COMMA,
         optional("[and] only then, [and] not before [then|that]"),
         OPTIONAL_COMMA,
-        valued(either(CHAIN, INVERTED), then_done),
-        build=add,
+        either(CHAIN, INVERTED),
+        build=once_done,
     ),
     sequence(
         LATER,

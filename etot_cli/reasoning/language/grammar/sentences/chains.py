@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from operator import add
 
 from etot_cli.reasoning.language.grammar.conditions.ensuring import OF_SEVERAL
 from etot_cli.reasoning.language.grammar.conditions.left_alone import UNTOUCHED
@@ -17,7 +16,6 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     remembered,
     sequence,
     some,
-    valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
@@ -63,7 +61,7 @@ from etot_cli.reasoning.language.grammar.sentences.passives import (
     THEN_TURNED,
     goes_on,
 )
-from etot_cli.reasoning.language.grammar.sentences.past import EARLIER, LATER, then_done
+from etot_cli.reasoning.language.grammar.sentences.past import EARLIER, LATER, once_done, then_done
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
@@ -172,7 +170,7 @@ JOINED = either(
         OPTIONAL_COMMA,
         "and",
         OPTIONAL_COMMA,
-        sequence(EARLIER, OPTIONAL_COMMA, valued(LED_CLAUSE, then_done), build=add),
+        sequence(EARLIER, OPTIONAL_COMMA, LED_CLAUSE, build=once_done),
     ),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
@@ -311,7 +309,7 @@ def _done_after(done: Reading, clause: Reading) -> Reading:
     )
     if before and len(clause) == 1 and same:
         return (*before, *then_done(clause), *then_done((last,)))
-    return (*clause, *then_done(done))
+    return once_done(clause, done)
 
 
 def chained(first: Reading, more: Joined) -> Reading | None:

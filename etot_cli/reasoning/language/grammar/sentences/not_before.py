@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
 from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
-from etot_cli.reasoning.language.grammar.sentences.past import DONE_BY_THEN, EARLIER, then_done
+from etot_cli.reasoning.language.grammar.sentences.past import DONE_BY_THEN, EARLIER, once_done
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,
@@ -63,8 +63,7 @@ def _only_after(later: Reading, earlier: Reading) -> Reading | None:
     wished = any(isinstance(item.clause, EnsureClause) for item in earlier)
     if held or wished:
         return None
-    (said, *_) = then_done(later)
-    return (*earlier, replace(said, not_before=True))
+    return once_done(earlier, (replace(said, not_before=True),))
 
 
 def _forbidden(word: str) -> Parser:

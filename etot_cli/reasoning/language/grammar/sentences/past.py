@@ -20,11 +20,14 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATION
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.arrangements import HAVING_TURNED, STANDS_UP
-from etot_cli.reasoning.language.grammar.requests.emptying import emptied
+from etot_cli.reasoning.language.grammar.requests.emptying import (
+    NOTHING_LEFT_THERE,
+    emptied,
+)
 from etot_cli.reasoning.language.grammar.requests.putting import OUT_AND_INTO, brought
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,
@@ -34,13 +37,17 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Beside,
     Destination,
+    Modifier,
     NounPhrase,
     State,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
 
 SO = sequence(
     ALL_THINGS,
@@ -52,6 +59,17 @@ _TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|
 _TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
 _NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
 """Not before what has been done with it next ("taken out and put on the tray")."""
+
+
+def _freed(said: str, np: NounPhrase) -> PutClause:
+    """What blocks something has gone out of the way of it by then."""
+    blocking = Modifier(Prep.BLOCKING, (np,))
+    things = NounPhrase("all", ("objects",), (blocking,), text=f"everything blocking {np.text}")
+    way = "from in front of" if said.endswith("front of") else "out of the way of"
+    away = Beside(Nearby.AWAY, (np,), f"{way} {np.text}")
+    return put_to(Things((things,)), (Destination(Toward.BESIDE, beside=(away,)),))
+
+
 _SO_BY_THEN = either(
     sequence(
         ALL_THINGS,
@@ -71,9 +89,15 @@ _SO_BY_THEN = either(
     sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
     sequence(
         ALL_THINGS,
-        f"(is|are) (out|off|out of the way), (is|are|has been|have been) ({_TAKEN_AWAY})",
+        f"(is|are) (out|off), (is|are|has been|have been) ({_TAKEN_AWAY})",
         _NO_MORE,
         build=RemoveClause,
+    ),
+    sequence(
+        ALL_THINGS,
+        verbs.OUT_OF_THE_WAY,
+        _NO_MORE,
+        build=lambda things: RemoveClause(things, aside=True),
     ),
     sequence(
         ALL_THINGS,
@@ -87,6 +111,13 @@ _SO_BY_THEN = either(
     STANDS_UP,
     SO,
     sequence(ALL_THINGS, f"{verbs.BE}, (has|have) been", manner.EMPTIED, build=emptied),
+    NOTHING_LEFT_THERE,
+    sequence(
+        phrase(verbs.NOTHING_BLOCKS),
+        noun_phrase,
+        silent(optional(small_words.ANY_MORE)),
+        build=_freed,
+    ),
     sequence(
         # "Once the plate has been cleared of the cup"
         noun_phrase,
@@ -154,6 +185,26 @@ def then_done(clause: Reading) -> Reading:
     if first.order is Order.SAID:
         first = replace(first, order=Order.THEN)
     return (first, *clause[1:])
+
+
+def out_of_the_way(things: Things, rest: Reading) -> Reading | None:
+    """What is in the way of what is opened next goes away from that."""
+    match rest[0].clause:
+        case MoveClause(things=Things(phrases=(np,)), opens=True):
+            away = Beside(Nearby.AWAY, (np,), f"out of the way of {np.text}")
+            put = put_to(things, (Destination(Toward.BESIDE, beside=(away,)),))
+            return (Spoken(put, -1), *then_done(rest))
+    return None
+
+
+def once_done(earlier: Reading, later: Reading) -> Reading:
+    """What has been done by then, and what comes after it; what is out of the way by then is so for
+    what is opened after it.
+    """
+    (first, *more) = earlier
+    if isinstance(first.clause, RemoveClause) and first.clause.aside and not more:
+        return out_of_the_way(first.clause.things, later) or (*earlier, *then_done(later))
+    return (*earlier, *then_done(later))
 
 
 def _gapped(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> PutClause:

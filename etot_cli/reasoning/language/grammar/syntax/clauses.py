@@ -119,6 +119,8 @@ class RemoveClause:
     """It is what stands upon something else that can be moved."""
     by_then: bool = False
     """It has been done before what is asked for next ("once it is out, …")."""
+    aside: bool = False
+    """It is in the way of what is opened next, where something is."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -147,7 +147,7 @@ def with_quality(
     """
     if word in STATES:
         plural = singular(phrase.head) != phrase.head
-        return {*in_state(word, things, scene, every=plural)}
+        return {*in_state(word, things, scene, every=plural, left_out=True)}
     color = basic_color(word)
     entries = vocabulary.entries()
     if color is not None:

@@ -19,10 +19,16 @@ _BRIGHT = frozenset({"white", "yellow", "pink", "orange"})
 
 
 def in_state(
-    word: str, things: Sequence[Thing], scene: SceneState, *, every: bool = False
+    word: str,
+    things: Sequence[Thing],
+    scene: SceneState,
+    *,
+    every: bool = False,
+    left_out: bool = False,
 ) -> list[Thing]:
     """The things that an adjective of state is true of; one that is "open" is rather one that is
-    fully so, and one that is "round" rather a ball.
+    fully so, and one that is "round" rather a ball: "everything round" is no cup, which "everything
+    that is not round" may be (``left_out``).
 
     Raises:
         ReferenceProblem: of several things, or colours, it is open which are "dark", or "round".
@@ -32,7 +38,9 @@ def in_state(
     found = [thing for thing in things if state_holds(word, thing, scene)]
     if STATES[word] == "round":
         balls = [thing for thing in found if scene.infos[thing.name].kind == "sphere"]
-        if every and balls and balls != found:
+        vessels = [] if left_out else [t for t in found if scene.infos[t.name].container]
+        solid = [thing for thing in found if thing not in vessels]
+        if every and balls and balls != solid:
             raise ReferenceProblem(word, "say what they are", 3, word=word)
         return balls or found
     wide = [
