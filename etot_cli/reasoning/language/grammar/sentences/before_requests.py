@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     LIST,
     OPTIONAL_COMMA,
+    not_ahead,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
@@ -69,12 +70,12 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
 from etot_cli.reasoning.language.grammar.sentences.inversions import INVERTED
 from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
 from etot_cli.reasoning.language.grammar.sentences.past import (
+    ALL_LATER,
     EARLIER,
-    LATER,
     SO,
+    done_later,
     once_done,
     out_of_the_way,
-    then_done,
 )
 from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.sentences.togetherness import PARTED
@@ -421,9 +422,10 @@ WITH_MORE_BEFORE_IT = either(
         build=once_done,
     ),
     sequence(
-        LATER,
+        ALL_LATER,
         OPTIONAL_COMMA,
+        not_ahead("and", "then"),
         CHAIN,
-        build=lambda later, rest: rest + then_done(later),
+        build=done_later,
     ),
 )

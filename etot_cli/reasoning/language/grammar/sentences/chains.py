@@ -61,7 +61,14 @@ from etot_cli.reasoning.language.grammar.sentences.passives import (
     THEN_TURNED,
     goes_on,
 )
-from etot_cli.reasoning.language.grammar.sentences.past import EARLIER, LATER, once_done, then_done
+from etot_cli.reasoning.language.grammar.sentences.past import (
+    ALL_LATER,
+    EARLIER,
+    LATER,
+    done_later,
+    once_done,
+    then_done,
+)
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
@@ -158,9 +165,7 @@ JOINED = either(
         OPTIONAL_COMMA,
         "and, then, and then, but",
         OPTIONAL_COMMA,
-        sequence(
-            LATER, OPTIONAL_COMMA, LED_CLAUSE, build=lambda later, rest: rest + then_done(later)
-        ),
+        sequence(ALL_LATER, OPTIONAL_COMMA, LED_CLAUSE, build=done_later),
     ),
     joint("and", either(COMMA, LIST, small_words.JOINTS), NOT_BEFORE),
     joint("after", OPTIONAL_COMMA, EARLIER),

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
@@ -201,10 +202,24 @@ def once_done(earlier: Reading, later: Reading) -> Reading:
     """What has been done by then, and what comes after it; what is out of the way by then is so for
     what is opened after it.
     """
-    (first, *more) = earlier
-    if isinstance(first.clause, RemoveClause) and first.clause.aside and not more:
-        return out_of_the_way(first.clause.things, later) or (*earlier, *then_done(later))
+    match [said.clause for said in earlier]:
+        case [RemoveClause(things=things, aside=True)] if away := out_of_the_way(things, later):
+            return away
     return (*earlier, *then_done(later))
+
+
+def done_later(later: Reading, rest: Reading) -> Reading:
+    """What is said ahead to come later, and the rest: after all of it, but for what needs open what
+    is opened then ("before opening it, clear the tray, then put the pen in it").
+    """
+    opened = later[0].clause
+    if isinstance(opened, MoveClause) and opened.opens:
+        named = [{*np.words} for np in opened.things.phrases]
+        for count, said in enumerate(rest):
+            nps = (np for np in nodes(said) if isinstance(np, NounPhrase) and np.words)
+            if count and any({*np.words} <= words for np in nps for words in named):
+                return (*rest[:count], *then_done(later), *then_done(rest[count:]))
+    return rest + then_done(later)
 
 
 def _gapped(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> PutClause:
@@ -221,6 +236,12 @@ DONE_BY_THEN = valued(
 """What has been done by then, behind "until" or "before"."""
 LATER = sequence(small_words.BEFORE, either(LED_CLAUSE, plain(_SO_BY_THEN)))
 """What comes after the rest of a sentence ("before the drawer is closed")."""
+ALL_LATER = sequence(
+    LATER,
+    some(sequence("and [then], then", LED_CLAUSE), most=2),
+    build=lambda first, more: sum(map(then_done, more), first),
+)
+"""Likewise, where the rest comes behind it ("before you open it and put the pen in, …")."""
 EARLIER = valued(
     either(
         sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
