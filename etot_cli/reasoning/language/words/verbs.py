@@ -350,7 +350,7 @@ COME_AWAY = """
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
 """
-GONE = "[to be] [(out|gone|away)] (out of|off [of]|gone from|out from)"
+GONE = "[to be] [(out|gone|away|down)] (out of|off [of]|(gone|out|down) from)"
 """Where something is wanted no longer."""
 KEEP = "keep[ing], leav(e|ing)"
 IGNORE = "ignore, ignoring, never mind, forget [about], skip, do not bother with"
