@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.reference.geometry.areas import side_across
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import is_robot
 from etot_cli.reasoning.language.reference.places.alongside import put_on_the_same
 from etot_cli.reasoning.language.reference.pronouns.coreference import PLURAL_PRONOUNS
@@ -170,8 +171,25 @@ class Surroundings:
                 ):
                     phrases[number] = told
                 elif len(found) == len(alike) == 1 and found != alike:
+                    if self._is_other_than(phrase, themes):
+                        (name,) = (thing.name for thing in alike)
+                        self._discourse.notes.append(f"read {phrase.text!r} as {name}")
+                        phrases[number] = told
+                        continue
                     raise AmbiguousReference(phrase.text, [t.name for t in (*found, *alike)])
         return replace(beside, phrases=tuple(phrases))
+
+    def _is_other_than(self, phrase: NounPhrase, themes: Sequence[int]) -> bool:
+        """Whether "the other one" is rather another such thing as is taken from somewhere ("take the
+        pen out of the box and lay it by the other one") than another such place.
+        """
+        mentions, things = self._discourse.mentions, self._discourse.things
+        named = [m for m in mentions if m.referent not in themes and m.role is Role.ANY]
+        moved = [thing.name for index in themes for thing in things(index)]
+        sources = {thing.name for m in named for thing in things(m.referent)}
+        around = {name for theme in moved for name in bearers(self._scene, theme)}
+        other = quantity_of(phrase.determiner).other and phrase.words == ("one",)
+        return other and len(moved) == 1 and bool(sources) and sources <= around
 
     def _meant(self, phrase: NounPhrase) -> set[Thing]:
         """All that a landmark's phrase may mean; nothing where it means nothing."""
