@@ -154,6 +154,7 @@ NOTHING_IS = f"""
     (stay|remain|stays|remains) [left],
     there (should|must|has to|needs to|is to) be nothing [left],
     there (should|must|may|can) (not|no longer) be anything [left],
+    leav(e|ing) nothing [lying|standing|sitting],
     ({ENSURE}) ({NOTHING_IS_SO})
 """
 """Before where there is to be nothing."""

@@ -309,8 +309,7 @@ _THEN = Expression(rf" {ON_ARRIVAL}$")
 def is_remark(said: str, is_name: IsName) -> bool:
     """Whether this tells what somebody did, or how things outside of the scene are."""
     if is_of_people(said) and (then := _THEN.search(said)):
-        named = any(map(is_name, said.split()))
-        return not named and is_remark(said[: then.start()], is_name)
+        return not any(map(is_name, said.split())) and is_remark(said[: then.start()], is_name)
     words = said.split()
     person = _PERSON.match(said)
     if asks_besides(said) or lacks_room(said):

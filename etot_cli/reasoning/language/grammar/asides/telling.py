@@ -152,4 +152,5 @@ def goes_there(
         whose: words that it may begin with; "the soup" may be a wrong name for what is there.
     """
     found = _PLACED_THERE.fullmatch(said)
-    return bool(found) and found["whose"] in whose and not any(map(is_name, said.split()))
+    known = found is None or found["whose"] not in whose or any(map(is_name, said.split()))
+    return not known

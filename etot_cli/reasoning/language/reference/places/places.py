@@ -109,8 +109,8 @@ class Places:
             if destination.toward is Toward.BESIDE:
                 destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:
-                within = stays and destination.word in spellings(THEREIN)
-                there = self._where_they_are(Relation.INSIDE, themes) if within else ()
+                therein = stays and destination.word in spellings(THEREIN)
+                there = self._where_they_are(Relation.INSIDE, themes) if therein else ()
                 found = list(there or self._here(destination.word, themes))
             elif destination.toward is Toward.BESIDE and (
                 around := self._spots.around(destination.beside, themes)
@@ -310,7 +310,7 @@ class Places:
         return (Place(relation, held[-1]),) if len(around) == 1 and held else ()
 
     def _around_them(self, destination: Destination, themes: Sequence[int]) -> tuple[Place, ...]:
-        """After "put the tumbler in the box" the brush that is left "in it" stays in the tumbler."""
+        """After "put the mug in the box" the brush that is left "in it" stays in the mug."""
         relations = {Toward.INSIDE: Relation.INSIDE, Toward.ON: Relation.ON}
         relation = relations.get(destination.toward)
         (np, *more) = destination.targets
