@@ -309,12 +309,13 @@ def gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
 
 def point_closer(thing: Thing, landmark: Thing, scene: SceneState) -> tuple[float, float] | None:
     """A point [m] on the way from a thing to a landmark that is close to this, and far enough from
-    where the thing is to be another one; None where there is none.
+    where the thing is to be another one; None where there is none, or they stand on different
+    things.
     """
     apart = gap(thing, landmark, scene)
     (x, y, _), (to_x, to_y, _) = position(thing, scene), position(landmark, scene)
     away = math.dist((x, y), (to_x, to_y))
-    if apart == math.inf or apart - CLOSE <= AT:
+    if apart == math.inf or apart - CLOSE <= AT or below(thing, scene) != below(landmark, scene):
         return None
     share = (apart - CLOSE) / away
     return round(x + share * (to_x - x), 3), round(y + share * (to_y - y), 3)

@@ -137,10 +137,12 @@ class LentNouns(ABC):
         by_size = are_contrasted(phrase.words, before) and not {*phrase.words} & {*before}
         if not (by_color or by_size):
             return noun
+        said = [m.adjectives for m in self.discourse.mentions if same_noun(m.noun, noun)][-1:]
+        alike = role is not Role.ANY or any(are_contrasted(phrase.words, words) for words in said)
         with suppress(ReferenceProblem):
             self.resolved_as(phrase, role, noun)
-            if by_color or not self._is_single(phrase, role, noun):
-                return noun
+            if by_color or (alike and not self._is_single(phrase, role, noun)):
+                return noun  # "the thick pen out of the left box … beside the thin one" is no box
         with suppress(ReferenceProblem):
             found = self.resolved_as(phrase, role, moved[0].noun)
             return moved[0].noun if [*map(len, found.options)] == [1] else noun
