@@ -20,7 +20,12 @@ from etot_cli.reasoning.language.grammar.asides.left_open import (
     is_plan,
     is_wondering,
 )
-from etot_cli.reasoning.language.grammar.asides.mishaps import befalls, fears_for, is_kept_well
+from etot_cli.reasoning.language.grammar.asides.mishaps import (
+    befalls,
+    fears_for,
+    is_kept_well,
+    may_befall,
+)
 from etot_cli.reasoning.language.grammar.asides.remarks import (
     BEFORE_NAMES,
     PEOPLE,
@@ -316,6 +321,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         return True
     if _is_whole(clauses, at) and (
         fears_for(clause.said)
+        or may_befall(clause.said)
         or goes_there_later(clause.said, is_name)
         or tells_of_others(clause.said, is_name, before_so=so)
     ):

@@ -34,6 +34,14 @@ def befalls(said: str) -> bool:
     return bool(_FULL.fullmatch(said))
 
 
+_WILL = Expression(THING_WILL)
+
+
+def may_befall(said: str) -> bool:
+    """Whether a clause tells what might happen to a thing by itself ("the cup might fall")."""
+    return bool(_WILL.fullmatch(said))
+
+
 _SPARED = Expression(
     rf"{_THING} (?:do|does|will|can|could|would|shall) not (?:{BEFALLS})"
     rf"|nothing (?:(?:will|can|could) )?(?:{BEFALLS})"

@@ -148,8 +148,14 @@ def _opened_for(seen: Reading, rest: Reading) -> Reading | None:
 
 
 def _taken_first(wanted: Reading) -> Reading | None:
-    """What is wanted off something, and what goes where besides."""
-    return wanted if isinstance(wanted[0].clause, RemoveClause) and wanted[1:] else None
+    """What is wanted off something, and what goes where besides; "the pen from the cup" may go
+    there, too.
+    """
+    first = wanted[0].clause
+    if not isinstance(first, RemoveClause) or not wanted[1:]:
+        return None
+    away = first.source or {"off", "out"} & {*first.things.text.split()}
+    return wanted if away else None
 
 
 def _of_one_thing(denied: Reading) -> Reading | None:
