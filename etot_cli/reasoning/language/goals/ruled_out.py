@@ -22,10 +22,10 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
-from etot_cli.reasoning.language.reference.geometry.space import addresses, touches
+from etot_cli.reasoning.language.reference.geometry.space import addresses, rests_on, touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
-from etot_cli.world.state import DESK
+from etot_cli.world.state import DESK, SceneState
 
 
 def rule_out_things(context: Context, clause: AvoidClause) -> None:
@@ -40,13 +40,19 @@ def rule_out_things(context: Context, clause: AvoidClause) -> None:
     _rule_out_below(context, clause.destinations, places, below)
     context.discourse.last_places = places
     where = context.discourse.things(*(p.where for p in places if p.where is not None))
-    marks = [thing for thing in where if thing.name != DESK]
+    marks = [
+        (place.relation, thing)
+        for place in places
+        if place.where is not None
+        for thing in context.discourse.things(place.where)
+        if thing.name != DESK
+    ]
     puts = (step for step in context.steps if isinstance(step, Put) and not step.removal)
     gone = {t for step in puts for t in context.discourse.things(*step.what)}
     gone |= {*context.discourse.placed}  # "in the blue bowl, not in the red one"
     for at in indices if clause.not_left else ():
         things = [thing for thing in context.discourse.things(at) if thing not in gone]
-        there = [t for t in things if any(touches(t, m, context.scene) for m in marks)]
+        there = [t for t in things if any(_is_there(t, *m, context.scene) for m in marks)]
         known = len(context.discourse.referents[at].options) == 1
         whole = known and [*context.discourse.things(at)] == there
         taken = (at,) if whole else tuple(context.single(thing, thing.name) for thing in there)
@@ -54,6 +60,14 @@ def rule_out_things(context: Context, clause: AvoidClause) -> None:
             add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
         if known and not whole and at not in context.discourse.put:
             _speak_of_those_there(context, at, taken, where)
+
+
+def _is_there(thing: Thing, relation: Relation, mark: Thing, scene: SceneState) -> bool:
+    """Whether a thing is in or on something; what lies in a chest's drawer is not on the chest."""
+    inside = scene.states[thing.name].inside if thing.name in scene.states else None
+    stowed = inside is not None and scene.part(inside) is not None
+    around = rests_on if relation is Relation.ON and stowed else touches
+    return around(thing, mark, scene)
 
 
 def _rule_out_below(

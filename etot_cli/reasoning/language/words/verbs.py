@@ -170,6 +170,7 @@ NOTHING_IS = f"""
     (stay|remain|stays|remains) [left],
     there (should|must|has to|needs to|is to) be nothing [left],
     there (should|must|may|can) (not|no longer) be anything [left],
+    leav(e|ing) nothing [lying|standing|sitting],
     ({ENSURE}) ({NOTHING_IS_SO})
 """
 """Before where there is to be nothing."""
@@ -366,7 +367,7 @@ COME_AWAY = """
 TAKEN = """
     [to be] (taken|removed|moved|lifted|cleared) [away]
 """
-GONE = "[to be] [(out|gone|away)] (out of|off [of]|gone from|out from)"
+GONE = "[to be] [(out|gone|away|down)] (out of|off [of]|(gone|out|down) from)"
 """Where something is wanted no longer."""
 KEEP = "keep[ing], leav(e|ing)"
 IGNORE = "ignore, ignoring, never mind, forget [about], skip, do not bother with"

@@ -8,7 +8,7 @@ from functools import cache
 
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open, leaves_choice
 from etot_cli.reasoning.language.grammar.asides.mishaps import BEFORE_IT_DOES, THING_WILL
-from etot_cli.reasoning.language.grammar.asides.remarks import PEOPLE
+from etot_cli.reasoning.language.grammar.asides.remarks import ON_ARRIVAL, PEOPLE
 from etot_cli.reasoning.language.grammar.asides.where_needed import done_where_needed
 from etot_cli.reasoning.language.grammar.text.splitting import COMMA
 from etot_cli.reasoning.language.words.expressions import Expression
@@ -38,7 +38,7 @@ _WITHIN = Expression(
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
     r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
     rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
-    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?:$| {COMMA}| who\b"
+    rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?: {ON_ARRIVAL})?(?:$| {COMMA}| who\b"
     rf"| and (?:\w+ )?(?:{_DOING})\b)))\b"
 )
 """Words that a clause begins with wherever they stand."""

@@ -20,7 +20,12 @@ from etot_cli.reasoning.language.grammar.asides.left_open import (
     is_plan,
     is_wondering,
 )
-from etot_cli.reasoning.language.grammar.asides.mishaps import befalls, is_kept_well
+from etot_cli.reasoning.language.grammar.asides.mishaps import (
+    befalls,
+    fears_for,
+    is_kept_well,
+    may_befall,
+)
 from etot_cli.reasoning.language.grammar.asides.remarks import (
     BEFORE_NAMES,
     PEOPLE,
@@ -161,7 +166,11 @@ def _without_confirmation(sentences: Sequence[str]) -> list[str]:
 
 def _as_told(aside: Clause, part: _Parted) -> str:
     """An aside, with the word for why where it stands behind a request."""
-    whole = is_left_open(aside.whole) or (aside.kind != "plain" and aside in part.after)
+    whole = (
+        is_left_open(aside.whole)
+        or aside.joint == "before"
+        or (aside.kind != "plain" and aside in part.after)
+    )
     return spaced(f"{aside.joint if whole else ''} {aside.said}".split())
 
 
@@ -205,7 +214,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or (
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
-    told = told or goes_to_it(aside.said, "", first=True)
+    told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -268,7 +277,9 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "provided", _:
             return False
         case (("reason" | "meanwhile"), _):
-            reason = is_reason(clause.said, is_name)
+            reason = is_reason(clause.said, is_name) or goes_there(
+                clause.said, is_name, whose=BEFORE_NAMES
+            )
             return reason and (trailing or (at == 0 and clauses[1:] != []))
         case "comment", "who":
             of_somebody = at > 0 and clauses[at - 1].kind == "benefit"
@@ -281,6 +292,12 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             return apart and not any(map(is_name, clause.said.split()))
         case "purpose", "before":
             named = any(map(is_name, clause.said.split()))
+            if at == 0 and not all(item.is_polite for item in clauses[1:]):
+                # "Before you do that, …" is about an order.
+                told = not re.match(r"(?:you|we|i)\b", clause.said)
+                return befalls(clause.said) or (
+                    told and not named and is_remark(clause.said, is_name)
+                )
             return trailing and (befalls(clause.said) or not named)
         case "purpose", ("so" | "so that" | "where"):
             where = clause.joint == "where"
@@ -302,9 +319,14 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         return True
     if at + 1 < len(clauses) and goes_to_it(clause.said, behind, first=at == 0):
         return True
-    if _is_whole(clauses, at) and goes_there_later(clause.said, is_name):
+    if _is_whole(clauses, at) and (
+        fears_for(clause.said)
+        or may_befall(clause.said)
+        or goes_there_later(clause.said, is_name)
+        or tells_of_others(clause.said, is_name, before_so=so)
+    ):
         return True
-    if _is_whole(clauses, at) and tells_of_others(clause.said, is_name, before_so=so):
+    if trailing and clause.comma and goes_there(clause.said, is_name):
         return True
     if dislikes(clause.said) or is_hindering(clause.said):
         return True

@@ -7,12 +7,14 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.expressions import Expression
 
 _ROOM = (
-    r"(?:(?:some|more|a (?:bit|little)|a lot|lots|enough|not enough|no|little|too little|any|much)"
+    r"(?:(?:(?:some|more|a (?:bit|little|lot)|lots|enough|not enough|no|(?:too )?little|any|much)"
     r"(?: more| extra| free)*(?: of)? |the )?(?:elbow )?(?:room|space)"
+    r"|(?:the|that) (?:whole )?(?:surface|spot|area))"
 )
 _WHERE = (
     r"(?: (?:left|to (?:work|write|cook|eat|play|breathe)|(?:over |in )?here|there|now"
-    r"|(?:in|on) (?:the|my|our|this) (?:\w+ )?\w+))*"
+    r"|(?:in|on|for) (?:the|a|an|my|our|this|some|another) (?:\w+ )?\w+"
+    r"|for (?:something|other things|more things|(?:something|anything) else|\w+ing)))*"
 )
 _LACKING = Expression(
     rf"(?:i|we) (?:(?:just|really|also) )?(?:(?:will |could |would )?(?:need|use|want|like)"

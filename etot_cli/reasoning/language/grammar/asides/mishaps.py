@@ -16,7 +16,8 @@ _GETS = (
 )
 BEFALLS = (
     rf"(?:(?:just|only|all|quickly|soon) )?"
-    rf"(?:(?:{_DOES})(?:e?s)?(?: (?:off|over|down|away|up|out))?"
+    rf"(?:(?:{_DOES})(?:e?s)?(?: (?:off|over|down|away|up|out)"
+    r"(?: (?:of )?(?:the|my|our) (?:\w+ )?\w+)?| (?:on|onto|to) the (?:floor|ground|rug|carpet))?"
     rf"|(?:gets?|goes|go|turns?|becomes?) (?:too )?(?:{_GETS}|missing)"
     r"|(?:falls?|goes|go) to (?:waste|pieces))(?: again| everywhere| in (?:the (?:sun|heat)|here))?"
 )
@@ -33,6 +34,14 @@ def befalls(said: str) -> bool:
     return bool(_FULL.fullmatch(said))
 
 
+_WILL = Expression(THING_WILL)
+
+
+def may_befall(said: str) -> bool:
+    """Whether a clause tells what might happen to a thing by itself ("the cup might fall")."""
+    return bool(_WILL.fullmatch(said))
+
+
 _SPARED = Expression(
     rf"{_THING} (?:do|does|will|can|could|would|shall) not (?:{BEFALLS})"
     rf"|nothing (?:(?:will|can|could) )?(?:{BEFALLS})"
@@ -42,6 +51,24 @@ _SPARED = Expression(
 def is_spared(said: str) -> bool:
     """Whether a clause tells what is not to happen to a thing ("it will not roll off")."""
     return bool(_SPARED.fullmatch(said))
+
+
+_FEARED = Expression(
+    r"(?:i|we) (?:(?:really|just) )?(?:(?:do|would) not (?:want|like) to|(?:would )?hate to"
+    r"|(?:must|can|should) not|(?:am|are) (?:afraid|scared|worried) (?:of|about|(?:that )?i might)"
+    r"|(?:can not|do not want to) risk|(?:might|may|could|will) (?:easily )?)"
+    r" ?(?:los(?:e|ing)|break(?:ing)?|damag(?:e|ing)|spill(?:ing)?|scratch(?:ing)?|ruin(?:ing)?"
+    r"|crush(?:ing)?|squash(?:ing)?|forget(?:ting)?|wast(?:e|ing)|trip(?:ping)? over"
+    rf"|step(?:ping)? on|sit(?:ting)? on) (?:{_THING}|that (?:\w+ ){{0,2}}?\w+)"
+    r"(?: (?:again|by accident|in here|somewhere|either))?"
+)
+
+
+def fears_for(said: str) -> bool:
+    """Whether somebody tells what he does not want to happen to a thing by himself ("I do not want
+    to lose the bolt"), as before "so".
+    """
+    return bool(_FEARED.fullmatch(said))
 
 
 _KEPT_WELL = Expression(

@@ -46,6 +46,14 @@ PEOPLE = (
     rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)"
     rf"|(?:my|our) (?:{_OWN}))"
 )
+ON_ARRIVAL = (
+    r"(?:when(?:ever)?|once|after|before|until|till|by the time|as soon as) "
+    rf"(?:{PEOPLE}|they) (?:(?:finally|first|next) )?(?:gets?|comes?|arrives?|returns?|wakes?|"
+    r"(?:is|are|am) (?=back|home|up|here|done|in))"
+    r"(?: (?:back|home|in|up|here|done|down|over|out|around|tonight|tomorrow|later|today|again)"
+    r"| (?:from|for|to) (?:the |my |our |his |her |their )?\w+)*"
+)
+"""When something is so with people."""
 _PERSON = Expression(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
     r"never |hardly |rarely )*(?P<did>.+)$"
@@ -55,6 +63,7 @@ _HAPPENED = Expression(
     r"^forgot to (?:put|take|tidy|pack|clear) (?:\w+ )?away$"
     r"|^likes? (?:it|them|(?:my|our|his|her|the) \w+) "
     r"(?:cold|cool|warm|hot|chilled|fresh|clean|neat|better|best)(?= anyway|$)"
+    r"|^(?:comes?|gets?) (?:back |home )+(?:late|early|soon|tired|hungry)\b"
     r"|^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
     r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?)\b"
     r"|^(?:am going to need|"
@@ -293,8 +302,14 @@ def is_reason(said: str, is_name: IsName) -> bool:
     return not (wanted and PLACED & words and any(map(is_name, words)))
 
 
+_THEN = Expression(rf" {ON_ARRIVAL}$")
+"""Behind what somebody is or does it is no condition for what is asked for."""
+
+
 def is_remark(said: str, is_name: IsName) -> bool:
     """Whether this tells what somebody did, or how things outside of the scene are."""
+    if is_of_people(said) and (then := _THEN.search(said)):
+        return not any(map(is_name, said.split())) and is_remark(said[: then.start()], is_name)
     words = said.split()
     person = _PERSON.match(said)
     if asks_besides(said) or lacks_room(said):

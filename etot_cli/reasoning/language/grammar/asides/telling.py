@@ -8,6 +8,7 @@ exclamations ("Bedtime!", "What a lovely day!").
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from etot_cli.reasoning.language.grammar.asides.remarks import (
     ASKING,
@@ -66,10 +67,10 @@ _EXCLAIMED = Expression(
     r"|(?:good|oh my|my) (?:grief|goodness|lord|heavens|god|gracious)"
 )
 _PLACED_THERE = Expression(
-    r"(?:my|our) (?:\w+ )?(?P<what>\w+)"
+    r"(?P<whose>my|our|the|a|an|some|this|that) (?:\w+ )?(?P<what>\w+)"
     r" (?:(?:(?:still|also|soon) )?(?:has|have|needs?|(?:is|are)(?: (?:going|about))?) to"
-    r" (?:go|be put|fit)|(?:is|are) (?:going|about to go)|will (?:soon )?(?:go|be put)|goes)"
-    r" (?:right )?(?:in|into|inside|on|onto)(?: (?:there|it|here))?"
+    r" (?:go|be put|fit)|(?:is|are) (?:going|coming|about to go)|will (?:soon )?(?:go|be put)|goes)"
+    r" (?:right )?(?:(?:in|into|inside|on|onto)(?: (?:there|it|here))?|there|here)"
     r"(?: (?:in a (?:minute|moment|second|bit)|soon|later|now|shortly|next|afterwards|tonight))?"
 )
 
@@ -139,9 +140,17 @@ def goes_there_later(said: str, is_name: IsName) -> bool:
     return bool(_SOON.search(said)) and goes_there(said, is_name)
 
 
-def goes_there(said: str, is_name: IsName) -> bool:
-    """Whether somebody tells, before "so", what will soon be put where something is asked for ("my
-    soup has to go in there").
+def goes_there(
+    said: str, is_name: IsName, *, whose: Collection[str] = ("my", "our", "a", "an", "some")
+) -> bool:
+    """Whether somebody tells what will soon be put where something is asked for ("my soup has to go
+    in there"), of what is not in the scene.
+
+    Args:
+        said: the clause.
+        is_name: whether something in the scene is called by a word.
+        whose: words that it may begin with; "the soup" may be a wrong name for what is there.
     """
     found = _PLACED_THERE.fullmatch(said)
-    return bool(found) and not any(map(is_name, said.split()))
+    known = found is None or found["whose"] not in whose or any(map(is_name, said.split()))
+    return not known

@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.coordination import all_of, disagrees
+from etot_cli.reasoning.language.grammar.phrases.coordination import disagrees, said_of_all
 from etot_cli.reasoning.language.grammar.phrases.destinations import AS_SAID, DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_PLACES, respective
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
@@ -56,7 +56,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import forbidden, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.nouns import is_only
 
 
@@ -108,18 +108,12 @@ def _so_wanted(cost: int, nps: tuple[NounPhrase, ...], said: Any) -> EnsureClaus
 _ALL = phrase("both, all")
 
 
-def _together(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...] | None:
-    """Several things, of which it is said that all of them are meant."""
-    one = len(nps) == 1 and bool(nps[0].words) and singular(nps[0].head) == nps[0].head
-    return None if said and (one or (said == "both" and len(nps) > 2)) else all_of(nps, said)
-
-
 _BE_TOGETHER = silent(phrase(verbs.TO_BE_THERE))
 
 
 _TOGETHER = either(
-    sequence(NP_LIST, _BE_TOGETHER, optional(_ALL, ""), build=_together),
-    sequence(NP_LIST, _ALL, optional(_BE_TOGETHER), build=_together),
+    sequence(NP_LIST, _BE_TOGETHER, optional(_ALL, ""), build=said_of_all),
+    sequence(NP_LIST, _ALL, optional(_BE_TOGETHER), build=said_of_all),
 )
 
 

@@ -113,6 +113,12 @@ def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     return nps
 
 
+def said_of_all(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...] | None:
+    """Several things, of which a word within the verb may say that all of them are meant."""
+    one = len(nps) == 1 and bool(nps[0].words) and singular(nps[0].head) == nps[0].head
+    return None if said and (one or (said == "both" and len(nps) > 2)) else all_of(nps, said)
+
+
 def disagrees(nps: tuple[NounPhrase, ...], verb: str) -> bool:
     """Whether a verb is said of several things, and these are one: in "the cup and the pen beside
     it go in the box" it is not the pen alone that "go".

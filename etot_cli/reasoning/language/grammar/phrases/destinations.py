@@ -216,7 +216,10 @@ _place = either(
     sequence(
         either(INTO, ONTO), STEAD, build=lambda around, stead: replace(stead, around=(around,))
     ),
-    valued(phrase(places.HERE), lambda text: Destination(Toward.HERE, word=text)),
+    valued(
+        either(phrase(places.HERE), phrase("(up|down) there", "there")),
+        lambda text: Destination(Toward.HERE, word=text),
+    ),
     valued(phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")),
     valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
     _beside_something,

@@ -154,6 +154,17 @@ def _opened_for(seen: Reading, rest: Reading) -> Reading | None:
     return (*seen, *rest) if opens else None
 
 
+def _taken_first(wanted: Reading) -> Reading | None:
+    """What is wanted off something, and what goes where besides; "the pen from the cup" may go
+    there, too.
+    """
+    first = wanted[0].clause
+    if not isinstance(first, RemoveClause) or not wanted[1:]:
+        return None
+    away = first.source or {"off", "out"} & {*first.things.text.split()}
+    return wanted if away else None
+
+
 def _of_one_thing(denied: Reading) -> Reading | None:
     """What is not to be done with one thing while others go somewhere ("do not touch the cup: pen
     in the box"); of several things it may rather be told where they are.
@@ -235,6 +246,11 @@ WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
+    sequence(
+        # "I want the cup off the tray and the plate there instead"
+        verbs.WANTED,
+        sequence(BARE_CHAIN, build=_taken_first),
+    ),
     sequence(plain(either(PUT, ENSURE)), COLON, PLACED, build=in_detail),
     sequence(plain(PARTED), COMMA, either(BARE_CHAIN, CHAIN), build=parted),
     sequence(ONE_FOR_EACH, COLON, BARE_CHAIN, build=one_for_each),

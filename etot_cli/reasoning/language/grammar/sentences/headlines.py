@@ -16,7 +16,13 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     variants,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import COMMA, IN_HAND, OPTIONAL_COMMA, after
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    IN_HAND,
+    OPTIONAL_COMMA,
+    after,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.exclusions import of_the_things
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
@@ -154,6 +160,7 @@ PLACED = Rule(
         VERBLESS,
         sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
         sequence(ALL_THINGS, build=taken_out),
+        sequence(ALL_THINGS, "down (from|off)", noun_phrase, build=RemoveClause),
         sequence(ALL_THINGS, "out, off", build=RemoveClause),
         sequence(ALL_THINGS, "in, inside", build=_put_in),
         STACKED,

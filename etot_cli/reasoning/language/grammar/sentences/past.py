@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.phrases.coordination import said_of_all
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
@@ -71,7 +72,31 @@ def _freed(said: str, np: NounPhrase) -> PutClause:
     return put_to(Things((things,)), (Destination(Toward.BESIDE, beside=(away,)),))
 
 
+_ALL_OF_THEM = valued(
+    sequence(NP_LIST, "are, have", phrase("both, all"), build=said_of_all), Things
+)
+_ALL_SO_BY_THEN = either(
+    sequence(
+        _ALL_OF_THEM,
+        optional(f"{verbs.BEING}, [been] ({verbs.DONE_WITH_IT}) [down|away|over]"),
+        DESTINATIONS,
+        build=put_to,
+    ),
+    sequence(
+        _ALL_OF_THEM,
+        optional("been"),
+        OPEN_OR_CLOSED,
+        build=lambda things, word: MoveClause(things, word == "open"),
+    ),
+    sequence(_ALL_OF_THEM, optional("been"), manner.EMPTIED, build=emptied),
+    sequence(
+        _ALL_OF_THEM, "[been] (taken|removed|moved|cleared|lifted)", SOURCE, build=RemoveClause
+    ),
+    sequence(_ALL_OF_THEM, f"[been] ({_TAKEN_AWAY}), out, off", _NO_MORE, build=RemoveClause),
+)
+"""What has been done by then with all of them ("once the cup and the pen are both on the tray")."""
 _SO_BY_THEN = either(
+    _ALL_SO_BY_THEN,
     sequence(
         ALL_THINGS,
         f"{verbs.BE}, (is|are) {verbs.BEING}, {verbs.LIES}, {small_words.GONE},"

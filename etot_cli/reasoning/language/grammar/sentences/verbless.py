@@ -47,7 +47,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 
 
-def _put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+def put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     """Each thing to its place; "cup off the tray, tray in the box" does not send both there."""
     for np in (np for group in groups for np in group.things.phrases[:-1]):
         if {"off", "out"} & {*np.text.split()[1:]}:
@@ -79,7 +79,7 @@ VERBLESS = either(
         sequence(SOURCE, LIST, either(DIRECTED, DESTINATIONS)),
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
-    sequence(PUT_GROUPS, EXTRAS, build=_put_down),
+    sequence(PUT_GROUPS, EXTRAS, build=put_down),
     sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
     sequence(
         NP_LIST,

@@ -30,9 +30,10 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
     containing,
     state_of,
 )
-from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
+from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.sentences.passives import PASSIVE
+from etot_cli.reasoning.language.grammar.sentences.verbless import put_down
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
     EnsureClause,
@@ -94,7 +95,7 @@ WANTED = either(
         either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
         WHERE,
         EXTRAS,
-        build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
+        build=lambda things, where, extras: put_down((PutGroup(things, where),), extras),
     ),
     sequence(
         either(

@@ -18,7 +18,7 @@ from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, part
 from etot_cli.reasoning.language.reference.geometry.blocking import blocks
 from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds, outline_of
+from etot_cli.world.spatial import AT, BESIDE, Nearby, Whereabouts, holds, outline_of
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 OFFSET = 0.01
@@ -26,6 +26,8 @@ OFFSET = 0.01
 ASKEW = 2.0
 """What is so many times more askew than aside is not even roughly on that side: it is plainly on
 another one, as by definition is what is more askew than aside at all."""
+CLOSE = 0.04
+"""What is left free between two things that are set down close together, for the fingers [m]."""
 FLAT = 0.5
 """What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
 
@@ -303,6 +305,20 @@ def gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
         return math.inf
     away = math.dist(position(thing, scene)[:2], position(landmark, scene)[:2])
     return away - radius(scene.infos[thing.name]) - radius(scene.infos[landmark.name])
+
+
+def point_closer(thing: Thing, landmark: Thing, scene: SceneState) -> tuple[float, float] | None:
+    """A point [m] on the way from a thing to a landmark that is close to this, and far enough from
+    where the thing is to be another one; None where there is none, or they stand on different
+    things.
+    """
+    apart = gap(thing, landmark, scene)
+    (x, y, _), (to_x, to_y, _) = position(thing, scene), position(landmark, scene)
+    away = math.dist((x, y), (to_x, to_y))
+    if apart == math.inf or apart - CLOSE <= AT or below(thing, scene) != below(landmark, scene):
+        return None
+    share = (apart - CLOSE) / away
+    return round(x + share * (to_x - x), 3), round(y + share * (to_y - y), 3)
 
 
 def below(thing: Thing, scene: SceneState) -> frozenset[str]:

@@ -109,7 +109,8 @@ class Places:
             if destination.toward is Toward.BESIDE:
                 destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:
-                there = self._where_they_are(destination.word, themes) if stays else ()
+                therein = stays and destination.word in spellings(THEREIN)
+                there = self._where_they_are(Relation.INSIDE, themes) if therein else ()
                 found = list(there or self._here(destination.word, themes))
             elif destination.toward is Toward.BESIDE and (
                 around := self._spots.around(destination.beside, themes)
@@ -121,6 +122,8 @@ class Places:
                     surface = self.on_the_desk().where
                 near = self._surroundings.near(destination.beside, themes)
                 found = [Place(Relation.ON, surface, near)]
+            elif stays and (there := self._around_them(destination, themes)):
+                found = list(there)
             else:
                 role = _ROLES.get(destination.toward, Role.PLACE)
                 found = [
@@ -288,18 +291,37 @@ class Places:
             raise ReferenceProblem(text, "what goes on it would be in it, too; say 'in'", 3)
         return index
 
-    def _where_they_are(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
-        """In the one thing spoken of that holds them ("keep the bowl in there")."""
+    def _where_they_are(self, relation: Relation, themes: Sequence[int]) -> tuple[Place, ...]:
+        """In or on the one thing spoken of that holds them ("keep the bowl in there")."""
         spoken = dict.fromkeys(item.referent for item in self.discourse.mentions)
-        states = self._scene.states
+        states = [self._scene.states.get(t.name) for t in self.discourse.things(*themes)]
         around = {
-            states[thing.name].inside if thing.name in states else None
-            for thing in self.discourse.things(*themes)
+            at
+            for state in states
+            for at in (
+                (None,)
+                if state is None
+                else (state.inside,)
+                if relation is Relation.INSIDE
+                else state.on or (None,)
+            )
         }
-        if word not in spellings(THEREIN) or len(around) != 1:
-            return ()
         held = [i for i in spoken if {t.name for t in self.discourse.things(i)} == around]
-        return (Place(Relation.INSIDE, held[-1]),) if held else ()
+        return (Place(relation, held[-1]),) if len(around) == 1 and held else ()
+
+    def _around_them(self, destination: Destination, themes: Sequence[int]) -> tuple[Place, ...]:
+        """After "put the mug in the box" the brush that is left "in it" stays in the mug."""
+        relations = {Toward.INSIDE: Relation.INSIDE, Toward.ON: Relation.ON}
+        relation = relations.get(destination.toward)
+        (np, *more) = destination.targets
+        it = np.pronoun == "it" and not (more or np.modifiers or destination.beside)
+        if relation is None or not it or {*themes} & self.discourse.put:
+            return ()
+        found = self._where_they_are(relation, themes)
+        for place in found:
+            if place.where is not None:
+                self.discourse.mention_again(place.where, _ROLES[destination.toward])
+        return found
 
     def _told_apart_from(self, themes: Sequence[int]) -> list[int]:
         """Containers that a clause has told its things by, which are in none of them."""

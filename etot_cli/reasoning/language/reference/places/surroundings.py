@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.reference.geometry.areas import side_across
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import is_robot
 from etot_cli.reasoning.language.reference.places.alongside import put_on_the_same
 from etot_cli.reasoning.language.reference.pronouns.coreference import PLURAL_PRONOUNS
@@ -170,8 +171,25 @@ class Surroundings:
                 ):
                     phrases[number] = told
                 elif len(found) == len(alike) == 1 and found != alike:
+                    if self._is_other_than(phrase, themes):
+                        (name,) = (thing.name for thing in alike)
+                        self._discourse.notes.append(f"read {phrase.text!r} as {name}")
+                        phrases[number] = told
+                        continue
                     raise AmbiguousReference(phrase.text, [t.name for t in (*found, *alike)])
         return replace(beside, phrases=tuple(phrases))
+
+    def _is_other_than(self, phrase: NounPhrase, themes: Sequence[int]) -> bool:
+        """Whether "the other one" is another such thing as is taken from somewhere ("take the
+        pen out of the box and lay it by the other one") than another such place.
+        """
+        mentions, things = self._discourse.mentions, self._discourse.things
+        named = [m for m in mentions if m.referent not in themes and m.role is Role.ANY]
+        moved = [thing.name for index in themes for thing in things(index)]
+        sources = {thing.name for m in named for thing in things(m.referent)}
+        around = {name for theme in moved for name in bearers(self._scene, theme)}
+        other = quantity_of(phrase.determiner).other and phrase.words == ("one",)
+        return other and len(moved) == 1 and bool(sources) and sources <= around
 
     def _meant(self, phrase: NounPhrase) -> set[Thing]:
         """All that a landmark's phrase may mean; nothing where it means nothing."""
@@ -212,7 +230,10 @@ class Surroundings:
         if beside.relation is Nearby.AWAY:
             landmarks = [each for index in landmarks for each in self._discourse.each(index)]
         if beside.text.startswith(("closer", "nearer")):
-            beside = replace(beside, relation=self._closer(beside.text, themes, landmarks))
+            closer = self._closer(beside.text, themes, landmarks)
+            if not isinstance(closer, Nearby):
+                return [Near(Nearby.NEXT_TO, tuple(landmarks)), closer]
+            beside = replace(beside, relation=closer)
         if " ".join(beside.text.split()[:5]) in spellings(ACROSS):
             beside = replace(beside, relation=self._across(beside.text, themes, landmarks))
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
@@ -226,8 +247,10 @@ class Surroundings:
             self._check_side(beside, self._discourse.things(*landmarks))
         return [Near(beside.relation, tuple(landmarks))]
 
-    def _closer(self, text: str, themes: Sequence[int], landmarks: Sequence[int]) -> Nearby:
-        """Where is closer to something: near it, for what is near it already next to it."""
+    def _closer(self, text: str, themes: Sequence[int], landmarks: Sequence[int]) -> Nearby | Near:
+        """Where is closer to something: near it, for what is near it already next to it, and for
+        what is next to it a point between them, where there is one.
+        """
         things = [thing.name for index in themes for thing in self._discourse.things(index)]
         marks = [mark.name for index in landmarks for mark in self._discourse.things(index)]
 
@@ -238,7 +261,15 @@ class Surroundings:
         if not are(Nearby.NEAR):
             return Nearby.NEAR
         if are(Nearby.NEXT_TO):
-            raise ReferenceProblem(text, "it is next to that already", 3)
+            point = None
+            if len(things) == len(marks) == 1 and not {*themes, *landmarks} & self._discourse.put:
+                point = space.point_closer(Thing(things[0]), Thing(marks[0]), self._scene)
+            if point is None:
+                raise ReferenceProblem(text, "it is next to that already", 3)
+            self._discourse.notes.append(
+                f"{text!r} is closer than now, as it is next to it already"
+            )
+            return Near(Nearby.AT_POINT, point=point)
         self._discourse.notes.append(f"{text!r} is next to it, as it is near that already")
         return Nearby.NEXT_TO
 

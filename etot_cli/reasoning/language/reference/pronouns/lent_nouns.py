@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.reference.pronouns.coreference import (
     told_by_them,
 )
 from etot_cli.reasoning.language.reference.pronouns.narrowing import (
+    are_contrasted,
     as_contrasted,
     check_count,
     narrowed_to,
@@ -69,7 +70,7 @@ class LentNouns(ABC):
             why = "a number alone is a count or a name; say which thing"
             raise ReferenceProblem(phrase.text, why, 3)
         elliptic = phrase.is_elliptic
-        noun = self._like_theme(phrase, noun) if role is Role.ANY and noun else noun
+        noun = self._like_theme(phrase, role, noun) if role is not Role.THEME and noun else noun
         if elliptic and phrase.text in phrase.words:
             self._check_color_alone(phrase, role, noun)
         resolved: Resolved | None = None
@@ -117,23 +118,33 @@ class LentNouns(ABC):
             raise ReferenceProblem(phrase.text, UNCLEAR, 2)
         return resolved
 
-    def _like_theme(self, phrase: NounPhrase, noun: str) -> str:
+    def _like_theme(self, phrase: NounPhrase, role: Role, noun: str) -> str:
         """After "take the blue ball out of the box and put it next to the red (one)" that is a
-        ball, where no box is red: the noun of what is moved, where that is told by a colour, too,
+        ball, where no box is red, and after "the small jar from the box" "the big one" is a jar,
+        where there is one box: the noun of what is moved, where that is told by the same quality
         and one such thing has the other one; else the noun as it is.
         """
-        colors = {word for word in phrase.words if is_descriptive(word) and word not in SIZES}
         moved = [m for m in self.discourse.mentions if m.role is Role.THEME][-1:]
-        before = {word for m in moved for word in m.adjectives if is_descriptive(word)} - {*SIZES}
         plain = phrase.is_elliptic or leaves_noun_out(phrase)
-        told = plain and colors and before and not colors & before and not phrase.modifiers
-        if not told or same_noun(moved[0].noun, noun):
+        if not (moved and plain) or phrase.modifiers or same_noun(moved[0].noun, noun):
             return noun
-        with suppress(ReferenceProblem):
-            self.resolved_as(phrase, Role.ANY, noun)
+        before = moved[0].adjectives
+        colors, colors_before = (
+            {word for word in words if is_descriptive(word) and word not in SIZES}
+            for words in (phrase.words, before)
+        )
+        by_color = role is Role.ANY and colors and colors_before and not colors & colors_before
+        by_size = are_contrasted(phrase.words, before) and not {*phrase.words} & {*before}
+        if not (by_color or by_size):
             return noun
+        said = [m.adjectives for m in self.discourse.mentions if same_noun(m.noun, noun)][-1:]
+        alike = role is not Role.ANY or any(are_contrasted(phrase.words, words) for words in said)
         with suppress(ReferenceProblem):
-            found = self.resolved_as(phrase, Role.ANY, moved[0].noun)
+            self.resolved_as(phrase, role, noun)
+            if by_color or (alike and not self._is_single(phrase, role, noun)):
+                return noun  # "the thick pen out of the left box … beside the thin one" is no box
+        with suppress(ReferenceProblem):
+            found = self.resolved_as(phrase, role, moved[0].noun)
             return moved[0].noun if [*map(len, found.options)] == [1] else noun
         return noun
 

@@ -216,7 +216,7 @@ def as_contrasted(phrase: NounPhrase, noun: str | None, discourse: Discourse) ->
         if not same_noun(mention.noun, noun):
             continue
         before = mention.adjectives
-        contrasted = not own or _are_contrasted(own, before)
+        contrasted = not own or are_contrasted(own, before)
         kept = [w for w in before if w not in own and not any(w in t for t in _CONTRASTED)]
         words = (*own, *kept, phrase.head or "one")
         return replace(phrase, words=words) if contrasted and kept else None
@@ -236,17 +236,17 @@ def singled_out_of(phrase: NounPhrase, noun: str | None, discourse: Discourse) -
         if noun is None or not same_noun(mention.noun, noun):
             continue
         sides = discourse.sides.get(mention.referent, ())
-        if any(_are_contrasted(own, (side,)) and side not in own for side in sides):
+        if any(are_contrasted(own, (side,)) and side not in own for side in sides):
             # "The cup on the left of the plate … the right one": on the right of that, or of all?
             raise AmbiguousReference(phrase.text, ["one of all", "one beside the same"])
-        contrasted = _are_contrasted(own, mention.adjectives)
+        contrasted = are_contrasted(own, mention.adjectives)
         among = discourse.among.get(mention.referent, ())
         # "Small" may be part of what the one thing that it tells is called.
         return among if contrasted and len(among) > 1 else ()
     return ()
 
 
-def _are_contrasted(words: Collection[str], others: Collection[str]) -> bool:
+def are_contrasted(words: Collection[str], others: Collection[str]) -> bool:
     """Whether words of both tell things apart by the same quality."""
     return any(
         any(word in table for word in words) and any(word in table for word in others)
