@@ -57,6 +57,7 @@ def spread(context: Context, place: Place) -> Place:
 
 _ELSEWHERE = (
     r"(?:to )?(?:(?:somewhere|some ?place) else|elsewhere|safety|a safer? (?:place|spot)"
+    r"|(?:anywhere|wherever)(?: else)?(?: you \w+)?(?: ~comma|,)? (?:but|except|just|not|other)"
     r"|(?:another|a different) (?:place|spot|position))\b"
 )
 """Not where it stands now."""

@@ -125,7 +125,8 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
 
     "First" goes before everything that was said before it, "before that" before the clause before
     it, "last" after everything. Puts of one sentence that no word puts in an order are a run, a
-    set of placements ("the red block on the green one and the green one on the blue one").
+    set of placements ("the red block on the green one and the green one on the blue one"); what was
+    said before what goes ahead of it is not of that one's run.
     """
     done: list[Timed] = []
     last: list[Timed] = []
@@ -140,9 +141,12 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
             done.append(item)
     steps: list[Step] = []
     run, sentence = 0, -1
+    position = {id(item): at for at, item in enumerate(said)}
+    before = -1
     for item in [*done, *last]:
         waits = any(isinstance(step, Put) and step.aside for step in item.steps)
-        if item.sentence != sentence or item.order is not Order.SAID:
+        overtaken, before = position[id(item)] < before, position[id(item)]
+        if item.sentence != sentence or item.order is not Order.SAID or overtaken:
             run, sentence = run + 1, item.sentence
         for step in item.steps:
             run += waits

@@ -102,6 +102,11 @@ SOMEWHERE_FREE = "(somewhere|anywhere|some place) (free|clear|empty)"
 """Before, or behind, what it is on: where there is room, which every plan looks for."""
 SOMEWHERE = "((somewhere|some place) [else]|anywhere|elsewhere) [safe|out of sight] [~comma]"
 """Before a place that is said more closely."""
+ANYWHERE = """
+    (anywhere|wherever|somewhere|some place) [else] [you (like|want|please|wish|prefer)], elsewhere,
+    where you (like|want|please|wish)
+"""
+"""Before where something is not to go."""
 UP_OR_DOWN = "up, down"
 """Before a place, which is there."""
 BETWEEN = "[in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between"
