@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import islice
 
 from etot_cli.reasoning.builtin.branching import branches_of
-from etot_cli.reasoning.builtin.goal import Goal, Pick, Place, Put, Relation
+from etot_cli.reasoning.builtin.goal import Goal, Pick, Put, Relation
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import SET_ASIDE
@@ -56,19 +56,15 @@ def guesses(context: Context, said: Sequence[Timed]) -> int:
 
 
 def taken_up_again(said: Sequence[Timed]) -> bool:
-    """Whether a sentence moves again what it has put somewhere, without a word for order; what is
-    left there is not moved.
-    """
-    put: dict[tuple[int, int], tuple[Place, ...]] = {}
+    """Whether a sentence moves again what it has put somewhere, without a word for order."""
+    put: set[tuple[int, int]] = set()
     again = False
     for item in said:
         for step in (step for step in item.steps if isinstance(step, Put | Pick)):
             what = step.what if isinstance(step, Put) else (step.what,)
-            where = step.places if isinstance(step, Put) else ()
-            before = [put.get((item.sentence, index), where) for index in what]
-            again |= item.order is Order.SAID and any(places != where for places in before)
+            again |= item.order is Order.SAID and any((item.sentence, i) in put for i in what)
             if isinstance(step, Put) and not (step.removal or step.aside):
-                put |= dict.fromkeys(((item.sentence, index) for index in what), where)
+                put |= {(item.sentence, index) for index in what}
     return again
 
 
