@@ -60,6 +60,7 @@ _ELSEWHERE = (
     r"|(?:an?|another) (?:(?:new|good|better|safer?|suitable|different|proper) )+(?:place|spot"
     r"|position|location)|another (?:place|spot|position|location)"
     r"|(?:somewhere|anywhere) (?:that is )?not in the way"
+    r"|(?:anywhere|wherever)(?: else)?(?: you \w+)?(?: ~comma|,)? (?:but|except|just|not|other)"
     r"|(?:somewhere|anywhere|(?:a (?:place|spot|position) )?where|wherever|so that|such that)"
     r" (?:where )?(?:it|they)"
     r" (?:is|are|do|does|will|can)|out of the way(?! of\b))\b"

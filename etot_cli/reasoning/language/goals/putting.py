@@ -184,6 +184,9 @@ def put(
             check_stance(group, stance)
             avoid(context, AvoidClause(Avoid.MOVE, group.things))
             continue
+        just_put = (s for s in context.done if clause.stays and isinstance(s, Put))
+        if any(s.what == tuple(themes) and s.places == places for s in just_put):
+            continue  # "move the cup to the tray and leave it there"
         check_contrasted(context, group.things, themes, places)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:

@@ -55,7 +55,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, nouns, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -78,8 +78,8 @@ def _left_stacked(things: Things) -> AvoidClause | None:
 
 def _not_wanted(things: Things) -> AvoidClause | None:
     """What is to be left alone; "any cups on the tray" are not to be there."""
-    places = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
-    return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
+    told = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
+    return None if told else AvoidClause(Avoid.MOVE, things, negated=True)
 
 
 def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
@@ -234,9 +234,10 @@ AVOID = either(
     sequence(
         # "The cup can go anywhere but the drawer"
         THINGS,
-        f"{forbidden.MAY_GO} (anywhere|wherever you (like|want)) [else]",
+        f"{forbidden.MAY_GO}",
+        places.ANYWHERE,
         OPTIONAL_COMMA,
-        nouns.EXCEPT,
+        f"{nouns.EXCEPT}, {nouns.CONTRAST}",
         either(DESTINATIONS, sequence(NP_LIST, build=lambda nps: (Destination(Toward.TO, nps),))),
         build=lambda things, where: AvoidClause(Avoid.PUT, things, where, negated=True),
     ),

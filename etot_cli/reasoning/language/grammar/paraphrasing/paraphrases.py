@@ -156,6 +156,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     # "The box itself" is the box; "by itself" and "inside itself" are something else.
     (rf"\b({NAMED}(?: (?!(?:{_NO_NOUN})\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
     (rf"\bbut none of (?={NAMED})", "but not "),
+    (r", (?:but )?only not (?=(?:in|on|into|onto|to|the|an?|next|beside|near)\b)", ", just not "),
     (r"\bthe pair of them\b", "both of them"),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
     (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),

@@ -7,6 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
     Rule,
     either,
     one_of,
@@ -58,6 +60,8 @@ FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
 """What each of several things is to be beside."""
+THE_DESK = NounPhrase("the", ("desk",), text="the desk")
+"""What has room for anything."""
 TARGETS = sequence(
     alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
 )
@@ -300,9 +304,31 @@ def rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
 _BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")
 INSTEAD = sequence(DESTINATIONS, _BUT, DESTINATIONS, build=rather)
 """Behind "not": where things are not to go, and where they are."""
+
+
+def _is_permitted(before: tuple[str, ...]) -> bool:
+    """Whether what may go anywhere but to one place is only kept from that."""
+    return bool({"can", "may", "could", "might"} & {*before}) and "you" not in before
+
+
+_ANYWHERE_BUT = sequence(
+    Parser(
+        lambda given, at: [] if _is_permitted(given.words[max(at - 4, 0) : at]) else [(at, NOTHING)]
+    ),
+    places.ANYWHERE,
+    OPTIONAL_COMMA,
+    f"{nouns.CONTRAST}, {nouns.EXCEPT}, [and|but] never",
+    either(
+        separated(destination, "or, nor", most=3),
+        sequence(TARGETS, build=lambda nps: (Destination(Toward.TO, nps),)),
+    ),
+    build=lambda out: (Destination(Toward.ON, (THE_DESK,)), *denied(out)),
+)
+"""All that is said is where things are not to go: they go somewhere else on the desk."""
 WHERE = Rule(
     either(
         DESTINATIONS,
+        _ANYWHERE_BUT,
         sequence(
             DESTINATIONS,
             OPTIONAL_COMMA,

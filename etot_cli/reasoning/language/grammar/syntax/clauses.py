@@ -96,6 +96,8 @@ class PutClause:
     """Each goes to a place of its own colour."""
     one_each: bool = False
     """Every place gets one."""
+    ordered: bool = False
+    """One group after the other, as they are said."""
     stays: bool = False
     """They are left or kept there, which is rather said of what is there already."""
     far_fetched: int = 0
