@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
     OPTIONAL_COMMA,
     exceptions,
     noun_phrase,
@@ -184,6 +185,27 @@ _FORBIDDEN = either(
         build=lambda avoid: AvoidClause(avoid, None),
     ),
 )
+def _strictest(done: tuple[Avoid, ...]) -> Avoid | None:
+    """What rules out all that must not be done: what is not touched is not moved, either."""
+    kinds = {*done}
+    return Avoid.TOUCH if Avoid.TOUCH in kinds else kinds.pop() if len(kinds) == 1 else None
+
+
+_DONE = sequence(
+    separated(
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCHED,
+                Avoid.MOVE: forbidden.DISTURBED,
+                Avoid.HIT: forbidden.WAS_HIT,
+            }
+        ),
+        either(sequence(OPTIONAL_COMMA, "or, nor"), COMMA),
+        most=3,
+    ),
+    build=_strictest,
+)
+"""Behind "must not be": one or several things that are not to happen ("lifted or shifted")."""
 _AVOIDED = sequence("avoid, [while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH))
 AVOID = either(
     _AVOIDED,
@@ -244,13 +266,7 @@ AVOID = either(
         # "None of the cups may be moved"
         noun_phrase,
         f"({forbidden.MAY}) be",
-        one_of(
-            {
-                Avoid.TOUCH: forbidden.TOUCHED,
-                Avoid.MOVE: forbidden.DISTURBED,
-                Avoid.HIT: forbidden.WAS_HIT,
-            }
-        ),
+        _DONE,
         build=_none_disturbed,
     ),
     sequence(
@@ -260,15 +276,7 @@ AVOID = either(
         either(
             sequence(
                 f"({forbidden.MAY}) be [ever]",
-                one_of(
-                    {
-                        Avoid.TOUCH: forbidden.TOUCHED,
-                        Avoid.MOVE: forbidden.DISTURBED,
-                        Avoid.HIT: forbidden.WAS_HIT,
-                        Avoid.OPEN: "opened",
-                        Avoid.CLOSE: "closed, shut",
-                    }
-                ),
+                either(_DONE, one_of({Avoid.OPEN: "opened", Avoid.CLOSE: "closed, shut"})),
             ),
             phrase(f"({forbidden.MAY}) move", Avoid.MOVE),
         ),
@@ -294,14 +302,7 @@ AVOID = either(
     sequence(
         THINGS,
         forbidden.NOT_TO_BE,
-        one_of(
-            {
-                Avoid.TOUCH: forbidden.TOUCHED,
-                Avoid.MOVE: forbidden.DISTURBED,
-                Avoid.HIT: forbidden.WAS_HIT,
-                Avoid.OPEN: "opened",
-            }
-        ),
+        either(_DONE, phrase("opened", Avoid.OPEN)),
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),
 )

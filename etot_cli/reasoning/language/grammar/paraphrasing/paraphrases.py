@@ -339,7 +339,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1 is empty",
     ),
     (r"\bup (?=with\b)", ""),
-    (r"(^|[.;,] )only then (?=\w)", r"\1then "),
+    (
+        r"(^|[.;,] |\b(?:and|but) )only (?:then|afterwards?|thereafter|after (?:that|this)),? "
+        r"(?=\w)(?!(?:should|may|can|could|must|shall|will|is|are|has|have|does|do)\b)",
+        r"\1then ",
+    ),
     (
         r"\bthe (middle|left|right|\w+most|\w+est|first|second|third|last) (\w+) of the "
         r"(two|three|four|five)\b(?! \w+s\b)",

@@ -119,6 +119,8 @@ class RemoveClause:
     """It is what stands upon something else that can be moved."""
     by_then: bool = False
     """It has been done before what is asked for next ("once it is out, …")."""
+    freed: bool = False
+    """It is said of where that is ("free the cup from the pen"), which "it" may mean next."""
 
 
 @dataclass(frozen=True, slots=True)
