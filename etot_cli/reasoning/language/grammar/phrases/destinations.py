@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from operator import add
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
     Rule,
     either,
     one_of,
@@ -21,6 +24,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     EXACTLY,
+    LIST,
     OPTIONAL_COMMA,
     after,
     alternatives,
@@ -100,6 +104,29 @@ _ABREAST = valued(
     ),
     lambda _: _beside(Nearby.NEXT_TO, EACH_OTHER),
 )
+_NO_MORE = Parser(
+    lambda given, at: [(at, NOTHING)] if given.ahead[at] in ("", COMMA, "and") else []
+)
+_WHICH_ON_SIDE = sequence(
+    noun_phrase,
+    optional(f"being, standing, {verbs.BE}"),
+    one_of(
+        {
+            Nearby.LEFT: "[(on|to|at) the] left [side|hand side]",
+            Nearby.RIGHT: "[(on|to|at) the] right [side|hand side]",
+            Nearby.FRONT: "in front, at the front",
+            Nearby.BEHIND: "behind, at the back, in [the] back",
+        }
+    ),
+    _NO_MORE,
+    build=lambda np, side: Beside(side, (EACH_OTHER, np)),
+)
+_ABREAST_SO = sequence(
+    COMMA,
+    optional("[and] with, and"),
+    separated(_WHICH_ON_SIDE, LIST, most=1),
+)
+"""Behind "side by side": which of them is on which side of the others."""
 BESIDE = spanned(
     either(
         sequence(
@@ -129,6 +156,7 @@ BESIDE = spanned(
             build=lambda np, regions: _region(regions, np),
         ),
         _ABREAST,
+        sequence(_ABREAST, _ABREAST_SO, build=add),
         valued(BETWEEN, lambda pair: (Beside(Nearby.BETWEEN, pair),)),
         sequence(
             EXACTLY,
@@ -247,6 +275,12 @@ _place = either(
         either(_ABREAST, sequence(BESIDES, COMMA), _BESIDE_IT),
         either(ONTO, _to, INTO),
         build=lambda found, surface: replace(surface, beside=found),
+    ),
+    sequence(
+        _ABREAST,
+        either(ONTO, _to),
+        _ABREAST_SO,
+        build=lambda abreast, surface, so: replace(surface, beside=(*abreast, *so)),
     ),
 )
 destination = Rule(
