@@ -348,11 +348,16 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             if not again:  # how it is put is told where it is put
                 raise ReferenceProblem(text, "say behind where it is put how it is kept", 4)
         near, state = Near(clause.stance), "lies" if lying else "stands upright"
+        any_of_them = context.discourse.things(index)
+        so = Whereabouts(clause.stance)
+        if not lying and all(spatial.holds(so, t.name, context.scene) for t in any_of_them):
+            context.discourse.notes += [f"{thing.name} {state} as it is" for thing in any_of_them]
+            continue
         for thing in context.only(index, "say which one"):
             if lying and thing in context.discourse.things(*context.discourse.put):
                 why = f"{thing.name} is put somewhere else before; say where it is to lie"
                 raise ReferenceProblem(thing.name, why, 5)
-            if spatial.holds(Whereabouts(clause.stance), thing.name, context.scene):
+            if spatial.holds(so, thing.name, context.scene):
                 context.discourse.notes.append(f"{thing.name} {state} as it is")
             else:
                 place = replace(context.home(thing), beside=(near,))
