@@ -11,8 +11,9 @@ _GOAL = (
     rf"(?: {_STATE})?(?: is)?\s*:"
 )
 _START = re.compile(
-    rf"(?P<before>^|[.;!\n]\s*)(?:the )?(?:(?:initial|start(?:ing)?|current|present|original) {_STATE}"
-    rf"|start|initially|currently)\s*:\s*(?P<told>.+?)(?:[.;!\n]\s*(?=(?P<goal>{_GOAL}))|[.;!\s]*$)",
+    r"(?P<before>^|[.;!\n]\s*)(?:the )?"
+    rf"(?:(?:initial|start(?:ing)?|current|present|original) {_STATE}|start|initially|currently)"
+    rf"\s*:\s*(?P<told>.+?)(?:[.;!\n]\s*(?=(?P<goal>{_GOAL}))|[.;!\s]*$)",
     re.IGNORECASE | re.DOTALL,
 )
 """How things are up to where it is said how they are to be, or to the end."""

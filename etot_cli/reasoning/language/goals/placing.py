@@ -23,7 +23,12 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.asides.asides import ASIDE
 from etot_cli.reasoning.language.grammar.phrases.destinations import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax.clauses import CoverClause, PutGroup, ReorientClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.reference.geometry.space import is_flat
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
 from etot_cli.reasoning.language.words.places import Prep
@@ -266,6 +271,13 @@ def put_side_by_side(
 _BARE_SIDES = ({"left"}, {"right"}, {"front"}, {"back"}, {"rear"})
 
 
+def _is_bare_side(where: Destination) -> bool:
+    """Whether a place is called "on the right", and no more is said of it."""
+    region = [item for item in where.beside if item.relation in _REGIONS and not item.phrases]
+    named = [np for np in where.targets if {*np.words} in _BARE_SIDES and not np.modifiers]
+    return bool(named or (region and not where.targets))
+
+
 def check_no_side(context: Context, group: PutGroup, themes: Sequence[int]) -> None:
     """Of two things that go next to each other "the white one on the right" is on that side of the
     other one, and not of the desk.
@@ -274,13 +286,11 @@ def check_no_side(context: Context, group: PutGroup, themes: Sequence[int]) -> N
         ReferenceProblem: it would go to that side of the desk.
     """
     things = {*context.discourse.things(*themes)}
-    bare = any(
-        any(item.relation in _REGIONS and not item.phrases for item in where.beside)
-        and not where.targets
-        or any({*np.words} in _BARE_SIDES and not np.modifiers for np in where.targets)
-        for where in group.destinations
-    )
-    if bare and things and things <= context.discourse.abreast:
+    if (
+        any(map(_is_bare_side, group.destinations))
+        and things
+        and things <= context.discourse.abreast
+    ):
         why = "say to the right or left of what"
         raise ReferenceProblem(group.things.text, why, 3)
 

@@ -117,7 +117,47 @@ def _not_falling_off(nps: tuple[NounPhrase, ...], np: NounPhrase) -> Clause:
     return EnsureClause((State(nps, (Destination(Toward.ON, (np,)),), kept=True),))
 
 
+def _strictest(done: tuple[Avoid, ...]) -> Avoid | None:
+    """What rules out all that must not be done: what is not touched is not moved, either."""
+    kinds = {*done}
+    return Avoid.TOUCH if Avoid.TOUCH in kinds else kinds.pop() if len(kinds) == 1 else None
+
+
+_OR = either(sequence(OPTIONAL_COMMA, "or, nor"), COMMA)
+_DONE = sequence(
+    separated(
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCHED,
+                Avoid.MOVE: forbidden.DISTURBED,
+                Avoid.HIT: forbidden.WAS_HIT,
+            }
+        ),
+        _OR,
+        most=3,
+    ),
+    build=_strictest,
+)
+"""Behind "must not be": one or several things that are not to happen ("lifted or shifted")."""
+_DOING = sequence(
+    separated(
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCH,
+                Avoid.MOVE: f"{forbidden.DISTURB}, {verbs.PICK}",
+                Avoid.HIT: forbidden.HIT,
+            }
+        ),
+        _OR,
+        most=3,
+    ),
+    build=lambda done: _strictest(done) if done[1:] else None,
+)
+"""Several such things behind "do not" or "without" ("lift or move")."""
+
+
 _FORBIDDEN = either(
+    sequence(_DOING, THINGS, build=_avoid),
     sequence(
         one_of(
             {
@@ -185,27 +225,6 @@ _FORBIDDEN = either(
         build=lambda avoid: AvoidClause(avoid, None),
     ),
 )
-def _strictest(done: tuple[Avoid, ...]) -> Avoid | None:
-    """What rules out all that must not be done: what is not touched is not moved, either."""
-    kinds = {*done}
-    return Avoid.TOUCH if Avoid.TOUCH in kinds else kinds.pop() if len(kinds) == 1 else None
-
-
-_DONE = sequence(
-    separated(
-        one_of(
-            {
-                Avoid.TOUCH: forbidden.TOUCHED,
-                Avoid.MOVE: forbidden.DISTURBED,
-                Avoid.HIT: forbidden.WAS_HIT,
-            }
-        ),
-        either(sequence(OPTIONAL_COMMA, "or, nor"), COMMA),
-        most=3,
-    ),
-    build=_strictest,
-)
-"""Behind "must not be": one or several things that are not to happen ("lifted or shifted")."""
 _AVOIDED = sequence("avoid, [while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH))
 AVOID = either(
     _AVOIDED,

@@ -41,9 +41,7 @@ def _one_by_one(said: re.Match[str]) -> str:
 def _picked_and_placed(said: re.Match[str]) -> str:
     """What goes where, told as two entries of a form ("pick: pen. place: cup")."""
     thing, place = said["thing"].strip(), said["place"].strip()
-    return said["before"] + (
-        f"{thing} {place}" if re.match(WHERE, place) else f"{place}: {thing}"
-    )
+    return said["before"] + (f"{thing} {place}" if re.match(WHERE, place) else f"{place}: {thing}")
 
 
 LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
