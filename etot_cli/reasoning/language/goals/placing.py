@@ -21,7 +21,7 @@ from etot_cli.reasoning.builtin.relations import can_topple, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.asides.asides import ASIDE
-from etot_cli.reasoning.language.grammar.phrases.destinations import EACH_OTHER
+from etot_cli.reasoning.language.grammar.phrases.abreast import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax.clauses import CoverClause, PutGroup, ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.geometry.space import is_flat
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world import spatial
@@ -229,7 +230,8 @@ def _side_of_first(
             raise ReferenceProblem(np.text, "say which of two things it is that is there", 3)
         sides |= {side if thing == pair[1] else _OPPOSITE[side]}
     if len(sides) != 1:
-        raise ReferenceProblem(told[-1][0].text, "only one of them can be there", 3)
+        named = [np.text for np, _ in told]
+        raise AmbiguousReference(named[-1], named, "only one of them can be there:")
     return sides.pop()
 
 

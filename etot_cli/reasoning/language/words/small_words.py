@@ -131,6 +131,8 @@ TASK = f"""
     (desired|final|goal|target|end|wanted|required|termination|success)
     (state|configuration|arrangement|result|situation|setup|condition|conditions|layout|
     picture) ~comma,
+    [the] (goal|target|(desired|final|goal|target|end) (state|configuration))
+    to (reach|achieve|attain|be (reached|achieved|attained)) ~comma,
     (achieve|reach) [this|the following] [state|configuration|result] ~comma,
     what ((has|needs|is) to|should|must) (hold|be (achieved|reached|attained|so|true))
     [(in|at|by) the end] ~comma,

@@ -294,7 +294,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"\1 ",
     ),
     (
-        rf", (?:currently|at present|at the moment) (?=(?:in|on|inside|next to) [^,.;]*, {WHERE})",
+        r", (?:currently|presently|at present|at the moment) "
+        rf"(?=(?:in|on|inside|next to) [^,.;]*, {WHERE})",
         ", which is ",
     ),
     (
