@@ -150,8 +150,10 @@ def _from_start(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> 
         raise UnreadableError(instruction, "")
     notes: list[str] = []
     for sentence in sentences_of(normalized(told.start)):
-        if sentence.split()[0] in VERB_WORDS | OTHER_VERBS | _ALSO_VERBS:
-            raise UnreadableError(sentence, "")  # it asks for something
+        first, *more = sentence.split()
+        asks = first in VERB_WORDS | OTHER_VERBS | _ALSO_VERBS
+        if asks or {"not", "no", "never", "without"} & {first, *more}:
+            raise UnreadableError(sentence, "")  # it asks for, or forbids, something
         notes += [] if _holds(sentence, scene, vocabulary) else [f"not so at the start: {sentence}"]
     goal = _read(normalized(told.asked), scene, vocabulary)
     return replace(goal, notes=(*notes, *goal.notes))
