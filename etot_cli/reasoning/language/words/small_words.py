@@ -127,9 +127,15 @@ TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 TASK = f"""
     {ANNOUNCED} ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
-    [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted|required)
+    [the|a] [desired|required|intended]
+    (desired|final|goal|target|end|wanted|required|termination|success)
     (state|configuration|arrangement|result|situation|setup|condition|conditions|layout|
     picture) ~comma,
+    [the] (goal|target|(desired|final|goal|target|end) (state|configuration))
+    to (reach|achieve|attain|be (reached|achieved|attained)) ~comma,
+    (achieve|reach) [this|the following] [state|configuration|result] ~comma,
+    what ((has|needs|is) to|should|must) (hold|be (achieved|reached|attained|so|true))
+    [(in|at|by) the end] ~comma,
     [my|our|the|a] [small|little|simple|one] (request|wish|instruction) ~comma,
     [my|our|the|your] (goal|task|job|request|wish|(end|final|goal) state) is
     [very|really|quite] (simple|easy|clear|this|as follows|the following) ~comma

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
     OPTIONAL_COMMA,
     exceptions,
     noun_phrase,
@@ -116,7 +117,47 @@ def _not_falling_off(nps: tuple[NounPhrase, ...], np: NounPhrase) -> Clause:
     return EnsureClause((State(nps, (Destination(Toward.ON, (np,)),), kept=True),))
 
 
+def _strictest(done: tuple[Avoid, ...]) -> Avoid | None:
+    """What rules out all that must not be done: what is not touched is not moved, either."""
+    kinds = {*done}
+    return Avoid.TOUCH if Avoid.TOUCH in kinds else kinds.pop() if len(kinds) == 1 else None
+
+
+_OR = either(sequence(OPTIONAL_COMMA, "or, nor"), COMMA)
+_DONE = sequence(
+    separated(
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCHED,
+                Avoid.MOVE: forbidden.DISTURBED,
+                Avoid.HIT: forbidden.WAS_HIT,
+            }
+        ),
+        _OR,
+        most=3,
+    ),
+    build=_strictest,
+)
+"""Behind "must not be": one or several things that are not to happen ("lifted or shifted")."""
+_DOING = sequence(
+    separated(
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCH,
+                Avoid.MOVE: f"{forbidden.DISTURB}, {verbs.PICK}",
+                Avoid.HIT: forbidden.HIT,
+            }
+        ),
+        _OR,
+        most=3,
+    ),
+    build=lambda done: _strictest(done) if done[1:] else None,
+)
+"""Several such things behind "do not" or "without" ("lift or move")."""
+
+
 _FORBIDDEN = either(
+    sequence(_DOING, THINGS, build=_avoid),
     sequence(
         one_of(
             {
@@ -245,13 +286,7 @@ AVOID = either(
         # "None of the cups may be moved"
         noun_phrase,
         f"({forbidden.MAY}) be",
-        one_of(
-            {
-                Avoid.TOUCH: forbidden.TOUCHED,
-                Avoid.MOVE: forbidden.DISTURBED,
-                Avoid.HIT: forbidden.WAS_HIT,
-            }
-        ),
+        _DONE,
         build=_none_disturbed,
     ),
     sequence(
@@ -261,15 +296,7 @@ AVOID = either(
         either(
             sequence(
                 f"({forbidden.MAY}) be [ever]",
-                one_of(
-                    {
-                        Avoid.TOUCH: forbidden.TOUCHED,
-                        Avoid.MOVE: forbidden.DISTURBED,
-                        Avoid.HIT: forbidden.WAS_HIT,
-                        Avoid.OPEN: "opened",
-                        Avoid.CLOSE: "closed, shut",
-                    }
-                ),
+                either(_DONE, one_of({Avoid.OPEN: "opened", Avoid.CLOSE: "closed, shut"})),
             ),
             phrase(f"({forbidden.MAY}) move", Avoid.MOVE),
         ),
@@ -295,14 +322,7 @@ AVOID = either(
     sequence(
         THINGS,
         forbidden.NOT_TO_BE,
-        one_of(
-            {
-                Avoid.TOUCH: forbidden.TOUCHED,
-                Avoid.MOVE: forbidden.DISTURBED,
-                Avoid.HIT: forbidden.WAS_HIT,
-                Avoid.OPEN: "opened",
-            }
-        ),
+        either(_DONE, phrase("opened", Avoid.OPEN)),
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),
 )

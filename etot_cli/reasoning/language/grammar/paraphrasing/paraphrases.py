@@ -133,6 +133,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (rf"\b((?:on|in) {NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(please |(?:could|can) you )?(without \w+ing any other [^,.;]*), ([^.;]*)", r"\1\3 \2"),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
+    # A place behind what follows tells which that is: where it goes was said before
+    (rf",? followed by (?={NAMED} (?:(?!and\b)\w+ )+{WHERE})", ", then likewise "),
     (r",? followed by ", ", then "),
     (
         rf"\b(?:keep|leave) ({NAMED} [^.,;]*?) stacked(?=[.,;]| and\b|$)(?! on)",
@@ -340,7 +342,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1 is empty",
     ),
     (r"\bup (?=with\b)", ""),
-    (r"(^|[.;,] )only then (?=\w)", r"\1then "),
+    (
+        r"(^|[.;,] |\b(?:and|but) )only (?:then|afterwards?|thereafter|after (?:that|this)),? "
+        r"(?=\w)(?!(?:should|may|can|could|must|shall|will|is|are|has|have|does|do)\b)",
+        r"\1then ",
+    ),
     (
         r"\bthe (middle|left|right|\w+most|\w+est|first|second|third|last) (\w+) of the "
         r"(two|three|four|five)\b(?! \w+s\b)",

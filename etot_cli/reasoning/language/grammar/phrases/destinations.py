@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from operator import add
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
@@ -17,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     quiet,
     separated,
     sequence,
+    some,
     spanned,
     valued,
 )
@@ -28,6 +30,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     alternatives,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.abreast import ABREAST, ABREAST_SO, EACH_OTHER
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
 from etot_cli.reasoning.language.grammar.phrases.levels import AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
@@ -58,8 +61,6 @@ ACROSS = "over to"
 """The word of a destination that things are brought over to, be it into it or beside it."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
-EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
-"""What each of several things is to be beside."""
 THE_DESK = NounPhrase("the", ("desk",), text="the desk")
 """What has room for anything."""
 TARGETS = sequence(
@@ -89,7 +90,6 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
     return (Beside(relation, nps),)
 
 
-_CLOSE_BY = f"{places.NEARBY[Nearby.NEXT_TO]}, {places.NEARBY[Nearby.NEAR]}"
 _NEARBY = one_of({**places.NEARBY, Nearby.NEAR: places.GOES_NEAR, Nearby.AWAY: places.GOES_AWAY})
 _REGION = one_of(places.REGIONS)
 _ITS_SIDE = one_of(places.ITS_SIDE)
@@ -97,13 +97,6 @@ _SIDE_OF_IT = one_of(
     {Nearby.LEFT: "left [hand] side, left", Nearby.RIGHT: "right [hand] side, right"}
 )
 _REGION_OF_IT = one_of(places.REGION_OF_IT)
-_ABREAST = valued(
-    either(
-        "side by side, close[r] together, as close together",
-        sequence(_CLOSE_BY, "each other, one another"),
-    ),
-    lambda _: _beside(Nearby.NEXT_TO, EACH_OTHER),
-)
 BESIDE = spanned(
     either(
         sequence(
@@ -132,7 +125,8 @@ BESIDE = spanned(
             _REGION_OF_IT,
             build=lambda np, regions: _region(regions, np),
         ),
-        _ABREAST,
+        ABREAST,
+        sequence(ABREAST, ABREAST_SO, build=add),
         valued(BETWEEN, lambda pair: (Beside(Nearby.BETWEEN, pair),)),
         sequence(
             EXACTLY,
@@ -143,9 +137,36 @@ BESIDE = spanned(
     ),
     lambda text, found: tuple(replace(item, text=text) for item in found),
 )
-BESIDES = valued(
-    separated(BESIDE, either(COMMA, "and, but"), most=3),
-    lambda found: tuple(item for several in found for item in several),
+_SIDES_OF_IT = {Nearby.AT_LEFT: Nearby.LEFT, Nearby.AT_RIGHT: Nearby.RIGHT}
+_OF_THE_DESK = frozenset({"far", "half", "part", "end", "edge", "border"})
+"""With such words a side is that of the desk, whatever is said before."""
+
+
+def _besides(first: tuple[Beside, ...], more: Any) -> tuple[Beside, ...]:
+    """All that is said of where; "next to the cup, on the right" is on the cup's right."""
+    found = list(first)
+    for behind_comma, also in more:
+        (near, *others), (item, *further) = found, also
+        side = _SIDES_OF_IT.get(item.relation)
+        bare = not (item.phrases or further or _OF_THE_DESK & {*item.text.split()})
+        known = near.relation in (Nearby.NEXT_TO, Nearby.NEAR) and near.phrases[1:] == ()
+        of_it = side and bare and behind_comma and known and not others
+        if of_it and side and EACH_OTHER not in near.phrases:
+            item = replace(item, relation=side, phrases=near.phrases)
+        found += (item, *further)
+    return tuple(found)
+
+
+BESIDES = sequence(
+    BESIDE,
+    some(
+        either(
+            sequence(COMMA, BESIDE, build=lambda also: (True, also)),
+            sequence("and, but", BESIDE, build=lambda also: (False, also)),
+        ),
+        most=3,
+    ),
+    build=_besides,
 )
 INTO = sequence(places.INTO, TARGETS, build=_toward(Toward.INSIDE))
 ONTO = sequence(
@@ -228,7 +249,7 @@ _place = either(
     valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
     _beside_something,
     sequence(
-        _ABREAST,
+        ABREAST,
         BESIDES,
         build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
     ),
@@ -251,9 +272,15 @@ _place = either(
         ),
     ),
     sequence(
-        either(_ABREAST, sequence(BESIDES, COMMA), _BESIDE_IT),
+        either(ABREAST, sequence(BESIDES, COMMA), _BESIDE_IT),
         either(ONTO, _to, INTO),
         build=lambda found, surface: replace(surface, beside=found),
+    ),
+    sequence(
+        ABREAST,
+        either(ONTO, _to),
+        ABREAST_SO,
+        build=lambda abreast, surface, so: replace(surface, beside=(*abreast, *so)),
     ),
 )
 destination = Rule(

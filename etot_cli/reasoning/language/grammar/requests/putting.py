@@ -67,6 +67,7 @@ from etot_cli.reasoning.language.grammar.requests.flanking import (
     to_others,
 )
 from etot_cli.reasoning.language.grammar.requests.laying import LAID_DOWN, rather_laid_down
+from etot_cli.reasoning.language.grammar.requests.piles import PUT_ON_COLOR
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUP, PUT_GROUPS
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.requests.throwing import INSERTED, THROWN
@@ -232,6 +233,7 @@ _COMES_AND_GOES = """
 
 PUT = either(
     AS_MANY,
+    PUT_ON_COLOR,
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
     sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(

@@ -123,6 +123,8 @@ class RemoveClause:
     """It has been done before what is asked for next ("once it is out, …")."""
     aside: bool = False
     """It is in the way of what is opened next, where something is."""
+    freed: bool = False
+    """It is said of where that is ("free the cup from the pen"), which "it" may mean next."""
 
 
 @dataclass(frozen=True, slots=True)
