@@ -10,8 +10,19 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import AS_SAID
-from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, State, Toward
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    EnsureClause,
+    PutClause,
+    PutGroup,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.words.lexicon import singular
 
 
 def set_closer(
@@ -54,6 +65,20 @@ def set_closer(
         return closer
     text = discourse.referents[themes[0]].text
     raise ReferenceProblem(text, "it cannot go to two places at once", 1)
+
+
+def closer_said(clause: EnsureClause) -> PutClause | None:
+    """What says where several things are to be, and behind that where some of them are ("the tins
+    go on the shelf, the red one on the lower board"), as what puts them there; else None.
+    """
+    first, *more = clause.states
+    several = len(first.subjects) > 1 or singular(first.subjects[0].head) != first.subjects[0].head
+    several |= quantity_of(first.subjects[0].determiner).every
+    some = all(np.is_elliptic for state in more for np in state.subjects)
+    plain = not any(s.word or s.denied or s.kept or s.allowed or s.always for s in clause.states)
+    if not (more and several and some and plain):
+        return None
+    return PutClause(tuple(PutGroup(Things(s.subjects), s.destinations) for s in clause.states))
 
 
 def _but(context: Context, place: Place, taken: set[Thing]) -> Place:

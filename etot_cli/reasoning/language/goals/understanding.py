@@ -124,7 +124,7 @@ class Understanding:
                     self.timed[-1] = set_down(self.context, self.timed[-1], steps)
             self.context.last = spoken.clause
             item = Timed(steps, spoken.order, self.sentence)
-            if before is not None and continues(timed[before], item):
+            if before is not None and continues(timed[before], item, self.context.discourse):
                 timed[before] = replace(timed[before], steps=(*timed[before].steps, *steps))
             else:
                 before = id(spoken)

@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.grammar.asides.left_open import (
     is_plan,
     is_wondering,
 )
-from etot_cli.reasoning.language.grammar.asides.mishaps import befalls, is_kept_well
+from etot_cli.reasoning.language.grammar.asides.mishaps import befalls, is_kept_well, is_unspoilt
 from etot_cli.reasoning.language.grammar.asides.remarks import (
     BEFORE_NAMES,
     PEOPLE,
@@ -206,6 +206,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
     told = told or goes_to_it(aside.said, "", first=True)
+    told = told or is_unspoilt(aside.said)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -308,6 +309,10 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         return True
     if dislikes(clause.said) or is_hindering(clause.said):
         return True
+    if is_not_to_stay(clause.said) and told_of_thing(clause.said, is_name):
+        return True
+    if trailing and is_unspoilt(clause.said):
+        return True
     if planned or wants_such_a_thing(clause.said, is_name):
         return True
     return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
@@ -337,10 +342,16 @@ def _of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:
 
 def _named(asides: Iterable[str], is_name: IsName) -> str:
     """What asides name in the scene, as a remark."""
+    told = (f"the {said}" if _is_bare(said, is_name) else said for said in asides)
     phrases = [
-        in_state(said, phrase) for said in asides for phrase in _phrases(said.split(), is_name)
+        in_state(said, phrase) for said in told for phrase in _phrases(said.split(), is_name)
     ]
     return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""
+
+
+def _is_bare(said: str, is_name: IsName) -> bool:
+    """Whether what cannot stay is named without an article ("honey must not stand up there")."""
+    return is_not_to_stay(said) and is_name(said.split()[0])
 
 
 def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:

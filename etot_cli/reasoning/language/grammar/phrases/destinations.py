@@ -115,14 +115,14 @@ BESIDE = spanned(
             build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),
         ),
         sequence(
-            "on, to, at",
+            "on, to, at, onto",
             noun_phrase,
             "'s",
             _SIDE_OF_IT,
             build=lambda np, relation: _beside(relation, np),
         ),
         sequence(
-            "in, on, to, at, near, by",
+            "in, on, to, at, onto, near, by",
             noun_phrase,
             "'s",
             _REGION_OF_IT,

@@ -33,14 +33,25 @@ def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
     return None if ends else nps
 
 
+def _one_before_another(*nps: NounPhrase) -> tuple[NounPhrase, ...] | None:
+    """One thing "before" another one: both with an article, or neither."""
+    alike = len({bool(np.determiner) for np in nps}) == 1
+    return _named_ones(nps) if alike else None
+
+
 _FIRST_OF_THEM = either(
     sequence(
-        separated(noun_phrase, LIST, most=2), f"first, {small_words.BEFORE_ALL}", build=_named_ones
+        separated(noun_phrase, LIST, most=2),
+        optional(small_words.COMES),
+        f"first, {small_words.BEFORE_ALL}",
+        build=_named_ones,
     ),
     sequence("first", separated(noun_phrase, LIST, most=2), build=_named_ones),
     sequence(manner.STARTING_WITH, noun_phrase, build=lambda np: (np,)),
 )
-_LAST_OF_THEM = sequence(separated(noun_phrase, LIST, most=2), "last", build=_named_ones)
+_LAST_OF_THEM = sequence(
+    separated(noun_phrase, LIST, most=2), optional(small_words.COMES), "last", build=_named_ones
+)
 SWEEP = one_of(manner.SWEEPS)
 _THEN = either(LIST, sequence(OPTIONAL_COMMA, THEN))
 _NEXT = sequence(_THEN, noun_phrase, optional(small_words.COUNTED))
@@ -52,6 +63,7 @@ _ONE_BY_ONE = either(
         some(sequence(_THEN, noun_phrase), least=1, most=5),
         build=lambda first, more: (first, *more),
     ),
+    sequence(noun_phrase, "before", noun_phrase, build=_one_before_another),
     sequence(
         either(sequence(noun_phrase, "first"), sequence("first", noun_phrase)),
         some(_NEXT, least=1, most=5),

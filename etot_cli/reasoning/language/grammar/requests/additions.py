@@ -107,7 +107,7 @@ _EXTRA = sequence(
         ),
         phrase(manner.LYING, ("stance", Nearby.LYING)),
         manner.FITTING,
-        sequence(optional("but"), either(GROUPING, TURN)),
+        sequence(optional("but, and, with"), either(GROUPING, TURN)),
         BY_COLOR,
         sequence("including, even", noun_phrase, build=lambda np: ("including", np)),
         phrase(manner.ONE_EACH, ("each", ())),

@@ -305,7 +305,7 @@ WITH_MORE_BEFORE_IT = either(
     sequence(
         verbs.SWAP,
         THINGS,
-        silent(optional("around, round, over")),
+        silent(optional(verbs.SWAPPED_ROUND)),
         either(COMMA, sequence(OPTIONAL_COMMA, small_words.SO_THAT)),
         sequence(
             either(IN_THE_END, plain(either(PUT, ENSURE))),
