@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError
 from etot_cli.reasoning.language.grammar.text.corrections import mark_in, taken_back
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION, sentences_of, words_in
 from etot_cli.reasoning.language.languages import other_language
+from etot_cli.reasoning.language.owners import without_owners
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
 from etot_cli.reasoning.language.viewpoint import without_viewpoint
@@ -95,7 +96,8 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         instruction = without_viewpoint(instruction, scene)
     except ReferenceProblem as error:
         raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
-    text = normalized(instruction)
+    said = without_owners(instruction, partial(_is_name, vocabulary=vocabulary))
+    text = normalized(said)
     try:
         return _read(text, scene, vocabulary)
     except (UnreadableError, ReferenceProblem) as error:
@@ -104,11 +106,11 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         with suppress(UnreadableError, ReferenceProblem):
             return _read(text, scene, vocabulary, common=True)
         with suppress(UnreadableError, ReferenceProblem):
-            return _below_heading(instruction, scene, vocabulary)
+            return _below_heading(said, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
             return _as_end_state(text, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
-            return _beside_asides(instruction, scene, vocabulary)
+            return _beside_asides(said, scene, vocabulary)
         raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
 
 

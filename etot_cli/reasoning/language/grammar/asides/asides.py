@@ -43,6 +43,7 @@ from etot_cli.reasoning.language.grammar.asides.telling import (
     exclaims,
     goes_there,
     goes_there_later,
+    goes_with_somebody,
     tells_of_others,
 )
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import wants_such_a_thing
@@ -206,7 +207,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
     told = told or goes_to_it(aside.said, "", first=True)
-    told = told or is_unspoilt(aside.said)
+    told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -302,6 +303,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     if at == 0 and exclaims(clause.said, is_name):
         return True
     if at + 1 < len(clauses) and goes_to_it(clause.said, behind, first=at == 0):
+        return True
+    if (at or _is_whole(clauses, at)) and goes_with_somebody(clause.said, is_name):
         return True
     if _is_whole(clauses, at) and goes_there_later(clause.said, is_name):
         return True

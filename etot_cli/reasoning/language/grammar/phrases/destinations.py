@@ -56,6 +56,8 @@ ACROSS = "over to"
 """The word of a destination that things are brought over to, be it into it or beside it."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
+RECEIVER = "receiver"
+"""The word of a destination that is said to get something."""
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
 """What each of several things is to be beside."""
 TARGETS = sequence(

@@ -33,12 +33,6 @@ def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
     return None if ends else nps
 
 
-def _one_before_another(*nps: NounPhrase) -> tuple[NounPhrase, ...] | None:
-    """One thing "before" another one: both with an article, or neither."""
-    alike = len({bool(np.determiner) for np in nps}) == 1
-    return _named_ones(nps) if alike else None
-
-
 _FIRST_OF_THEM = either(
     sequence(
         separated(noun_phrase, LIST, most=2),
@@ -63,7 +57,6 @@ _ONE_BY_ONE = either(
         some(sequence(_THEN, noun_phrase), least=1, most=5),
         build=lambda first, more: (first, *more),
     ),
-    sequence(noun_phrase, "before", noun_phrase, build=_one_before_another),
     sequence(
         either(sequence(noun_phrase, "first"), sequence("first", noun_phrase)),
         some(_NEXT, least=1, most=5),
@@ -76,6 +69,16 @@ TURN = either(
     valued(_LAST_OF_THEM, lambda nps: ("last", nps)),
     valued(SWEEP, lambda text: ("sweep", text)),
 )
+
+
+def _one_before_another(*nps: NounPhrase) -> tuple[str, tuple[NounPhrase, ...]] | None:
+    """Two things that have both an article, or neither."""
+    alike = len({bool(np.determiner) for np in nps}) == 1
+    return ("all", nps) if alike and _named_ones(nps) else None
+
+
+ONE_BEFORE_ANOTHER = sequence(noun_phrase, "before", noun_phrase, build=_one_before_another)
+"""Behind a comma; "in the bowl before the spoons" has a place before it."""
 
 
 def turns_of(said: Sequence[Any]) -> Turns | None:

@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, with_all
 from etot_cli.reasoning.language.grammar.phrases.states import SO, state_of
-from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
+from etot_cli.reasoning.language.grammar.phrases.turns import ONE_BEFORE_ANOTHER, TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -147,7 +147,7 @@ _EXTRA = sequence(
     ),
     build=lambda *found: found[0] if found else (),
 )
-EXTRA = either(sequence(COMMA, either(_EXTRA, _STILL_SO)), sequence(_EXTRA, build=_unless_told_by))
+EXTRA = either(sequence(COMMA, either(_EXTRA, _STILL_SO, ONE_BEFORE_ANOTHER)), sequence(_EXTRA, build=_unless_told_by))
 EXTRAS = some(EXTRA, most=3)
 
 

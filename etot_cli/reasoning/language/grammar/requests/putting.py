@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import (
     INTO,
     ONTO,
     ONWARD,
+    RECEIVER,
 )
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
@@ -287,7 +288,7 @@ PUT = either(
         ALL_THINGS,
         optional(phrase("each"), ""),
         build=lambda np, things, said: put_to(
-            things, (Destination(Toward.TO, all_of((np,), said)),)
+            things, (Destination(Toward.TO, all_of((np,), said), RECEIVER),)
         ),
     ),
     sequence(

@@ -69,7 +69,13 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
 )
 from etot_cli.reasoning.language.grammar.sentences.inversions import INVERTED
 from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
-from etot_cli.reasoning.language.grammar.sentences.past import EARLIER, LATER, SO, then_done
+from etot_cli.reasoning.language.grammar.sentences.past import (
+    EARLIER,
+    LATER,
+    SO,
+    same_receiver,
+    then_done,
+)
 from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.sentences.togetherness import PARTED
 from etot_cli.reasoning.language.grammar.sentences.topics import (
@@ -404,12 +410,12 @@ WITH_MORE_BEFORE_IT = either(
         optional("[and] only then, [and] not before [then|that]"),
         OPTIONAL_COMMA,
         valued(either(CHAIN, INVERTED), then_done),
-        build=add,
+        build=lambda earlier, rest: earlier + same_receiver(earlier, rest),
     ),
     sequence(
         LATER,
         OPTIONAL_COMMA,
         CHAIN,
-        build=lambda later, rest: rest + then_done(later),
+        build=lambda later, rest: same_receiver(later, rest) + then_done(later),
     ),
 )
