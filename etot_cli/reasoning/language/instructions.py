@@ -66,7 +66,7 @@ _WITHIN = word_set("in on into onto inside")
 """A heading by which things are put into or onto others says where, which is to be read."""
 _BUILT = words_of((verbs.BUILD,)) | {"on", "in", "onto"}
 """With "stack" they say what is to become of things."""
-_DECLARED = frozenset({"is", "are"})
+_DECLARED = word_set("is are sits sit stands stand lies lie rests rest")
 _OF_ITS_OWN = re.compile(
     r"\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
     r"|(?<= )(?:all|both) (?=(?:go|are|should|belong|must|need)\b)"

@@ -76,8 +76,8 @@ _FOOD = frozenset().union(
 """With what is eaten with it; drinks are none, but for milk."""
 _TOOLS = word_set(
     """
-    hammer mallet wrench spanner screwdriver drill saw hacksaw plier chisel file rasp clamp vise
-    level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel shears
+    hammer mallet wrench spanner screwdriver drill saw hacksaw plier tweezer chisel file rasp clamp
+    vise level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel shears
     secateurs rake shovel spade hoe pruner hand_fork handsaw pincer mattock pickaxe
     tape_measure measuring_tape box_cutter wire_cutter bolt_cutter wire_stripper utility_knife
     putty_knife stanley_knife craft_knife allen_key hex_key allen_wrench nut_driver heat_gun

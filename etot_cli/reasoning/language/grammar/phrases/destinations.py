@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
-from etot_cli.reasoning.language.grammar.phrases.levels import AT_LEVEL, NEXT_LEVEL
+from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     BETWEEN,
 )
@@ -206,6 +206,7 @@ _place = either(
     _top_of,
     AT_LEVEL,
     NEXT_LEVEL,
+    AT_AN_END,
     WITH,
     sequence(WITH, OPTIONAL_COMMA, either(INTO, ONTO), build=told_by_it),
     STEAD,
