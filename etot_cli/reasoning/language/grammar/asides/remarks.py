@@ -296,6 +296,8 @@ def is_reason(said: str, is_name: IsName) -> bool:
     asked = _YOU_DO.match(said)  # "even if you have to move it" asks for nothing
     if asked and asked[1] in VERB_WORDS - OTHER_VERBS - {"have"} and any(map(is_name, words)):
         return False  # "as you move the cup over there, keep it upright"
+    if "going" in words and PLACED & words and any(map(is_name, words)):
+        return False  # "as it is going in the box"
     if not is_of_people(said):
         return not (ASKING | CHANGING - {"to", "by", "than"} | WORK) & words
     wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words
