@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import AS_SAID
+from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     PutClause,
@@ -91,7 +92,12 @@ def _but(context: Context, place: Place, taken: set[Thing]) -> Place:
 
 
 def _of_the_same(group: PutGroup, whole: PutGroup) -> PutGroup:
-    """A side without a surface is one of what all go on ("on the tray, one on the left")."""
+    """A side without a surface is one of what all go on ("on the tray, one on the left"), and so is
+    a level ("on the shelf, one at the top").
+    """
+    ends = [item for item in group.destinations if item.word == LEVEL_OF_ALL]
+    if ends and len(group.destinations) == 1:
+        return replace(group, destinations=(replace(ends[0], word=""),))
     (at, *more), (surface, *others) = group.destinations, whole.destinations
     side = at.beside and not any(item.phrases for item in at.beside) and not at.targets
     if not side or more or others or not surface.targets or surface.beside:

@@ -72,7 +72,6 @@ from etot_cli.reasoning.language.goals.sharing import (
 from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
-from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
@@ -156,9 +155,6 @@ def put(
         own = certain(context, themes)
         if placed & own or things_of(context, themes) <= placed:
             group = set_closer(context, group, clause.groups[0], themes, chosen)
-        elif any(item.word == LEVEL_OF_ALL for item in group.destinations):
-            text = group.destinations[0].targets[0].text
-            raise ReferenceProblem(text, "say of what", 3)
         placed |= own
         if (
             any(item.toward in (Toward.HOME, Toward.WITH) for item in group.destinations)
