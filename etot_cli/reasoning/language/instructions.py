@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError
 from etot_cli.reasoning.language.grammar.text.corrections import mark_in, taken_back
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION, sentences_of, words_in
 from etot_cli.reasoning.language.languages import other_language
+from etot_cli.reasoning.language.owners import without_owners
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
 from etot_cli.reasoning.language.start_told import without_start
@@ -68,7 +69,7 @@ _BUILT = words_of((verbs.BUILD,)) | {"on", "in", "onto"}
 """With "stack" they say what is to become of things."""
 _ALSO_VERBS = frozenset({"open", "please", "first", "empty", "free", "you"})
 """They begin a request, too, though things are told by them."""
-_DECLARED = frozenset({"is", "are"})
+_DECLARED = word_set("is are sits sit stands stand lies lie rests rest")
 _OF_ITS_OWN = re.compile(
     r"\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
     r"|(?<= )(?:all|both) (?=(?:go|are|should|belong|must|need)\b)"
@@ -98,7 +99,8 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         instruction = without_viewpoint(instruction, scene)
     except ReferenceProblem as error:
         raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
-    text = normalized(instruction)
+    said = without_owners(instruction, partial(_is_name, vocabulary=vocabulary))
+    text = normalized(said)
     try:
         return _read(text, scene, vocabulary)
     except (UnreadableError, ReferenceProblem) as error:
@@ -107,13 +109,13 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         with suppress(UnreadableError, ReferenceProblem):
             return _read(text, scene, vocabulary, common=True)
         with suppress(UnreadableError, ReferenceProblem):
-            return _from_start(instruction, scene, vocabulary)
+            return _from_start(said, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
-            return _below_heading(instruction, scene, vocabulary)
+            return _below_heading(said, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
             return _as_end_state(text, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
-            return _beside_asides(instruction, scene, vocabulary)
+            return _beside_asides(said, scene, vocabulary)
         raise InstructionError(_message(error, instruction, scene, vocabulary)) from None
 
 

@@ -12,6 +12,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.again import again
 from etot_cli.reasoning.language.goals.alone import check_so_many_to_turn
 from etot_cli.reasoning.language.goals.arrangements import tower
+from etot_cli.reasoning.language.goals.closer import closer_said
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.grasps import grasp
 from etot_cli.reasoning.language.goals.placing import cover, reorient
@@ -132,7 +133,10 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                 if clause.opens:  # "there" is rather in there than where something went before
                     context.discourse.last_places = _into(context, index)
         case EnsureClause():
-            for state in clause.states:
+            closer = closer_said(clause)
+            if closer is not None:
+                put(context, closer, wherever=True, going=clause.states[0].going)
+            for state in () if closer else clause.states:
                 state, so = told_by_contents(context, state)
                 for item in (state, *so):
                     ensure(context, item)

@@ -10,8 +10,20 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import AS_SAID
-from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, State, Toward
+from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    EnsureClause,
+    PutClause,
+    PutGroup,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    State,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.words.lexicon import singular
 
 
 def set_closer(
@@ -56,6 +68,20 @@ def set_closer(
     raise ReferenceProblem(text, "it cannot go to two places at once", 1)
 
 
+def closer_said(clause: EnsureClause) -> PutClause | None:
+    """What says where several things are to be, and behind that where some of them are ("the tins
+    go on the shelf, the red one on the lower board"), as what puts them there; else None.
+    """
+    first, *more = clause.states
+    several = len(first.subjects) > 1 or singular(first.subjects[0].head) != first.subjects[0].head
+    several |= quantity_of(first.subjects[0].determiner).every
+    some = all(np.is_elliptic for state in more for np in state.subjects)
+    plain = not any(s.word or s.denied or s.kept or s.allowed or s.always for s in clause.states)
+    if not (more and several and some and plain):
+        return None
+    return PutClause(tuple(PutGroup(Things(s.subjects), s.destinations) for s in clause.states))
+
+
 def _but(context: Context, place: Place, taken: set[Thing]) -> Place:
     """A place without those of its alternatives that are taken."""
     assert place.where is not None  # what others may go to is named
@@ -66,7 +92,12 @@ def _but(context: Context, place: Place, taken: set[Thing]) -> Place:
 
 
 def _of_the_same(group: PutGroup, whole: PutGroup) -> PutGroup:
-    """A side without a surface is one of what all go on ("on the tray, one on the left")."""
+    """A side without a surface is one of what all go on ("on the tray, one on the left"), and so is
+    a level ("on the shelf, one at the top").
+    """
+    ends = [item for item in group.destinations if item.word == LEVEL_OF_ALL]
+    if ends and len(group.destinations) == 1:
+        return replace(group, destinations=(replace(ends[0], word=""),))
     (at, *more), (surface, *others) = group.destinations, whole.destinations
     side = at.beside and not any(item.phrases for item in at.beside) and not at.targets
     if not side or more or others or not surface.targets or surface.beside:

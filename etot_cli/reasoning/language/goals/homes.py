@@ -42,6 +42,11 @@ def never_there(context: Context, group: PutGroup) -> list[int]:
         return any(touches(thing, place, context.scene) for thing in things for place in at)
 
     moved = discourse.put | discourse.lifted
+    removed = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
+    upon = [np.pronoun for item in group.destinations for np in item.targets]
+    if group.back and removed and upon and all(upon):
+        # "Take the pens off the tray, wash it, and put them back on it"
+        return [index for index in range(len(discourse.referents)) if index not in removed]
     if not group.back or not any(map(was_there, moved)):
         return []
     return [index for index in range(len(discourse.referents)) if not was_there(index)]

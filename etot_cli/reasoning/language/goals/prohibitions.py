@@ -61,14 +61,21 @@ def avoid(context: Context, clause: AvoidClause) -> None:
 
 
 def _left_by_what_moves(context: Context, clause: AvoidClause) -> tuple[int, ...]:
-    """What "it" is in "put the pen in the mug without knocking it over": the pen is in the hand."""
+    """What "it" is in "put the pen in the mug without knocking it over": the pen is in the hand;
+    "them" of one thing is what a plural is said of ("beside the scissors without moving them").
+    """
     step = context.done[-1] if context.done else None
     (np, *more) = clause.things.phrases if clause.things else (NounPhrase(),)
-    alone = np.pronoun == "it" and not more and clause.avoid in _LEAVING and not clause.negated
-    if not alone or not isinstance(step, Put):
+    alone = np.pronoun in ("it", "them") and not more
+    if not alone or clause.avoid not in _LEAVING or clause.negated or not isinstance(step, Put):
         return ()
     there = {place.where for place in step.places}
     there |= {mark for place in step.places for near in place.beside for mark in near.landmarks}
+    if np.pronoun == "them":
+        plural = {m.referent for m in context.discourse.mentions if singular(m.noun) != m.noun}
+        several = plural & {*step.what} or len(step.what) > 1
+        found = tuple(index for index in there if index in plural)
+        return found if len(found) == 1 and not several else ()
     with suppress(ReferenceProblem):
         found = context.phrases.refer(np, Role.ANY, step.what)
         return found if {*found} <= there else ()

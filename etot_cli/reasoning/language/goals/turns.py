@@ -14,8 +14,10 @@ from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax.clauses import Turns
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.reference.choosing.selection import in_line
+from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.world.state import DESK
 
 
 def in_turns(
@@ -95,10 +97,13 @@ class Timed:
     sentence: int
 
 
-def continues(item: Timed, after: Timed) -> bool:
+def continues(item: Timed, after: Timed, discourse: Discourse) -> bool:
     """Whether what one clause takes, the one behind it puts somewhere ("first take the cup and put
-    it …"): both are done when the first one is.
+    it …"): both are done when the first one is, unless it goes back to where it was ("take the lid
+    off first, and put it back on afterwards").
     """
+    if item.order is Order.FIRST and any(_goes_back(step, discourse) for step in after.steps):
+        return False
     taken = [
         (step.what,) if isinstance(step, Pick) else step.what
         for step in item.steps
@@ -107,6 +112,19 @@ def continues(item: Timed, after: Timed) -> bool:
     put = [step.what for step in after.steps if isinstance(step, Put) and not step.removal]
     further = after.order in (Order.SAID, Order.THEN) and after.sentence == item.sentence
     return taken == put != [] and further
+
+
+def _goes_back(step: Step, discourse: Discourse) -> bool:
+    """Whether a step puts things in or on what they were in or on at the start."""
+    if not isinstance(step, Put):
+        return False
+    places = [place.where for place in step.places if place.where is not None]
+    return any(
+        touches(thing, there, discourse.scene)
+        for thing in discourse.things(*step.what)
+        for there in discourse.things(*places)
+        if there.name != DESK
+    )
 
 
 def _goes_elsewhere(item: Timed, said: Sequence[Timed], discourse: Discourse) -> bool:

@@ -127,7 +127,7 @@ class Understanding:
             order = Order.THEN if self._comes_next(spoken, steps, asked) else spoken.order
             asked.append((spoken.clause, steps))
             item = Timed(steps, order, self.sentence)
-            if before is not None and continues(timed[before], item):
+            if before is not None and continues(timed[before], item, self.context.discourse):
                 timed[before] = replace(timed[before], steps=(*timed[before].steps, *steps))
             else:
                 before = id(spoken)

@@ -76,8 +76,8 @@ _FOOD = frozenset().union(
 """With what is eaten with it; drinks are none, but for milk."""
 _TOOLS = word_set(
     """
-    hammer mallet wrench spanner screwdriver drill saw hacksaw plier chisel file rasp clamp vise
-    level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel shears
+    hammer mallet wrench spanner screwdriver drill saw hacksaw plier tweezer chisel file rasp clamp
+    vise level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel shears
     secateurs rake shovel spade hoe pruner hand_fork handsaw pincer mattock pickaxe
     tape_measure measuring_tape box_cutter wire_cutter bolt_cutter wire_stripper utility_knife
     putty_knife stanley_knife craft_knife allen_key hex_key allen_wrench nut_driver heat_gun
@@ -131,6 +131,11 @@ _TOILETRIES = word_set(
     "sun_cream "
     "face_cream nail_file"
 )
+_MEDICINES = word_set(
+    "pill tablet capsule lozenge aspirin ibuprofen paracetamol antibiotic antacid ointment salve "
+    "insulin inhaler cough_syrup cough_drop cough_medicine eye_drop ear_drop nose_drop nasal_spray"
+)
+"""What cures; plasters and bandages only cover."""
 _ELECTRONICS = word_set(
     "phone telephone cellphone smartphone laptop computer tablet keyboard monitor camera headphone "
     "earphone earbud charger calculator remote controller console radio speaker headset webcam "
@@ -180,6 +185,7 @@ SORTS: dict[str, frozenset[str]] = {
     "clothes clothing garment laundry": _CLOTHES,
     "footwear": _SHOES,
     "toiletry": _TOILETRIES,
+    "medicine medication": _MEDICINES,
     "gadget electronics": _ELECTRONICS,
     "jewelry jewellery": _JEWELRY,
     "flower": _FLOWERS,
@@ -190,7 +196,8 @@ _SUPPLIES = word_set(
     "glue paint ink oil grease flux solder varnish acetone ethanol detergent bleach polish wax"
 )
 PACKED = frozenset().union(
-    *(_DRINKS, _SPICES, _SAUCES, _SWEETS, _OTHER_FOOD, _FRUIT, _VEGETABLES, _TOILETRIES, _SUPPLIES)
+    *(_DRINKS, _SPICES, _SAUCES, _SWEETS, _OTHER_FOOD, _FRUIT, _VEGETABLES),
+    *(_TOILETRIES, _SUPPLIES, _MEDICINES),
 )
 """What :data:`PACKS` of it are still called by (a milk carton is among "the drinks")."""
 _POURED = word_set("shampoo conditioner lotion toothpaste perfume honey soup sugar flour").union(
@@ -224,7 +231,7 @@ MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
     veg stationery citrus dairy kitchenware money cash clothes clothing laundry footwear electronics
-    jewelry jewellery literature
+    jewelry jewellery literature medicine medication
     """
 )
 """Category words that mean all of the sort without a plural ("put the fruit in the bowl")."""

@@ -83,6 +83,11 @@ WITHOUT_MEANING = f"""
     properly, neatly, directly, straight,
     ~comma if you would [be so (kind|good|nice)], ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
+    do not (ask [me] [why|about (it|that)]|worry [about (it|that|a thing)]|mind me),
+    if (i|we) (remember|recall) [(it|that)] (rightly|correctly|right|well),
+    if memory serves [me] [(right|well|correctly)], to [the best of] my knowledge,
+    (if i am not|unless i am) [very much] mistaken, unless i am [quite] wrong,
+    as far as i (know|remember|recall|can (tell|see)|am aware),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way,
     what a mess [(in|around|over|) here|[over|in|] there|this is],
@@ -97,7 +102,9 @@ WITHOUT_MEANING = f"""
     ~comma [my] (young|good|old|dear|clever) (man|lady|friend|fellow|boy|girl|chap),
     ~comma [my] [little|good|dear|clever] (helper|robot),
     by (tonight|tomorrow [(morning|noon|evening|night)]|noon|midnight|
-    lunchtime|bedtime|(this|the) (afternoon|evening)),
+    lunchtime|dinnertime|bedtime|(this|the) (afternoon|evening)|
+    (four|five|six|seven|eight|nine|ten|eleven|twelve) [o 'clock|tonight]),
+    before (dark|nightfall|midnight|noon),
     (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here],
     (by the time|before) (i|we|they|he|she|(the|our|my) (guests|kids|children))
     (sit down|sits down|leave|leaves|arrive|arrives)
@@ -367,6 +374,8 @@ COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly), 
 """Before what comes next, where something was said to come first."""
 COUNTED = "second, third, fourth, next, then, afterwards, last"
 """Behind what comes next there."""
+COMES = "comes, come, goes, go"
+"""Between a thing and its turn."""
 ONWARD = "[and] then [finally], [and] after that, and finally"
 """Before the next place of what was put somewhere."""
 EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"

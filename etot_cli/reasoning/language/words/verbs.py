@@ -194,7 +194,7 @@ _MUST = """
 """
 _IN_FACT = "still|really|just|simply|definitely|eventually|ultimately|preferably|now"
 _SIMPLY = f"[simply|[just] as well|just|also|please|best|{_IN_FACT}|in the end]"
-_TO_STAND = "stand|sit|lie|rest|live"
+_TO_STAND = "stand|sit|lie|rest|live|sleep"
 """How what goes somewhere is there then."""
 _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
 _WELL = "good|nice|nicely|lovely|great|perfect|perfectly|fine|well"
@@ -210,7 +210,7 @@ MODAL = f"""
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
     get[s] ({_BROUGHT}), (want|wants) to (be|go|end up|sit|stand|lie|live), (is|are) going [back],
-    [then|next|finally|afterwards] go[es] [back], belong[s], live[s],
+    [then|next|finally|afterwards] go[es] [back], belong[s], live[s], sleep[s],
     (need|needs|want|wants) (putting|placing|storing|stowing|moving|bringing|returning)
     [away|back|down],
     move[s] [up|down|over|back], find[s] (its|their) way [back],
@@ -405,6 +405,8 @@ SWAP = """
     swap[ping], exchang(e|ing), switch[ing], interchange, trad(e|ing),
     (swap|exchange|switch|trade|change) [the] (places|positions) of
 """
+SWAPPED_ROUND = "around, round, over, about"
+"""Behind what swaps places."""
 TAKE_THE_PLACE = """
     [should|must|shall|can|may|has to|have to|needs to|is to|are to] [then|now] take[s]
 """
@@ -413,7 +415,8 @@ CHANGE_PLACES = """
     [should|must|shall|have to|need to|are to|to] take (each other|one another) 's (place|places),
     [should|must|shall|have to|need to|are to|to] (change|swap|switch|trade|exchange)
     (places|place|positions|position|spots),
-    [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]
+    [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged|switched)
+    [around|round|over|about]
 """
 THE_ROBOT = """
     [the|your|a|my] (robot [arm|hand|gripper]|robotic arm), (the|your) (arm|gripper|manipulator)

@@ -29,6 +29,7 @@ from etot_cli.reasoning.language.grammar.asides.mishaps import (
     befalls,
     fears_for,
     is_kept_well,
+    is_unspoilt,
     may_befall,
 )
 from etot_cli.reasoning.language.grammar.asides.remarks import (
@@ -53,6 +54,7 @@ from etot_cli.reasoning.language.grammar.asides.telling import (
     exclaims,
     goes_there,
     goes_there_later,
+    goes_with_somebody,
     tells_of_others,
 )
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import wants_such_a_thing
@@ -220,6 +222,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
     told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
+    told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -325,6 +328,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         return True
     if at + 1 < len(clauses) and goes_to_it(clause.said, behind, first=at == 0):
         return True
+    if (at or _is_whole(clauses, at)) and goes_with_somebody(clause.said, is_name):
+        return True
     if _is_whole(clauses, at) and (
         fears_for(clause.said)
         or may_befall(clause.said)
@@ -335,6 +340,10 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     if trailing and clause.comma and goes_there(clause.said, is_name):
         return True
     if dislikes(clause.said) or is_hindering(clause.said):
+        return True
+    if is_not_to_stay(clause.said) and told_of_thing(clause.said, is_name):
+        return True
+    if trailing and is_unspoilt(clause.said):
         return True
     if planned or wants_such_a_thing(clause.said, is_name):
         return True
@@ -368,12 +377,18 @@ def _named(asides: Iterable[str], is_name: IsName) -> str:
     is said next, so that is named last and alone.
     """
     phrases, alone = list[str](), list[str]()
-    for said in asides:
+    for aside in asides:
+        said = f"the {aside}" if _is_bare(aside, is_name) else aside
         found = [in_state(said, phrase) for phrase in _phrases(said.split(), is_name)]
         alone += found[:1] if is_misplaced(said) else []
         phrases += found[1:] if is_misplaced(said) else found
     remarks = (" and ".join(dict.fromkeys(named)) for named in (phrases, alone))
     return ". ".join(f"{named} {ASIDE}" for named in remarks if named)
+
+
+def _is_bare(said: str, is_name: IsName) -> bool:
+    """Whether what cannot stay is named without an article ("honey must not stand up there")."""
+    return is_not_to_stay(said) and is_name(said.split()[0])
 
 
 def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:

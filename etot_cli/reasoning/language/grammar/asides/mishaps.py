@@ -80,3 +80,16 @@ _KEPT_WELL = Expression(
 def is_kept_well(said: str) -> bool:
     """Whether a clause tells what something stays like where it is put ("it stays fresh")."""
     return bool(_KEPT_WELL.fullmatch(said))
+
+
+_UNSPOILT = Expression(
+    rf"{_THING} (?:should|must|may|do|does|will) not (?:(?:smell|taste|reek) (?:of|like) "
+    rf"(?:the |my |our )?\w+|(?:get|become|turn|go) (?:too |all )?(?:{_GETS}|muddy|greasy))"
+)
+
+
+def is_unspoilt(said: str) -> bool:
+    """Whether a clause tells why, behind a request: what must not become of a thing ("it should
+    not smell of them").
+    """
+    return bool(_UNSPOILT.fullmatch(said))

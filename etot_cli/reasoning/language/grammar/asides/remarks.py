@@ -95,6 +95,10 @@ _DOES = Expression(
 )
 _TIDYING = [["cleaning"], ["tidying"], ["packing"], ["moving"], ["clearing"], ["sorting"]]
 """What people are at who do not say what the robot is to do about it."""
+_MAKING = [["making"], ["baking"], ["cooking"], ["building"], ["packing"]]
+"""What people are at who tell what for, where the scene has none of it ("making soup")."""
+_AT_TABLE = word_set("some today tonight now for and of breakfast lunch dinner supper dessert")
+"""With what they make, and for when, which is nothing to the robot."""
 PROPOSING = word_set(
     """
     suggest recommend propose expect insist demand require request vote choose pick say says tell
@@ -169,7 +173,8 @@ _PREDICATE = Expression(
 _A_BIT = Expression(r" (?:a (?:little|bit|lot)|quite a bit)(?= |$)")
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
 _NOT_STAYING = (
-    r"(?:can|must|should|may) not (?:be (?:left|kept)|stay|remain)"
+    r"(?:can|must|should|may|does|do) not (?:be (?:left|kept)|stay|remain"
+    r"|(?:stand|lie|sit|belong|live|be|go)(?= (?:(?:up|down|over|out) )?(?:here|there)$))"
     r"(?: (?:like (?:this|that)|as (?:it is|they are)|that way|so))?"
 )
 _OVER_THE_EDGE = (
@@ -209,6 +214,10 @@ _SO_IT_CAN = Expression(
     rf"^(?:it|they|{_THING}) (?:(?:can|could|will|may|might) (?:then )?"
     r"(?:be (?:closed|shut|opened)|close|shut|open|fit)|closes|shuts|fits)(?: again| properly)?$"
 )
+_UNFIT_THERE = Expression(
+    rf"^(?P<what>it|they|(?:(?:the|my|our) )?(?:\w+ )?\w+) {_NOT_STAYING}"
+    r"(?: (?:(?:up|down|over|out) )?(?:here|there))?$"
+)
 _TURNING = Expression(
     rf" (?:(?:is|are) (?:getting|going|turning)|(?:has|have) gone) (?:{TURNED})$"
     r"|(?:must|should|(?:needs?|has|have) to) "
@@ -229,7 +238,7 @@ _COMMENT = Expression(r"^(?:is|are|was|were|has|have) ")
 
 def is_not_to_stay(said: str) -> bool:
     """Whether something cannot stay as or where it is, of which is not said how that is."""
-    return bool(re.search(rf"^(?:it|they|{_THING}) {_NOT_STAYING}(?: here| there)?$", said))
+    return bool(_UNFIT_THERE.match(said))
 
 
 def is_doing(word: str) -> bool:
@@ -296,6 +305,8 @@ def is_reason(said: str, is_name: IsName) -> bool:
     asked = _YOU_DO.match(said)  # "even if you have to move it" asks for nothing
     if asked and asked[1] in VERB_WORDS - OTHER_VERBS - {"have"} and any(map(is_name, words)):
         return False  # "as you move the cup over there, keep it upright"
+    if "going" in words and PLACED & words and any(map(is_name, words)):
+        return False  # "as it is going in the box"
     if not is_of_people(said):
         return not (ASKING | CHANGING - {"to", "by", "than"} | WORK) & words
     wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words
@@ -334,12 +345,20 @@ def is_remark(said: str, is_name: IsName) -> bool:
             return False  # "nobody is to use it", "she likes the cup on the tray"
         if did[:1] in _TIDYING and not any(map(is_name, words)):
             return True
+        if did[:1] in _MAKING and did[1:] and not any(map(_is_known_to(is_name), did[1:])):
+            return True
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
         return not ((WORK | ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
     outside = _TOO.search(said) or (_OUTSIDE.search(said) and not any(map(is_name, words)))
     told = _TOO.sub("", said).split()  # "too close" is no "close"
     asking = (WORK | ASKING | REFERRING) & {*told}
     return bool(_IN_GENERAL.match(said) or (outside and not asking))
+
+
+def _is_known_to(is_name: IsName) -> Callable[[str], bool]:
+    """Whether a word may be about the scene, or about what is done in it."""
+    known = all_words() - BEFORE_NAMES - _AT_TABLE
+    return lambda word: word in known or is_name(word)
 
 
 def _is_of_no_thing(habit: re.Match[str], words: Sequence[str], is_name: IsName) -> bool:
@@ -364,6 +383,9 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
     """The words for something in the scene of which this tells what places nothing, singles nothing
     out and speaks of nothing else; none where it does not.
     """
+    if unfit := _UNFIT_THERE.match(said):
+        what = [word for word in unfit["what"].split() if word not in BEFORE_NAMES]
+        return tuple(what) if is_name(what[-1]) or what[-1] in ("it", "they") else ()
     words = _YONDER.sub("", said).split() or [""]
     end = _named_until(words, is_name)
     while words[end : end + 1] == ["and"] and words[end + 1 : end + 2] == ["the"]:

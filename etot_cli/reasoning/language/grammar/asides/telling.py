@@ -154,3 +154,26 @@ def goes_there(
     found = _PLACED_THERE.fullmatch(said)
     known = found is None or found["whose"] not in whose or any(map(is_name, said.split()))
     return not known
+
+
+_GOES_WITH = Expression(
+    r"(?:it|they|he|she) (?:(?:also|always|usually|will) )?(?:comes?|goes|go|travels?|sleeps?"
+    r"|is coming|are coming|is going|are going)"
+    r"(?: (?:to|in|into) (?:my |our )?\w+| home| out| along| away| on (?:holiday|a trip))?"
+    r"(?: with (?:me|us|him|her|them))?"
+    r"(?: (?:today|tonight|tomorrow|later|soon|afterwards|anyway))?"
+)
+
+
+def goes_with_somebody(said: str, is_name: IsName) -> bool:
+    """Whether a clause tells where somebody takes a thing that was spoken of ("he comes to bed with
+    me"), which the robot does not do.
+    """
+    words = said.split()
+    mine = " with me" in said or " with us" in said
+    outside = (mine or {*words} & _OUTSIDE) and not {*words} & {"here", "there"}
+    return bool(outside) and bool(_GOES_WITH.fullmatch(said)) and not any(map(is_name, words))
+
+
+_OUTSIDE = word_set("bed home school work church nursery kindergarten holiday")
+"""Where no robot arm brings anything."""

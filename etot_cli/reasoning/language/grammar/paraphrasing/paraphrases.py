@@ -234,6 +234,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
     (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
     (r",? from now on\b", ""),
+    (r"(?<=\w) by (?:tonight|noon|bedtime|dinnertime|lunchtime|tomorrow)(?=, )", ""),
     (
         r"\b((?:clear|empty|tidy) (?:the|my) [^.,;:]*?[,;:.] (?:and |then )*"
         r"(?:(?:put|move|bring) )?)"

@@ -35,6 +35,11 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"\1 is ",
     ),
     (
+        r"(^|[.;!] )where (?:i|we) (?:sit|stand|work|eat|am|are)(?: now)?, "
+        r"(?=(?:at|on|in|to|next to|beside|near) )",
+        r"\1",
+    ),
+    (
         r"\bthere is nothing (?:left )?(?:in|on|inside) ((?:the|my) \w+(?: \w+)?) (?=and its\b)",
         r"\1 is empty ",
     ),
@@ -53,7 +58,7 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\band in (its|their) place (put|place) ({NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
     (
         r"^(next to|beside|behind|in front of|to the (?:left|right) of|where) "
-        rf"({NAMED} [^.,;]*?),? "
+        rf"({NAMED} [^.,;]*?)(?: is where)?,? "
         rf"(?:i (?:want|would like|need)|there (?:should|must) be) ({NAMED} [^.,;]*)",
         r"put \3 \1 \2",
     ),

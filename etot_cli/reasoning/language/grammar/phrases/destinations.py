@@ -32,7 +32,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.abreast import ABREAST, ABREAST_SO, EACH_OTHER
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
-from etot_cli.reasoning.language.grammar.phrases.levels import AT_LEVEL, NEXT_LEVEL
+from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     BETWEEN,
 )
@@ -63,6 +63,8 @@ FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
 THE_DESK = NounPhrase("the", ("desk",), text="the desk")
 """What has room for anything."""
+RECEIVER = "receiver"
+"""The word of a destination that is said to get something."""
 TARGETS = sequence(
     alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
 )
@@ -112,14 +114,14 @@ BESIDE = spanned(
             build=lambda relation: _beside(relation, NounPhrase(pronoun="it", text="its side")),
         ),
         sequence(
-            "on, to, at",
+            "on, to, at, onto",
             noun_phrase,
             "'s",
             _SIDE_OF_IT,
             build=lambda np, relation: _beside(relation, np),
         ),
         sequence(
-            "in, on, to, at, near, by",
+            "in, on, to, at, onto, near, by",
             noun_phrase,
             "'s",
             _REGION_OF_IT,
@@ -229,6 +231,7 @@ _place = either(
     _top_of,
     AT_LEVEL,
     NEXT_LEVEL,
+    AT_AN_END,
     WITH,
     sequence(WITH, OPTIONAL_COMMA, either(INTO, ONTO), build=told_by_it),
     STEAD,

@@ -72,3 +72,14 @@ NEXT_LEVEL = spanned(
     ),
     _level_by,
 )
+
+
+LEVEL_OF_ALL = "level of what all go on"
+"""The word of a destination at the top or bottom, where it is said before of what."""
+AT_AN_END = spanned(
+    # "At the bottom" of what others go on
+    sequence("at the", one_of({"top": "[very] top", "bottom": "[very] bottom"})),
+    lambda text, level: Destination(
+        Toward.ON, (NounPhrase("the", (level, "board"), text=text),), LEVEL_OF_ALL
+    ),
+)

@@ -35,12 +35,17 @@ def _named_ones(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
 
 _FIRST_OF_THEM = either(
     sequence(
-        separated(noun_phrase, LIST, most=2), f"first, {small_words.BEFORE_ALL}", build=_named_ones
+        separated(noun_phrase, LIST, most=2),
+        optional(small_words.COMES),
+        f"first, {small_words.BEFORE_ALL}",
+        build=_named_ones,
     ),
     sequence("first", separated(noun_phrase, LIST, most=2), build=_named_ones),
     sequence(manner.STARTING_WITH, noun_phrase, build=lambda np: (np,)),
 )
-_LAST_OF_THEM = sequence(separated(noun_phrase, LIST, most=2), "last", build=_named_ones)
+_LAST_OF_THEM = sequence(
+    separated(noun_phrase, LIST, most=2), optional(small_words.COMES), "last", build=_named_ones
+)
 SWEEP = one_of(manner.SWEEPS)
 _THEN = either(LIST, sequence(OPTIONAL_COMMA, THEN))
 _NEXT = sequence(_THEN, noun_phrase, optional(small_words.COUNTED))
@@ -64,6 +69,16 @@ TURN = either(
     valued(_LAST_OF_THEM, lambda nps: ("last", nps)),
     valued(SWEEP, lambda text: ("sweep", text)),
 )
+
+
+def _one_before_another(*nps: NounPhrase) -> tuple[str, tuple[NounPhrase, ...]] | None:
+    """Two things that have both an article, or neither."""
+    alike = len({bool(np.determiner) for np in nps}) == 1
+    return ("all", nps) if alike and _named_ones(nps) else None
+
+
+ONE_BEFORE_ANOTHER = sequence(noun_phrase, "before", noun_phrase, build=_one_before_another)
+"""Behind a comma; "in the bowl before the spoons" has a place before it."""
 
 
 def turns_of(said: Sequence[Any]) -> Turns | None:

@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, with_all
 from etot_cli.reasoning.language.grammar.phrases.states import SO, state_of
-from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
+from etot_cli.reasoning.language.grammar.phrases.turns import ONE_BEFORE_ANOTHER, TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -69,6 +69,14 @@ CONDITION = sequence(
     SO,
     build=_still_so,
 )
+_BACK_THERE = sequence(
+    "with",
+    noun_phrase,
+    "back",
+    DESTINATIONS,
+    build=lambda np, where: ("back", State((np,), where)),
+)
+"""What is to be where it was by now on what goes somewhere."""
 _STILL_SO = sequence(
     NP_LIST,
     phrase("still [standing|lying|sitting|resting]", True),
@@ -101,13 +109,14 @@ _EXTRA = sequence(
     either(
         CONDITION,
         _CONDITIONS,
+        _BACK_THERE,
         sequence(
             phrase(manner.STANDING, ("stance", Nearby.UPRIGHT)),
             silent(optional(manner.NOT_LYING)),
         ),
         phrase(manner.LYING, ("stance", Nearby.LYING)),
         manner.FITTING,
-        sequence(optional("but"), either(GROUPING, TURN)),
+        sequence(optional("but, and, with"), either(GROUPING, TURN)),
         BY_COLOR,
         sequence("including, even", noun_phrase, build=lambda np: ("including", np)),
         phrase(manner.ONE_EACH, ("each", ())),
@@ -147,8 +156,27 @@ _EXTRA = sequence(
     ),
     build=lambda *found: found[0] if found else (),
 )
-EXTRA = either(sequence(COMMA, either(_EXTRA, _STILL_SO)), sequence(_EXTRA, build=_unless_told_by))
+EXTRA = either(
+    sequence(COMMA, either(_EXTRA, _STILL_SO, ONE_BEFORE_ANOTHER)),
+    sequence(_EXTRA, build=_unless_told_by),
+)
 EXTRAS = some(EXTRA, most=3)
+
+
+def _back_on(things: Things, so: State) -> State:
+    """How something is to be again "back on it", which the thing that goes somewhere is told by:
+    "it" is that ("the tin under the jar on the shelf, with the jar back on it").
+    """
+    (np, *more), (upon,) = things.phrases, so.subjects
+    told_by = {at.words for item in np.modifiers if item.prep in _BEARS for at in item.phrases}
+    if more or upon.words not in told_by:
+        return so
+    where = (item.going_to(lambda at: np if at.pronoun == "it" else at) for item in so.destinations)
+    return replace(so, destinations=tuple(where))
+
+
+_BEARS = (Prep.UNDER, Prep.BEARING, Prep.CONTAINING, Prep.WITH)
+"""How what has something on or in it is told by that."""
 
 
 def _each_of(whole: NounPhrase, words: tuple[str, ...]) -> NounPhrase:
@@ -169,6 +197,7 @@ def put_of(
     conditions += tuple(
         state for name, states in said if name in ("with", _RATHER) for state in states
     )
+    conditions += tuple(_back_on(groups[0].things, so) for name, so in said if name == "back")
     for one in (np for name, np in said if name == "including"):
         every = [np for group in groups for np in group.things.phrases]
         all_told = with_all(every[0], one) if len(every) == 1 else None

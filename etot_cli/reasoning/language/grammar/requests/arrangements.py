@@ -286,8 +286,9 @@ def _swapped(things: Things) -> SwapClause:
 SWAP = either(
     sequence(
         verbs.SWAP,
+        optional(verbs.SWAPPED_ROUND),
         THINGS,
-        optional("around, round, over"),
+        optional(verbs.SWAPPED_ROUND),
         not_ahead(COLON),  # what it explains would be done beside it
         build=_swapped,
     ),
@@ -323,6 +324,7 @@ SWAP = either(
         noun_phrase,
         "with, for, by",
         noun_phrase,
+        optional(verbs.SWAPPED_ROUND),
         build=lambda one, two: SwapClause(Things((one, two))),
     ),
     sequence("replac(e|ing)", noun_phrase, "with, for, by", noun_phrase, build=_replaced),

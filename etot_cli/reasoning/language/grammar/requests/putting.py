@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import (
     INTO,
     ONTO,
     ONWARD,
+    RECEIVER,
 )
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
@@ -76,6 +77,7 @@ from etot_cli.reasoning.language.grammar.requests.word_order import (
     BROUGHT,
     FOLLOWING,
     FRONTED,
+    IS_WHERE,
     LISTED,
     NAMED_BEHIND,
     SAID_AHEAD,
@@ -315,7 +317,7 @@ PUT = either(
         ALL_THINGS,
         optional(phrase("each"), ""),
         build=lambda np, things, said: put_to(
-            things, (Destination(Toward.TO, all_of((np,), said)),)
+            things, (Destination(Toward.TO, all_of((np,), said), RECEIVER),)
         ),
     ),
     sequence(
@@ -398,6 +400,7 @@ PUT = either(
     ),
     SAID_AHEAD,
     FRONTED,
+    IS_WHERE,
     FOLLOWING,
     LISTED,
     NAMED_BEHIND,

@@ -96,6 +96,19 @@ FRONTED = quiet(
     )
 )
 """The place before the thing."""
+IS_WHERE = quiet(
+    sequence(
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        "is [exactly|just|precisely|also] where",
+        either(
+            sequence(NP_LIST, verbs.MODAL),
+            sequence(verbs.WANTED, NP_LIST, optional(verbs.TO_BE_THERE)),
+        ),
+        build=_fronted,
+    )
+)
+"""The same, told of the place ("in the box is where the pen belongs")."""
 PLACE_AHEAD = quiet(
     sequence(
         DESTINATIONS,

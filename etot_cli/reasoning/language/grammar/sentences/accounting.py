@@ -295,7 +295,7 @@ def _said(node: object) -> Iterator[str]:
         case Turns() if node != Turns():
             yield _ORDER
         case SwapClause():
-            yield "other"
+            yield from ("other", "round")
         case AgainClause():
             yield "same"
         case Destination(toward=toward, denied=denied) if denied or toward is Toward.HOME:

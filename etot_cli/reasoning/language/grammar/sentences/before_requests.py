@@ -76,6 +76,7 @@ from etot_cli.reasoning.language.grammar.sentences.past import (
     done_later,
     once_done,
     out_of_the_way,
+    same_receiver,
 )
 from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.sentences.togetherness import PARTED
@@ -331,7 +332,7 @@ WITH_MORE_BEFORE_IT = either(
     sequence(
         verbs.SWAP,
         THINGS,
-        silent(optional("around, round, over")),
+        silent(optional(verbs.SWAPPED_ROUND)),
         either(COMMA, sequence(OPTIONAL_COMMA, small_words.SO_THAT)),
         sequence(
             either(IN_THE_END, plain(either(PUT, ENSURE))),
@@ -435,13 +436,13 @@ WITH_MORE_BEFORE_IT = either(
         optional("[and] only then, [and] not before [then|that]"),
         OPTIONAL_COMMA,
         either(CHAIN, INVERTED),
-        build=once_done,
+        build=lambda earlier, rest: once_done(earlier, same_receiver(earlier, rest)),
     ),
     sequence(
         ALL_LATER,
         OPTIONAL_COMMA,
         not_ahead("and", "then"),
         CHAIN,
-        build=done_later,
+        build=lambda later, rest: done_later(later, same_receiver(later, rest)),
     ),
 )

@@ -18,7 +18,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.coordination import said_of_all
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, RECEIVER
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.arrangements import HAVING_TURNED, STANDS_UP
@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Clause,
     EnsureClause,
     MoveClause,
     PickClause,
@@ -245,6 +246,35 @@ def done_later(later: Reading, rest: Reading) -> Reading:
             if count and any({*np.words} <= words for np in nps for words in named):
                 return (*rest[:count], *then_done(later), *then_done(rest[count:]))
     return rest + then_done(later)
+
+
+def same_receiver(first: Reading, rest: Reading) -> Reading:
+    """A reading behind "before the box gets the pen": who "gets" more there is the same box."""
+    (one, *more) = _receivers(first)
+    if more or one is None or one.pronoun:
+        return rest
+    return tuple(replace(said, clause=_received_by(said.clause, one)) for said in rest)
+
+
+def _receivers(reading: Reading) -> list[NounPhrase | None]:
+    """What gets something by a reading; None where it is about anything else."""
+    clause = reading[0].clause
+    (where, *more) = clause.groups[-1].destinations if isinstance(clause, PutClause) else (None,)
+    received = where is not None and where.word == RECEIVER and not more and not reading[1:]
+    return [*where.targets] if where is not None and received else [None]
+
+
+def _received_by(clause: Clause, one: NounPhrase) -> Clause:
+    """A clause with what "it" is that gets something there."""
+    if not isinstance(clause, PutClause):
+        return clause
+    groups = tuple(
+        group.going_to(lambda np: one if np.pronoun == "it" else np)
+        if all(item.word == RECEIVER for item in group.destinations)
+        else group
+        for group in clause.groups
+    )
+    return replace(clause, groups=groups)
 
 
 def _gapped(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> PutClause:

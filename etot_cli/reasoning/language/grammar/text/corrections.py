@@ -32,6 +32,8 @@ _BEFORE_PLACES = openings_of(
 ) - {"left", "right"}
 _SETTING = words_of((verbs.SET_DOWN,))
 _VERBS = VERB_WORDS | {"open", "shut", "empty"}
+_GOES = word_set("go goes belong belongs should must has have needs need lives live")
+"""Behind what is to be somewhere."""
 _SEQUEL = word_set("first before then after afterwards last finally also too as")
 """With such a word a whole sentence takes back none."""
 _JOINTS = word_set("and or then ,")
@@ -165,8 +167,9 @@ def _spans(
         for at, word in enumerate(tail)
         if word in _BEFORE_THINGS and tail[at + 1 : at + 3] != ("robot", "'s")
     ]
-    if tail and is_descriptive(tail[0]):
-        things.insert(0, 0)  # "black pen in the tray"
+    goes = [at for at, word in enumerate(tail) if at and word in _GOES]
+    if tail and (is_descriptive(tail[0]) or (goes[:1] == [1] and 0 not in things)):
+        things.insert(0, 0)  # "black pen in the tray", "tools go in the tray"
     begin = said[0]
     if begin in _VERBS:
         clauses = (0, *(at + 1 for at in joints))
@@ -186,7 +189,7 @@ def _spans(
         yield from ((at, size) for at in things if not joints)
     elif begin in _BEFORE_THINGS:
         for at in things:
-            yield (at, min((end for end in (*where, *joints) if end > at), default=size))
+            yield (at, min((end for end in (*where, *joints, *goes) if end > at), default=size))
     elif is_descriptive(begin) or things[-1:] != [size - 1]:
         yield (size - 1, size)
         yield from ((at + 1, size) for at in things[-1:] if at + 1 < size - 1)

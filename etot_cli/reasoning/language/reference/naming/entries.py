@@ -229,7 +229,7 @@ class Entry:
             if not (self.is_compound(head) or self.is_compound(head, OTHER_SORTS))
         }
         heads -= {"glass"} if self.heads[:1] == ("glasses",) else set()
-        heads |= {"_".join(words[-2:]) for words in self.called if len(words) > 1}
+        heads |= {singular("_".join(words[-2:])) for words in self.called if len(words) > 1}
         boxed = self.info is not None and self.info.kind == "box"
         for words in self.called[:1] if boxed else ():
             if len(words) == 2 and not all(map(is_english, words)):

@@ -11,6 +11,7 @@ from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, ONWARD, TOP
+from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.reference.geometry import rows, space
 from etot_cli.reasoning.language.reference.geometry.vessels import bears, lies_on
@@ -111,6 +112,8 @@ class Places:
         for destination in destinations:
             if destination.toward in _BY_A_THING:  # only where one thing is put
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
+            if destination.word == LEVEL_OF_ALL:
+                raise ReferenceProblem(destination.targets[0].text, "say of what", 3)
             if destination.toward is Toward.BESIDE:
                 destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:

@@ -66,7 +66,7 @@ def antecedents(
     if pronoun == UNSAID:
         return left_unsaid(discourse, text)
     if pronoun in PLURAL_PRONOUNS:
-        found = meant_by_them(discourse, role, text)
+        found = meant_by_them(discourse, role, text, excluded)
         if not found:
             raise ReferenceProblem(text, UNCLEAR, 2)
         return found

@@ -17,8 +17,10 @@ from etot_cli.reasoning.language.reference.memory.spoken_of import (
 from etot_cli.reasoning.language.words.lexicon import singular
 
 
-def meant_by_them(discourse: Discourse, role: Role, text: str) -> tuple[int, ...]:
-    """What "them" stands for, by referent.
+def meant_by_them(
+    discourse: Discourse, role: Role, text: str, excluded: Sequence[int] = ()
+) -> tuple[int, ...]:
+    """What "them" stands for, by referent: none that is ``excluded``.
 
     Raises:
         AmbiguousReference: it may stand for several.
@@ -28,7 +30,8 @@ def meant_by_them(discourse: Discourse, role: Role, text: str) -> tuple[int, ...
             # What stands on the bottom goes with it; what goes on them goes on top.
             bottom, top = discourse.stacks[clause]
             return (bottom if role in (Role.THEME, Role.ANY) else top,)
-        found = acted_on(discourse, [m for m in discourse.mentions if m.clause == clause], role)
+        said = [m for m in discourse.mentions if m.clause == clause]
+        found = tuple(i for i in acted_on(discourse, said, role) if i not in excluded)
         several = len(found) > 1 or any(are_several(discourse, index) for index in found)
         emptied = emptied_by(discourse, clause, role) if found else ()
         if emptied:
@@ -37,7 +40,7 @@ def meant_by_them(discourse: Discourse, role: Role, text: str) -> tuple[int, ...
             raise AmbiguousReference(text, named)
         if several:
             return found
-    found = acted_on(discourse, discourse.mentions, role)
+    found = tuple(i for i in acted_on(discourse, discourse.mentions, role) if i not in excluded)
     said = [mention for mention in discourse.mentions if mention.referent in found]
     options = [option for index in found for option in discourse.referents[index].options]
     single = len(found) == 1 and all(len(option) == 1 for option in options)

@@ -1,0 +1,35 @@
+"""Whose things are by the names of people, of whom a scene knows nothing ("Emma's cup")."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.words.known import all_words
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.nouns import STACK
+from etot_cli.reasoning.language.words.patterns import spellings
+
+_OWNED = re.compile(
+    r"(?<=[\w,] )(?P<who>[A-Z][a-z]+)['\N{RIGHT SINGLE QUOTATION MARK}]s"
+    r"(?= (?P<first>\w+)(?: (?P<second>\w+))?)"
+)
+"""Within a sentence; what it begins with has a capital anyway."""
+
+
+def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
+    """An instruction in which things of the scene that belong to somebody by name are "mine".
+
+    Args:
+        instruction: as typed: names of people have capitals.
+        is_name: whether something in the scene is called by a word.
+    """
+
+    def told(found: re.Match[str]) -> str:
+        who, first, second = ((found[part] or "").casefold() for part in ("who", "first", "second"))
+        noun = second if is_descriptive(first) else first
+        known = is_name(noun) or singular(noun) in spellings(STACK)
+        stranger = not (is_name(who) or who in all_words() or is_descriptive(who))
+        return "my" if known and stranger else found[0]
+
+    return _OWNED.sub(told, instruction)
