@@ -130,6 +130,9 @@ def put(
     ruled_out = tuple(w for group in clause.groups for w in group.destinations if w.denied)
     clause = replace(clause, groups=tuple(group.not_denied for group in clause.groups))
     check_swept(context, clause)
+    if clause.stays and isinstance(context.last, RemoveClause):
+        # "Take the stack apart and leave all blocks on the desk": those that lay upon others, too
+        clause, wherever = replace(clause, stays=False), True
     if clause.stays:
         clause = replace(clause, groups=tuple(map(rest_there, clause.groups)))
     placed: set[Thing | int] = set()

@@ -136,7 +136,7 @@ SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], (take|taking) care that, see to it [that],
-    make it so [that], mind that, (watch|look) out that, (watch|see|be careful|be mindful) that,
+    make it so [that], bring [it] about that, mind that, (watch|look) out that, (watch|see|be careful|be mindful) that,
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
@@ -318,6 +318,17 @@ KEEP_ITS_PLACE = f"""
 FALL = "(fall|roll|slip|slide|tumble|drop) [down]"
 NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"
 """Before where something is to stay."""
+_MAY = "must|may|should|shall|can|could|will|is to|are to|(is|are) (allowed|permitted) to"
+_MAY_NOT = """
+    (must|may|should|shall|can|could|will) (not|never) [ever]|(is|are) (not|never) to|
+    (is|are) not (allowed|permitted|supposed) to
+"""
+_BE_TAKEN = "be (taken|removed|lifted|moved|brought|pulled|carried|fetched) [down|away|up]"
+LEAVE = f"({_MAY}) [ever] leave"
+NOT_LEAVE = f"({_MAY_NOT}) leave, (does|do) not leave, never leave[s]"
+BE_TAKEN = f"({_MAY}) [ever] ({_BE_TAKEN})"
+NOT_BE_TAKEN = f"({_MAY_NOT}) ({_BE_TAKEN})"
+"""Between what stays where it is, none of which does that or which does not, and that."""
 RECEIVE = "[should|must|shall|has to|needs to|is to] [also] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
@@ -399,7 +410,8 @@ CHANGE_PLACES = """
     [(should|must|shall|have to|need to|are to) be|to be] (swapped|exchanged) [around|over]
 """
 THE_ROBOT = """
-    [the|your|a|my] (robot [arm|hand|gripper]|robotic arm), (the|your) (arm|gripper|manipulator)
+    [the|your|a|my] (robot [arm|hand|gripper]|robotic arm),
+    (the|your) (arm|gripper|manipulator|planner|plan)
 """
 """Who is to do it, or what with."""
 PAST = past_tenses(

@@ -20,6 +20,11 @@ _OF_TWO = r"one of (?:the two|them|these|those)"
 _NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
 _LIE = r"(?:(?:be (?:put |placed |moved )?|stay|remain|go|end up|stand|lie) ?)"
 _THERE = r"(?:(?:in|on|inside) it|inside|there|(?:in|on|inside) (?!it\b|them\b)\w[^.,;:]*?)"
+_STACKED = (
+    r"(?:may|must|should|can|shall|is to|are to) (?:be|lie|stand|sit|rest|end up)"
+    r"(?: stacked| placed| put| standing| lying| sitting| resting)? on(?: top of)?"
+)
+_ENDS = r"(?=[.,;!?]|$)"
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
 )
@@ -223,6 +228,22 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (rf"\bneither (?:of the )?(\w+?)s? should (?:have|hold|contain) ({NAMED} [^.,:;]*?)"
      r"(?: in (?:it|them))?(?=[.,;!?]|$| and\b)", r"\2 should not be in either \1"),
+    # "… the blocks on the tray; no block may be stacked on another"
+    (
+        rf"(\b(\w+)s\b[^.;]*)[.;,] (?:but |and )?no \2 {_STACKED} another(?: \2| one)?{_ENDS}",
+        r"\1, none on another",
+    ),
+    (
+        rf"[.;,] (?:but |and )?(?:none|neither)(?: of (?:them|the (?:\w+ )?\w+))? {_STACKED} "
+        rf"(?:(?:an)?other(?: one)?|the others?|each other|any other(?: one)?){_ENDS}",
+        ", none on another",
+    ),
+    (
+        r"[.;,]? (?:but |and )?(?:without stacking (?:them|any of them)|do not stack "
+        r"(?:them|any of them)|no stacking)(?: up| on (?:top of )?(?:each other|one another))?"
+        rf"{_ENDS}",
+        ", none on another",
+    ),
     *TURNS_OF_PHRASE,
 )  # fmt: skip
 """In order."""
