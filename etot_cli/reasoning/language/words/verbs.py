@@ -136,7 +136,8 @@ SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], (take|taking) care that, see to it [that],
-    make it so [that], bring [it] about that, mind that, (watch|look) out that, (watch|see|be careful|be mindful) that,
+    make it so [that], bring [it] about that, mind that, (watch|look) out that,
+    (watch|see|be careful|be mindful) that,
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
@@ -188,7 +189,7 @@ MODAL = f"""
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY}
-    (go [back]|end up|be ({_BROUGHT})|be left [{_BEING}]),
+    (go [back]|move|come|end up|be ({_BROUGHT})|be left [{_BEING}]),
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),

@@ -235,6 +235,9 @@ def _kept_there(nps: tuple[NounPhrase, ...], toward: Toward, np: NounPhrase) -> 
     return None if lost else State(nps, (Destination(toward, (np,)),), kept=True)
 
 
+_NONE_OF_THEM = sequence(
+    NP_LIST, build=lambda nps: nps if {np.determiner for np in nps} <= {*NONE} else None
+)
 _AWAY_FROM = one_of({Toward.ON: "off [of]", Toward.INSIDE: "out of", Toward.TO: "from"})
 KEPT_THERE = either(
     sequence(
@@ -257,9 +260,7 @@ KEPT_THERE = either(
         build=_kept_there,
     ),
     sequence(
-        sequence(
-            NP_LIST, build=lambda nps: nps if {np.determiner for np in nps} <= {*NONE} else None
-        ),
+        _NONE_OF_THEM,
         either(phrase(verbs.LEAVE, Toward.TO), sequence(verbs.BE_TAKEN, _AWAY_FROM)),
         noun_phrase,
         build=_kept_there,

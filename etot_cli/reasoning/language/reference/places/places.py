@@ -11,7 +11,12 @@ from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, ONWARD, TOP
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Beside,
+    Destination,
+    NounPhrase,
+    Toward,
+)
 from etot_cli.reasoning.language.reference.geometry import rows, space
 from etot_cli.reasoning.language.reference.geometry.vessels import bears, lies_on
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
@@ -29,6 +34,7 @@ from etot_cli.reasoning.language.reference.pronouns.coreference import (
     meant_by_it,
 )
 from etot_cli.reasoning.language.reference.several import Phrases
+from etot_cli.reasoning.language.words.categories import has_no_top
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
@@ -39,6 +45,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN, Prep
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
@@ -106,6 +113,7 @@ class Places:
         for destination in destinations:
             if destination.toward in _BY_A_THING:  # only where one thing is put
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
+            destination = self._beside_what_has_no_top(destination)
             if destination.toward is Toward.BESIDE:
                 destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:
@@ -145,6 +153,28 @@ class Places:
                     found = self._spots.narrowed(found, destination, themes)
             places.update(dict.fromkeys(found))
         return tuple(places)
+
+    def _beside_what_has_no_top(self, where: Destination) -> Destination:
+        """Next to what things are brought to that takes nothing in and nothing is put on."""
+        (np, *more) = where.targets or (NounPhrase(),)
+        plain = where.word in ("", ACROSS) and not (where.beside or more)
+        if where.toward is not Toward.TO or not plain or {*np.words} <= {*SIDES}:
+            return where  # pronouns have no words
+        things: set[Thing] = set()
+        with suppress(ReferenceProblem):
+            things = {*things_in(self._phrases.meaning(np, Role.ANY).options)}
+        infos = self._scene.infos
+        if not things or any(
+            thing.name not in infos
+            or self._scene.states[thing.name].inside is not None  # rather where that is
+            or can_be(thing, Role.CONTAINER, self._scene)
+            or not has_no_top(infos[thing.name].label)
+            for thing in things
+        ):
+            return where
+        self.discourse.notes.append(f"'to {np.text}': next to it")
+        beside = (Beside(Nearby.NEXT_TO, (np,), f"next to {np.text}"),)
+        return replace(where, toward=Toward.BESIDE, targets=(), beside=beside)
 
     def _targets(
         self, destination: Destination, phrase: NounPhrase, themes: Sequence[int], *, stays: bool
