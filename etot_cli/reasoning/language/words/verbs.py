@@ -161,7 +161,7 @@ NOTHING_IS = f"""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|
-    set out|laid out|lowered
+    set out|laid out|lowered|collected|gathered
 """ + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
 BROUGHT = _BROUGHT
 """What was taken from one place is then, to another one."""
