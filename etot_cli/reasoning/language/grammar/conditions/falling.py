@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.words import forbidden, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
 from etot_cli.world.spatial import Nearby
 
 
@@ -59,6 +59,11 @@ def _of_none(no: str, words: tuple[str, ...]) -> Things:
     return neither_of(words) if no == "neither" else Things((NounPhrase("all", words),))
 
 
+def _some_unharmed(things: Things) -> AvoidClause | None:
+    """Of some things none is to come to harm; "no object" is anything at all."""
+    return None if matches_any(things.phrases[0].head, THING_NOUNS) else unharmed(things)
+
+
 _NONE_OF = sequence(
     one_of({"neither": "neither [of the]", "no": "no, none of the"}), WORDS, build=_of_none
 )
@@ -83,7 +88,7 @@ UNHARMED = either(
         f"{forbidden.TOPPLES}, (may|must|should|will|can|shall|is to|does) ({_TOPPLE})",
         build=partial(AvoidClause, Avoid.HIT, negated=True),
     ),
-    sequence(_NONE_OF, f"({forbidden.MUST}) [ever] ({LEAVE_THE_DESK})", build=unharmed),
+    sequence(_NONE_OF, f"({forbidden.MUST}) [ever] ({LEAVE_THE_DESK})", build=_some_unharmed),
     sequence(THINGS, phrase(f"{_WILL_NOT} ({_TOPPLE})"), build=_not_toppled),
     phrase(
         f"nothing ({forbidden.FALLS_DOWN}), "

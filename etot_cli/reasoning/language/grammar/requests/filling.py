@@ -24,6 +24,8 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import (
     TARGETS,
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.turns import TURN
+from etot_cli.reasoning.language.grammar.requests.additions import put_of
 from etot_cli.reasoning.language.grammar.requests.emptying import emptied
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     CoverClause,
@@ -50,6 +52,10 @@ def _lidded(lids: Things) -> PutClause | None:
 
 def _filled(toward: Toward, np: NounPhrase, things: Things) -> PutClause:
     return put_to(things, (Destination(toward, (np,), FILLED),))
+
+
+def _filled_in_turn(toward: Toward, np: NounPhrase, things: Things, turns: Any) -> PutClause | None:
+    return put_of(_filled(toward, np, things).groups, turns)
 
 
 def _used(
@@ -84,7 +90,8 @@ FILL = quiet(
             noun_phrase,
             "with",
             THINGS,
-            build=_filled,
+            some(sequence(OPTIONAL_COMMA, TURN), most=2),
+            build=_filled_in_turn,
         ),
         sequence(
             # "Load the pan with the egg, and the tray with the cup"

@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import STATE, states
 from etot_cli.reasoning.language.grammar.requests.arrangements import STANDS_UP
@@ -130,7 +130,7 @@ _DONE_BEFORE = optional(sequence(CHAIN, LIST), ())
 
 def _to_the_target(np: NounPhrase, before: Reading, at: int, things: Things) -> Reading:
     """What is put down with no place said goes to the one that is named as the target."""
-    return (*before, Spoken(put_to(things, (Destination(Toward.TO, (np,)),)), at))
+    return (*before, Spoken(put_to(things, (Destination(Toward.TO, (np,), FILLED),)), at))
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:

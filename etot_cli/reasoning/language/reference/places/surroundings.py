@@ -322,6 +322,8 @@ class Surroundings:
                 raise ReferenceProblem(phrase.text, "it lies in a container", 2)
             if phrase.head in _STACKS and is_column(things, self._scene):
                 base = Resolved(((things[0],),), noun=phrase.head)  # the rest lies upon that
+                if things[0] in discourse.things(*themes):
+                    raise ReferenceProblem(phrase.text, "nothing can be put beside itself", 2)
                 found.append(discourse.add(base, phrase.text, Role.ANY))
             elif all(len(option) == 1 for option in referent.options):
                 found.append(index)
