@@ -96,7 +96,7 @@ from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
-from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, LIDS, matches_any, singular
 from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
@@ -132,6 +132,11 @@ def put(
     ruled_out = tuple(w for group in clause.groups for w in group.destinations if w.denied)
     clause = replace(clause, groups=tuple(group.not_denied for group in clause.groups))
     check_swept(context, clause)
+    targets = [np for g in clause.groups for at in g.destinations for np in at.targets]
+    to_desk = bool(targets) and all(np.head in DESK_NOUNS for np in targets)
+    if clause.stays and to_desk and isinstance(context.last, RemoveClause):
+        # "Take the stack apart and leave all blocks on the desk": those that lay upon others, too
+        clause, wherever = replace(clause, stays=False), True
     if clause.stays:
         clause = replace(clause, groups=tuple(map(rest_there, clause.groups)))
     placed: set[Thing | int] = set()

@@ -76,8 +76,9 @@ _FOOD = frozenset().union(
 """With what is eaten with it; drinks are none, but for milk."""
 _TOOLS = word_set(
     """
-    hammer mallet wrench spanner screwdriver drill saw hacksaw plier tweezer chisel file rasp clamp
-    vise level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel shears
+    hammer mallet wrench spanner screwdriver drill saw hacksaw plier chisel file rasp clamp vise
+    tweezer tong cutter snip nipper scraper awl crimper pry_bar torque_wrench
+    level crowbar axe hatchet ratchet sander soldering_iron multimeter caliper trowel shears
     secateurs rake shovel spade hoe pruner hand_fork handsaw pincer mattock pickaxe
     tape_measure measuring_tape box_cutter wire_cutter bolt_cutter wire_stripper utility_knife
     putty_knife stanley_knife craft_knife allen_key hex_key allen_wrench nut_driver heat_gun
@@ -265,6 +266,18 @@ def is_category(word: str) -> bool:
 def members_of(category: str) -> frozenset[str]:
     """The nouns, in the singular, of what counts among a category; empty where it is none."""
     return CATEGORIES.get(category) or CATEGORIES.get(singular(category), frozenset())
+
+
+_NO_TOPS = frozenset().union(*(_FRUIT, _VEGETABLES, _CUTLERY, _WRITING, _FLOWERS, _TOOLS))
+_NO_TOPS |= word_set("scissors ball sphere bottle egg brush toothbrush key needle candle")
+
+
+def has_no_top(label: str) -> bool:
+    """Whether nobody sets anything down on what has a label, flat as it may be: what is brought to
+    a pair of scissors is to lie beside it.
+    """
+    head = head_of(label.casefold().replace(" ", "_"))
+    return bool({head, singular(head)} & _NO_TOPS)
 
 
 def is_like_people(label: str) -> bool:

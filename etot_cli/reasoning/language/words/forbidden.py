@@ -36,7 +36,7 @@ WAS_HIT = """
 """
 DISTURBED = """
     moved [around|about|away], disturbed, lifted [up|off|out], picked up, shifted, displaced,
-    removed, taken [away|out|off]
+    removed, taken [away|out|off|down]
 """
 """Behind what must not be."""
 MAY = "may, can, could, should, must, shall, (is|are) to, (is|are) (allowed|permitted|supposed) to"
@@ -78,6 +78,10 @@ TOPPLES = """
     falls [over|down], topples [over], tips [over], tumbles [over|down], keels over,
     gets knocked over, is knocked over
 """
+NOTHING = "nothing|no (object|thing|item)|none of the (objects|things|items)"
+EVERYTHING = "(everything|(all [of] [the]|every) (objects|things|items|object|thing|item))"
+MUST = "must|may|should|shall|can|could|will|is to|is allowed to|has to|have to"
+"""In what is said of all things alike."""
 FALLS_DOWN = """
     (falls|drops|rolls|slips|tumbles|spills|tips|topples|breaks)
     [(out|off|over|down|away)] [(of|from) it]

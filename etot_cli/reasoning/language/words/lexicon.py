@@ -244,6 +244,7 @@ SIDES = {
     "far": "far", "farthest": "far",
     "furthest": "far", "farther": "far", "further": "far",
     "middle": "middle", "center": "middle", "centre": "middle", "central": "middle",
+    "outer": "outer", "outermost": "outer", "inner": "inner", "innermost": "inner",
 }  # fmt: skip
 """Words for where an object is, as seen from the robot."""
 LEVELS = {

@@ -130,8 +130,13 @@ ANYWHERE = """
     where you (like|want|please|wish)
 """
 """Before where something is not to go."""
-UP_OR_DOWN = "up, down"
+UP_OR_DOWN = "up, down, over"
 """Before a place, which is there."""
+TARGET = """
+    (target|destination|goal|receptacle) [location|position|container|place|spot|object]|
+    (place|spot) to put it
+"""
+"""What the place where things are to go is called."""
 BETWEEN = "[in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between"
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
 _LEFT = "to [the] left [hand] [side] of, left of, to the left from"
@@ -219,8 +224,8 @@ HOME = """
 """
 WAS_THERE = frozenset({"was", "were", "before"})
 IS_THERE = """
-    (is|are) [now|currently|standing|lying|sitting], stands, stand, lies, lie, sits, sit,
-    (was|were) [before]
+    [already|still|also] (is|are) [already|now|currently|standing|lying|sitting],
+    [already|still|also] (stands|stand|lies|lie|sits|sit), (was|were) [before]
 """
 """Behind "where the cup"."""
 ITS_SIDE: dict[Nearby, str] = {

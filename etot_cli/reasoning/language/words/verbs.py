@@ -151,7 +151,8 @@ SET_TO_BE = "set|returned|brought|switched|restored|changed|moved|put|left"
 ENSURE = """
     (ensure|ensuring|check|see|verify|confirm|guarantee|have) [that],
     (make|making|be) (sure|certain) [that], (take|taking) care that, see to it [that],
-    make it so [that], mind that, (watch|look) out that, (watch|see|be careful|be mindful) that,
+    make it so [that], bring [it] about that, mind that, (watch|look) out that,
+    (watch|see|be careful|be mindful) that,
     (i|we) (want|need|would like|prefer) that, (make|get|have) it [so] that, make that
 """
 ARRANGE = """
@@ -177,7 +178,7 @@ NOTHING_IS = f"""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|
-    set out|laid out|lowered
+    set out|laid out|lowered|collected|gathered
 """ + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
 BROUGHT = _BROUGHT
 """What was taken from one place is then, to another one."""
@@ -205,7 +206,7 @@ MODAL = f"""
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY}
-    (go [back]|end up|be ({_BROUGHT})|be left [{_BEING}]),
+    (go [back]|move|come|end up|be ({_BROUGHT})|be left [{_BEING}]),
     (can|could|may|might|will) {_SIMPLY} (stand|sit|lie|rest|live|belong),
     (would|might|could|will) (be|look|do|go|fit|sit|stand) ({_BETTER}|{_WELL}), look[s] ({_BETTER}),
     (is|are|go[es]|fit[s]) (better [off]|best), (is|are) best ({_BROUGHT}),
@@ -335,6 +336,17 @@ KEEP_ITS_PLACE = f"""
 FALL = "(fall|roll|slip|slide|tumble|drop) [down]"
 NOT_FALL = f"(does|do|can|will|should|must) not [ever] ({FALL})"
 """Before where something is to stay."""
+_MAY = "must|may|should|shall|can|could|will|is to|are to|(is|are) (allowed|permitted) to"
+_MAY_NOT = """
+    (must|may|should|shall|can|could|will) (not|never) [ever]|(is|are) (not|never) to|
+    (is|are) not (allowed|permitted|supposed) to
+"""
+_BE_TAKEN = "be (taken|removed|lifted|moved|brought|pulled|carried|fetched) [down|away|up]"
+LEAVE = f"({_MAY}) [ever] leave"
+NOT_LEAVE = f"({_MAY_NOT}) leave, (does|do) not leave, never leave[s]"
+BE_TAKEN = f"({_MAY}) [ever] ({_BE_TAKEN})"
+NOT_BE_TAKEN = f"({_MAY_NOT}) ({_BE_TAKEN})"
+"""Between what stays where it is, none of which does that or which does not, and that."""
 RECEIVE = "[should|must|shall|has to|needs to|is to] [also] (get|gets|receive|receives)"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
@@ -419,7 +431,8 @@ CHANGE_PLACES = """
     [around|round|over|about]
 """
 THE_ROBOT = """
-    [the|your|a|my] (robot [arm|hand|gripper]|robotic arm), (the|your) (arm|gripper|manipulator)
+    [the|your|a|my] (robot [arm|hand|gripper]|robotic arm),
+    (the|your) (arm|gripper|manipulator|planner|plan)
 """
 """Who is to do it, or what with."""
 PAST = past_tenses(

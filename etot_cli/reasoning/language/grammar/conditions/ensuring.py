@@ -30,8 +30,8 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
     ALWAYS,
     IN_OR_ON_IT,
     IS_OPEN_OR_CLOSED,
+    KEPT_THERE,
     NONE,
-    NOT_FALLING,
     OPEN_OR_CLOSED,
     PREDICATE,
     STAYS,
@@ -314,7 +314,7 @@ ENSURE = either(
     valued(
         either(
             sequence(optional("let"), STAYS),
-            NOT_FALLING,
+            KEPT_THERE,
             being("end[s] up"),
             containing(verbs.CONTAIN),
             containing(verbs.TO_CARRY, Toward.ON),

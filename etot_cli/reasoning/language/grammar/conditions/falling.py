@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from etot_cli.reasoning.language.grammar.parsers.combinators import either, one_of, phrase, sequence
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
@@ -12,7 +14,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.words import forbidden, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
 from etot_cli.world.spatial import Nearby
 
 
@@ -47,12 +49,24 @@ _DESK = "|".join(sorted(DESK_NOUNS))
 _WILL_NOT = "(does|do|will|can|may|should|must|shall) not"
 OFF_THE_DESK = f"({verbs.FALL}) (off [of]|from|over the edge of) the [edge of the] ({_DESK})"
 
+LEAVE_THE_DESK = f"""
+    {OFF_THE_DESK}|leave the ({_DESK})|be (taken|removed|moved|lifted) (off [of]|from) the ({_DESK})
+"""
 
-def _none_toppled(no: str, words: tuple[str, ...]) -> AvoidClause:
-    """What of some things none is to fall."""
-    several = no != "no"
-    things = neither_of(words) if several else Things((NounPhrase("all", words),))
-    return AvoidClause(Avoid.HIT, things, negated=True)
+
+def _of_none(no: str, words: tuple[str, ...]) -> Things:
+    """Some things, of which something is to happen to none."""
+    return neither_of(words) if no == "neither" else Things((NounPhrase("all", words),))
+
+
+def _some_unharmed(things: Things) -> AvoidClause | None:
+    """Of some things none is to come to harm; "no object" is anything at all."""
+    return None if matches_any(things.phrases[0].head, THING_NOUNS) else unharmed(things)
+
+
+_NONE_OF = sequence(
+    one_of({"neither": "neither [of the]", "no": "no, none of the"}), WORDS, build=_of_none
+)
 
 
 UNHARMED = either(
@@ -63,17 +77,25 @@ UNHARMED = either(
         f"{_WILL_NOT} [ever] {OFF_THE_DESK}",
         build=unharmed,
     ),
+    sequence(
+        THINGS,
+        f"({verbs.NOT_LEAVE}) the ({_DESK}), ({verbs.NOT_BE_TAKEN}) (off [of]|from) the ({_DESK})",
+        build=unharmed,
+    ),
     sequence(THINGS, "[be] not on the (floor|ground)", build=unharmed),
     sequence(
-        one_of({"neither": "neither [of the]", "no": "no"}),
-        WORDS,
+        _NONE_OF,
         f"{forbidden.TOPPLES}, (may|must|should|will|can|shall|is to|does) ({_TOPPLE})",
-        build=_none_toppled,
+        build=partial(AvoidClause, Avoid.HIT, negated=True),
     ),
+    sequence(_NONE_OF, f"({forbidden.MUST}) [ever] ({LEAVE_THE_DESK})", build=_some_unharmed),
     sequence(THINGS, phrase(f"{_WILL_NOT} ({_TOPPLE})"), build=_not_toppled),
     phrase(
         f"nothing ({forbidden.FALLS_DOWN}), "
-        f"nothing (should|must|may|shall) ({forbidden.FALL_DOWN})",
+        f"nothing (should|must|may|shall) ({forbidden.FALL_DOWN}), "
+        f"({forbidden.NOTHING}) ({forbidden.MUST}) [ever] ({LEAVE_THE_DESK}), "
+        f"({forbidden.NOTHING}) leaves the ({_DESK}), "
+        f"{forbidden.EVERYTHING} ({verbs.STAY}) on the ({_DESK})",
         NOTHING_HARMED,
     ),
 )

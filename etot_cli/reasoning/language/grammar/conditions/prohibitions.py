@@ -7,6 +7,7 @@ from functools import partial, reduce
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.conditions.falling import (
+    LEAVE_THE_DESK,
     NOTHING_HARMED,
     OFF_THE_DESK,
     UNHARMED,
@@ -197,7 +198,12 @@ _FORBIDDEN = either(
         "[off the (desk|table)] [down] (on|onto|to) the (floor|ground)",
         build=unharmed,
     ),
-    sequence("let[ting]", "anything", forbidden.FALL_DOWN, build=lambda: NOTHING_HARMED),
+    sequence(
+        "let[ting]",
+        "anything",
+        f"{forbidden.FALL_DOWN}, {LEAVE_THE_DESK}",
+        build=lambda: NOTHING_HARMED,
+    ),
     sequence(
         "drop[ping], spill[ing], break[ing], knock[ing] over",
         "anything",

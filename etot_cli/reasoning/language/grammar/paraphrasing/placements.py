@@ -35,6 +35,11 @@ _SAID_OF_IT = (
     r"|(?:is|are) to|ought to) )"
 )
 """What is asked for with some of several things, behind these."""
+_STACKED = (
+    r"(?:may|must|should|can|shall|is to|are to) (?:be|lie|stand|sit|rest|end up)"
+    r"(?: stacked| placed| put| standing| lying| sitting| resting)? on(?: top of)?"
+)
+_ENDS = r"(?=[.,;!?]|$)"
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
 )
@@ -239,6 +244,22 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (rf"\bneither (?:of the )?(\w+?)s? should (?:have|hold|contain) ({NAMED} [^.,:;]*?)"
      r"(?: in (?:it|them))?(?=[.,;!?]|$| and\b)", r"\2 should not be in either \1"),
+    # "… the blocks on the tray; no block may be stacked on another"
+    (
+        rf"(\b(\w+)s\b[^.;]*)[.;,] (?:but |and )?no \2 {_STACKED} another(?: \2| one)?{_ENDS}",
+        r"\1, none on another",
+    ),
+    (
+        rf"[.;,] (?:but |and )?(?:none|neither)(?: of (?:them|the (?:\w+ )?\w+))? {_STACKED} "
+        rf"(?:(?:an)?other(?: one)?|the others?|each other|any other(?: one)?){_ENDS}",
+        ", none on another",
+    ),
+    (
+        r"[.;,]? (?:but |and )?(?:without stacking (?:them|any of them)|do not stack "
+        r"(?:them|any of them)|no stacking)(?: up| on (?:top of )?(?:each other|one another))?"
+        rf"{_ENDS}",
+        ", none on another",
+    ),
     *TURNS_OF_PHRASE,
 )  # fmt: skip
 """In order."""

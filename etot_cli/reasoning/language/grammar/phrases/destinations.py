@@ -221,6 +221,7 @@ _BESIDE_IT = sequence(
     phrase("it, them"),
     build=lambda near, said: _beside(near, NounPhrase(pronoun=said, text=said)),
 )
+_WHERE_IT_IS = either(WITH, STEAD)
 _place = either(
     INTO,
     ONTO,
@@ -234,6 +235,13 @@ _place = either(
     AT_AN_END,
     WITH,
     sequence(WITH, OPTIONAL_COMMA, either(INTO, ONTO), build=told_by_it),
+    sequence(
+        # "To the tray, where the pen already is"
+        either(INTO, ONTO, _to),
+        OPTIONAL_COMMA,
+        WITH,
+        build=lambda around, where: told_by_it(where, around),
+    ),
     STEAD,
     sequence(
         STEAD,
@@ -291,7 +299,7 @@ destination = Rule(
         optional(places.SOMEWHERE),
         either(
             _place,
-            sequence(places.UP_OR_DOWN, either(INTO, ONTO, _to, _beside_something)),
+            sequence(places.UP_OR_DOWN, either(INTO, ONTO, _to, _beside_something, _WHERE_IT_IS)),
             sequence("directly, straight", either(INTO, ONTO)),
         ),
     )

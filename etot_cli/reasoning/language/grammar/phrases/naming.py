@@ -48,6 +48,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
     ORDINALS,
+    SIDES,
     THING_NOUNS,
     is_descriptive,
     matches_any,
@@ -376,6 +377,13 @@ noun_phrase.define(
                 valued(phrase(nouns.STACK), lambda noun: (noun,)),
                 MODIFIERS,
                 build=NounPhrase,
+            ),
+            sequence(
+                # "The outer two", "those left three"
+                "the, these, those",
+                word(lambda _, text: text in SIDES or text in LEVELS),
+                word(lambda _, text: NUMBERS.get(text, 1) > 1),
+                build=lambda side, count: NounPhrase(f"the {count}", (side, "ones")),
             ),
             sequence(DETERMINER, MODIFIERS, build=_nounless),
             sequence(

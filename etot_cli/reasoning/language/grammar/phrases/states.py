@@ -31,13 +31,14 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
+    Modifier,
     NounPhrase,
     State,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.words import forbidden, manner, nouns, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
@@ -123,9 +124,24 @@ def _opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...
 ALWAYS = optional(phrase(small_words.ALL_ALONG, True), False)
 
 
+def _is_no_demand(state: State) -> bool:
+    """Whether it says of everything alike that it is to be on the desk, in whatever is there."""
+    (np, *more), where = state.subjects, state.destinations
+    general = not (more or np.modifiers or np.without) and matches_any(
+        np.head, (*THING_NOUNS, "everything")
+    )
+    on_desk = [
+        at.toward is Toward.ON and not at.beside and [t.head in DESK_NOUNS for t in at.targets]
+        for at in where
+    ]
+    return general and len(np.words) == 1 and on_desk == [[True]] and not state.denied
+
+
 def _staying(nps: tuple[NounPhrase, ...], said: str, predicate: Any, always: bool) -> State | None:
     """What stays so; of what "may" do so nothing is asked."""
     state = state_of(nps, predicate)
+    if state is not None and _is_no_demand(state):
+        return None  # nothing is to leave the desk
     none = all(np.determiner in NONE for np in nps)
     allowed = bool({"can", "may"} & {*said.split()}) and not none
     return None if state is None else replace(state, kept=True, always=always, allowed=allowed)
@@ -207,19 +223,48 @@ def being(verb: str) -> Parser:
     )
 
 
-def _not_falling(nps: tuple[NounPhrase, ...], toward: Toward, np: NounPhrase) -> State | None:
-    """What stays where it is rather than fall; what falls off the desk comes to harm."""
-    lost = toward is Toward.ON and np.head in DESK_NOUNS
+def _kept_there(nps: tuple[NounPhrase, ...], toward: Toward, np: NounPhrase) -> State | None:
+    """What stays where it is rather than fall, or be taken away; what leaves the desk, on which
+    nothing is said to stay by that, comes to harm.
+    """
+    lost = toward is not Toward.INSIDE and np.head in DESK_NOUNS
+    none = all(n.determiner in NONE for n in nps)
+    if none:  # none of those that are there now
+        there = Modifier(Prep.FROM, (np,))
+        nps = tuple(replace(n, determiner=NONE[n.determiner]).told_by(there) for n in nps)
     return None if lost else State(nps, (Destination(toward, (np,)),), kept=True)
 
 
-NOT_FALLING = sequence(
-    either(
-        sequence(NP_LIST, verbs.NOT_FALL), sequence(forbidden.DO_NOT, "let", NP_LIST, verbs.FALL)
+_NONE_OF_THEM = sequence(
+    NP_LIST, build=lambda nps: nps if {np.determiner for np in nps} <= {*NONE} else None
+)
+_AWAY_FROM = one_of({Toward.ON: "off [of]", Toward.INSIDE: "out of", Toward.TO: "from"})
+KEPT_THERE = either(
+    sequence(
+        either(
+            sequence(NP_LIST, verbs.NOT_FALL),
+            sequence(forbidden.DO_NOT, "let", NP_LIST, verbs.FALL),
+        ),
+        one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
+        noun_phrase,
+        build=_kept_there,
     ),
-    one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
-    noun_phrase,
-    build=_not_falling,
+    sequence(
+        # "The mug must not be taken off the shelf"
+        NP_LIST,
+        either(
+            phrase(verbs.NOT_LEAVE, Toward.TO),
+            sequence(verbs.NOT_BE_TAKEN, _AWAY_FROM),
+        ),
+        noun_phrase,
+        build=_kept_there,
+    ),
+    sequence(
+        _NONE_OF_THEM,
+        either(phrase(verbs.LEAVE, Toward.TO), sequence(verbs.BE_TAKEN, _AWAY_FROM)),
+        noun_phrase,
+        build=_kept_there,
+    ),
 )
 _NONE_MAY_BE = sequence(
     NP_LIST,
@@ -231,7 +276,7 @@ STATE = either(
     being(f"{verbs.BE}, {verbs.LIES}"),
     _NONE_MAY_BE,
     STAYS,
-    NOT_FALLING,
+    KEPT_THERE,
     containing("contains, holds, has, have"),
     containing(verbs.CARRIES, Toward.ON),
 )

@@ -54,10 +54,7 @@ def _filled(toward: Toward, np: NounPhrase, things: Things) -> PutClause:
     return put_to(things, (Destination(toward, (np,), FILLED),))
 
 
-def _filled_in_turn(
-    toward: Toward, np: NounPhrase, things: Things, turns: tuple[Any, ...]
-) -> PutClause | None:
-    """What comes first or last into what is filled may be said behind it."""
+def _filled_in_turn(toward: Toward, np: NounPhrase, things: Things, turns: Any) -> PutClause | None:
     return put_of(_filled(toward, np, things).groups, turns)
 
 
@@ -93,7 +90,7 @@ FILL = quiet(
             noun_phrase,
             "with",
             THINGS,
-            some(sequence(OPTIONAL_COMMA, optional("but, and"), TURN), most=1),
+            some(sequence(OPTIONAL_COMMA, optional("but, and"), TURN), most=2),
             build=_filled_in_turn,
         ),
         sequence(

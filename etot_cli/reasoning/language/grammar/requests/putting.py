@@ -80,6 +80,7 @@ from etot_cli.reasoning.language.grammar.requests.word_order import (
     IS_WHERE,
     LISTED,
     NAMED_BEHIND,
+    OUT_OF_THE_ROW,
     SAID_AHEAD,
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, Turns, put_to
@@ -120,9 +121,10 @@ _SO_THAT_IT_IS = sequence(
 )
 
 
-def _got(gathered: bool, groups: tuple[PutGroup, ...]) -> PutClause:
+def _got(gathered: bool, groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     several = gathered and all(group.things.may_be_several for group in groups)
-    return PutClause(groups, far_fetched=0 if several else 2)
+    put = put_of(groups, extras)
+    return None if put is None else replace(put, far_fetched=0 if several else 2)
 
 
 def _stacked(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
@@ -405,6 +407,7 @@ PUT = either(
     LISTED,
     NAMED_BEHIND,
     ALONG_WITH,
+    OUT_OF_THE_ROW,
     sequence(
         # "Pick up the plum and place in the bowl"; "put away" and "set down" are no such words.
         verbs.PLACE,
@@ -436,6 +439,7 @@ PUT = either(
         # "Get the pen in the box" is rather about the pen that is there.
         either(phrase("get[ting]", False), phrase(verbs.GATHER, True)),
         PUT_GROUPS,
+        EXTRAS,
         build=_got,
     ),
     sequence(forbidden.DO_NOT, verbs.PUT, THINGS, INSTEAD, build=put_to),

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
     COMMA,
+    LIST,
     OPTIONAL_COMMA,
     not_after,
     noun_phrase,
@@ -214,3 +215,21 @@ ALONG_WITH = sequence(
     NP_LIST,
     build=lambda things, where, more: put_to(Things((*things, *more)), where),
 )
+OUT_OF_THE_ROW = sequence(
+    # "Move the red cube out of the row and set it down beside the box"
+    either(
+        sequence(f"{verbs.FETCH}, {verbs.PICK}, {verbs.TAKE}", THINGS),
+        sequence(ALL_THINGS, verbs.TO_BE_DONE, f"{verbs.TAKEN_FROM}, {verbs.TAKEN_UP}"),
+    ),
+    "(out of|from) (the|its|their) (row|line)",
+    optional(LIST),
+    optional(
+        either(
+            sequence(optional("then"), verbs.SET_DOWN, "it, them"),
+            sequence(optional("then"), optional("be"), verbs.DONE_WITH_IT),
+        )
+    ),
+    DESTINATIONS,
+    build=put_to,
+)
+"""Where things stand among others says nothing of where they go."""

@@ -254,6 +254,7 @@ def _said(node: object) -> Iterator[str]:
             said = things.phrases if things else ()
             all_but = any(item.prep is Prep.EXCEPT for np in said for item in np.modifiers)
             yield from ("only",) if all_but else ()
+            yield from ("all", "every") if things is None else ()
             yield from (_DENIAL, "other", "any", "after", "afterwards")
             yield from ("empty",) if avoid is Avoid.PUT else ()
         case Beside(text=text) if "other side of" in text:

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.conditions.predicates import BOTH_ARE
 from etot_cli.reasoning.language.grammar.conditions.prohibitions import AVOID, WITHOUT
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    located,
     one_of,
     optional,
     phrase,
@@ -28,7 +29,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     not_ahead,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import STATE, states
 from etot_cli.reasoning.language.grammar.requests.arrangements import STANDS_UP
@@ -124,6 +125,20 @@ def _started_with(first: NounPhrase, done: Reading) -> Reading | None:
     if not isinstance(clause, PutClause | MoveClause) or clause.turns != Turns():
         return None
     return (replace(done[0], clause=replace(clause, turns=Turns(first=(first,)))), *done[1:])
+
+
+_TARGET = either(
+    sequence("with, using, taking", noun_phrase, f"as [the|a|its|your] ({places.TARGET})"),
+    sequence(f"the ({places.TARGET}) is", noun_phrase),
+)
+
+
+_DONE_BEFORE = optional(sequence(CHAIN, LIST), ())
+
+
+def _to_the_target(np: NounPhrase, before: Reading, at: int, things: Things) -> Reading:
+    """What is put down with no place said goes to the one that is named as the target."""
+    return (*before, Spoken(put_to(things, (Destination(Toward.TO, (np,), FILLED),)), at))
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
@@ -430,6 +445,21 @@ WITH_MORE_BEFORE_IT = either(
     ),
     sequence(plain(WITHOUT), OPTIONAL_COMMA, CHAIN, build=add),
     sequence(manner.STARTING_WITH, noun_phrase, COMMA, CHAIN, build=_started_with),
+    sequence(
+        # "With the cup as the target, pick up the ball and place it"
+        _TARGET,
+        either(COMMA, COLON),
+        _DONE_BEFORE,
+        located(sequence(verbs.SET_DOWN, THINGS), lambda at, things: (at, things)),
+        build=lambda np, before, put: _to_the_target(np, before, *put),
+    ),
+    sequence(
+        _DONE_BEFORE,
+        located(sequence(verbs.SET_DOWN, THINGS), lambda at, things: (at, things)),
+        OPTIONAL_COMMA,
+        _TARGET,
+        build=lambda before, put, np: _to_the_target(np, before, *put),
+    ),
     sequence(
         EARLIER,
         OPTIONAL_COMMA,

@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID, pronouns
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import STATE, being
+from etot_cli.reasoning.language.grammar.phrases.states import NONE, STATE, being
 from etot_cli.reasoning.language.grammar.requests.arrangements import TURNED, turned
 from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE
@@ -56,8 +56,10 @@ _TAKEN = either(
 )
 
 
-def _taken(things: Things, said: tuple[bool, Any]) -> PickClause | RemoveClause:
+def _taken(things: Things, said: tuple[bool, Any]) -> PickClause | RemoveClause | None:
     up, source = said
+    if any(np.determiner in NONE or np.words == ("none",) for np in things.phrases):
+        return None  # what is taken from somewhere is something
     return PickClause(things.taken_from(source)) if up else RemoveClause(things, source)
 
 

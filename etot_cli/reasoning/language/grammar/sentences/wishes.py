@@ -71,6 +71,12 @@ def _shared(things: Things, place: NounPhrase) -> PutClause | None:
     return replace(put, grouping=Grouping.TOGETHER) if things.may_be_several else None
 
 
+def _shared_with(things: Things, place: NounPhrase, others: tuple[NounPhrase, ...]) -> PutClause:
+    """What has one place with others, all of which are there then."""
+    together = replace(things, phrases=(*things.phrases, *others))
+    return put_to(together, (Destination(Toward.TO, (place,), FILLED),))
+
+
 def _its_own(things: Things, place: NounPhrase) -> PutClause | None:
     """Things of which each is to have a place "of its own"."""
     own = place.determiner == "a" and place.words[:1] == ("different",)
@@ -127,6 +133,16 @@ WANTED = either(
         build=lambda np, things: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
     sequence(optional("have, let, make"), ALL_THINGS, verbs.SHARE, noun_phrase, build=_shared),
+    sequence(
+        # "The oil should share the shelf with the jar", which is there or goes there, too
+        optional("have, let, make"),
+        ALL_THINGS,
+        verbs.SHARE,
+        noun_phrase,
+        "with",
+        NP_LIST,
+        build=_shared_with,
+    ),
     sequence(
         # "The pen I want in the cup"
         ALL_THINGS,

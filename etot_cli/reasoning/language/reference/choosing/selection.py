@@ -321,6 +321,11 @@ def _at_side(
             why = f"{highest.name} is higher than {ordered[0].name}"
             raise ReferenceProblem(phrase, why, 2, word=side)
         return _leading(ordered, count, phrase)
+    if side in ("outer", "inner"):
+        ends, inner = rows.ends_of_row(things, scene)
+        if not (ends if side == "outer" else inner[1:]):
+            raise ReferenceProblem(phrase, "say which", 2, word=side)
+        return ends if side == "outer" else inner
     if side == "middle":
         upon = rows.is_column(things, scene)
         things = (rows.upon_each_other if upon else rows.in_a_row)(things, scene)

@@ -133,6 +133,14 @@ def in_a_row(things: Sequence[Thing], scene: SceneState) -> list[Thing]:
     return by_side(row_from(things, scene), things, scene)
 
 
+def ends_of_row(things: Sequence[Thing], scene: SceneState) -> tuple[list[Thing], list[Thing]]:
+    """The two at the ends of a row, and those between; none where things stand in no row."""
+    row, spread = in_a_row(things, scene), _spread(things, scene)
+    if len(row) < 3 or min(spread) > ROW * max(spread):
+        return [], []
+    return [row[0], row[-1]], row[1:-1]
+
+
 def row_from(things: Sequence[Thing], scene: SceneState) -> str:
     """The side at which a row of things begins."""
     width, depth = _spread(things, scene)

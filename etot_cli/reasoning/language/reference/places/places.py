@@ -12,7 +12,12 @@ from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Beside,
+    Destination,
+    NounPhrase,
+    Toward,
+)
 from etot_cli.reasoning.language.reference.geometry import rows, space
 from etot_cli.reasoning.language.reference.geometry.vessels import bears, lies_on
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
@@ -30,6 +35,7 @@ from etot_cli.reasoning.language.reference.pronouns.coreference import (
     meant_by_it,
 )
 from etot_cli.reasoning.language.reference.several import Phrases
+from etot_cli.reasoning.language.words.categories import has_no_top
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
@@ -40,6 +46,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN, Prep
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
@@ -114,6 +121,7 @@ class Places:
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
             if destination.word == LEVEL_OF_ALL:
                 raise ReferenceProblem(destination.targets[0].text, "say of what", 3)
+            destination = self._beside_what_has_no_top(destination)
             if destination.toward is Toward.BESIDE:
                 destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:
@@ -157,6 +165,28 @@ class Places:
             places.update(dict.fromkeys(found))
         return tuple(places)
 
+    def _beside_what_has_no_top(self, where: Destination) -> Destination:
+        """Next to what things are brought to that takes nothing in and nothing is put on."""
+        (np, *more) = where.targets or (NounPhrase(),)
+        plain = where.word in ("", ACROSS) and not (where.beside or more)
+        if where.toward is not Toward.TO or not plain or {*np.words} <= {*SIDES}:
+            return where  # pronouns have no words
+        things: set[Thing] = set()
+        with suppress(ReferenceProblem):
+            things = {*things_in(self._phrases.meaning(np, Role.ANY).options)}
+        infos = self._scene.infos
+        if not things or any(
+            thing.name not in infos
+            or self._scene.states[thing.name].inside is not None  # rather where that is
+            or can_be(thing, Role.CONTAINER, self._scene)
+            or not has_no_top(infos[thing.name].label)
+            for thing in things
+        ):
+            return where
+        self.discourse.notes.append(f"'to {np.text}': next to it")
+        beside = (Beside(Nearby.NEXT_TO, (np,), f"next to {np.text}"),)
+        return replace(where, toward=Toward.BESIDE, targets=(), beside=beside)
+
     def _targets(
         self, destination: Destination, phrase: NounPhrase, themes: Sequence[int], *, stays: bool
     ) -> list[Place]:
@@ -194,6 +224,8 @@ class Places:
             ways = in_or_on(self.discourse, toward, index, themes)
             if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
                 ways = in_or_on(self.discourse, Toward.ON, index, themes)
+            if destination.word == FILLED and not ways:  # it may stick out
+                ways = in_or_on(self.discourse, Toward.INSIDE, index, themes)
             found += ways if destination.word == FILLED else self._on_first(phrase, ways)
         if not found:
             raise ReferenceProblem(phrase.text, "say whether on it, into it or next to it", 3)

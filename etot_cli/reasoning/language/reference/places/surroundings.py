@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 from etot_cli.reasoning.language.reference.choosing.modified import names_of_things
 from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.geometry.areas import side_across
+from etot_cli.reasoning.language.reference.geometry.rows import is_column
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
@@ -27,6 +28,7 @@ from etot_cli.reasoning.language.reference.places.alongside import put_on_the_sa
 from etot_cli.reasoning.language.reference.pronouns.coreference import PLURAL_PRONOUNS
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.words.lexicon import singular, word_set
+from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import ACROSS, Prep
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
@@ -34,6 +36,7 @@ from etot_cli.world.state import DESK, SceneState, owner_of
 
 _OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
 _OPPOSITE |= {other: one for one, other in _OPPOSITE.items()}
+_STACKS = frozenset(spellings(STACK))
 _PARTS = word_set("edge end border rim half part corner quarter area")
 """Words for parts of a flat top."""
 
@@ -348,7 +351,12 @@ class Surroundings:
             around = (owner_of(state.inside) for state in kept if state.inside is not None)
             if not below >= {*around}:
                 raise ReferenceProblem(phrase.text, "it lies in a container", 2)
-            if all(len(option) == 1 for option in referent.options):
+            if phrase.head in _STACKS and is_column(things, self._scene):
+                base = Resolved(((things[0],),), noun=phrase.head)  # the rest lies upon that
+                if things[0] in discourse.things(*themes):
+                    raise ReferenceProblem(phrase.text, "nothing can be put beside itself", 2)
+                found.append(discourse.add(base, phrase.text, Role.ANY))
+            elif all(len(option) == 1 for option in referent.options):
                 found.append(index)
             else:
                 for thing in things:
