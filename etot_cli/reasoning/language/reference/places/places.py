@@ -224,7 +224,8 @@ class Places:
             ways = in_or_on(self.discourse, toward, index, themes)
             if destination.word == ONWARD and not ways:  # "from the crate to the tall box"
                 ways = in_or_on(self.discourse, Toward.ON, index, themes)
-            if destination.word == FILLED and not ways:  # it may stick out
+            holds = [can_be(thing, Role.CONTAINER, self._scene) for thing in options[0]]
+            if destination.word == FILLED and not ways and all(holds):  # it may stick out
                 ways = in_or_on(self.discourse, Toward.INSIDE, index, themes)
             found += ways if destination.word == FILLED else self._on_first(phrase, ways)
         if not found:
