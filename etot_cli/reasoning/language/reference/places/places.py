@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import bearers, is_open
+from etot_cli.reasoning.builtin.relations import bearers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
@@ -146,8 +146,30 @@ class Places:
                     found = [self._at_end(place, destination.word) for place in found]
                 if destination.beside:
                     found = self._spots.narrowed(found, destination, themes)
+            if destination.toward is Toward.HERE or any(np.pronoun for np in destination.targets):
+                found = [self._as_before(place, themes) for place in found]
             places.update(dict.fromkeys(found))
         return tuple(places)
+
+    def _as_before(self, place: Place, themes: Sequence[int]) -> Place:
+        """Behind the door of the cabinet that things were put in ("close the door when they are in")
+        they are where they went.
+        """
+        discourse, things = self.discourse, set(self.discourse.things(*themes))
+        if place.relation is not Relation.INSIDE or place.where is None or place.beside:
+            return place
+        parts = discourse.things(place.where)
+        for around in {*discourse.put_into.values()}:
+            put = [i for i, at in discourse.put_into.items() if at == around]
+            behind = [(thing.name, thing.part) for thing in parts] == [
+                (whole.name, part.name)
+                for whole in discourse.things(around)
+                if whole.part is None
+                for part in parts_of(self._scene, whole)
+            ]
+            if behind and things <= {*discourse.things(*put)}:
+                return replace(place, where=around)
+        return place
 
     def _targets(
         self, destination: Destination, phrase: NounPhrase, themes: Sequence[int], *, stays: bool
