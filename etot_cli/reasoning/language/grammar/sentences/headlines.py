@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.grammar.requests.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.requests.emptying import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.requests.towers import STACKED
 from etot_cli.reasoning.language.grammar.sentences.clauses import INSTEAD, LEFT_OUT, plain
+from etot_cli.reasoning.language.grammar.sentences.doubles import on_one_place
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
@@ -159,6 +160,7 @@ PLACED = Rule(
     timed(
         VERBLESS,
         sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
+        sequence(VERBLESS, OPTIONAL_COMMA, manner.NOT_STACKED, build=on_one_place),
         sequence(ALL_THINGS, build=taken_out),
         sequence(ALL_THINGS, "down (from|off)", noun_phrase, build=RemoveClause),
         sequence(ALL_THINGS, "out, off", build=RemoveClause),
