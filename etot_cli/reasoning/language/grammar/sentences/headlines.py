@@ -44,6 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
     PutClause,
     RemoveClause,
+    ReorientClause,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -57,6 +58,7 @@ from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import words_of
+from etot_cli.world.spatial import Nearby
 
 
 def left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
@@ -141,6 +143,12 @@ def _none_there(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> 
     return None if state is None else EnsureClause((state,), 1)
 
 
+def _upright(things: Things) -> ReorientClause | None:
+    """What is to stand upright; "pen in the cup upright" rather says how the pen stands there."""
+    told = any(np.modifiers for np in things.phrases)
+    return None if told else ReorientClause(things, Nearby.UPRIGHT)
+
+
 LEFT_SO = Rule(
     timed(
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
@@ -153,6 +161,7 @@ LEFT_SO = Rule(
         UNTOUCHED,
         BOTH_LEFT_SO,
         STATE_NAMED,
+        sequence(ALL_THINGS, optional(_IS), manner.ERECT, build=_upright),
     )
 )
 """How something is to be in the end ("drawer shut")."""
