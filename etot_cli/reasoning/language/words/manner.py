@@ -53,7 +53,8 @@ NOT_STACKED = """
     one another|the other[s]|any other [one]),
     [but|and] not (on [top of]|in|inside) (each other|one another),
     [but|and] not one (on [top of]|in|inside) (the other|another),
-    [and|but|with] no stacking [them|allowed|please], [but] without stacking [them|any [of them]|anything],
+    [and|but|with] no stacking [them|allowed|please],
+    [but] without stacking [them|any [of them]|anything],
     [and|but] (not stacked|unstacked) [up] [on [top of] (each other|one another)]
 """
 """Behind where all of some things lie side by side."""

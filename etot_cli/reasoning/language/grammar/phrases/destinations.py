@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    Parser,
     Rule,
     either,
     one_of,
@@ -19,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
+    COLOR,
     COMMA,
     EXACTLY,
     OPTIONAL_COMMA,
@@ -26,6 +28,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     alternatives,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD, Input, Result
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
 from etot_cli.reasoning.language.grammar.phrases.levels import AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
@@ -41,6 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     in_a_stance,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import basic_color
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -144,9 +148,28 @@ BESIDES = valued(
     lambda found: tuple(item for several in found for item in several),
 )
 INTO = sequence(places.INTO, TARGETS, build=_toward(Toward.INSIDE))
+_BEHIND_COLORS = frozenset({COMMA, "and", "then", NO_WORD})
+
+
+def _told_by_color(given: Input, at: int) -> list[Result]:
+    """The one of a colour, where something has a noun ("the green block on blue"); of colours alone
+    stacks are built.
+    """
+    named = any(
+        word == "the" or word in given.nouns for word in given.words if basic_color(word) is None
+    )
+    found = COLOR.find(given, at) if named else ()
+    return [
+        (end, (NounPhrase("the", (color, "one"), text=color, loose=True),))
+        for end, color in found
+        if given.ahead[end] in _BEHIND_COLORS
+    ]
+
+
+_COLOR_ALONE = Parser(_told_by_color, lambda: COLOR.first)
 ONTO = sequence(
     phrase(places.ONTO),
-    TARGETS,
+    either(TARGETS, _COLOR_ALONE),
     build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
 )
 

@@ -17,10 +17,10 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     some,
     valued,
-    word,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
+    COLOR,
     COMMA,
     LIST,
     LIST_COMMA,
@@ -41,9 +41,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Thing
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
-    COMMON_NOUNS,
     NUMBERS,
-    basic_color,
     same_noun,
     singular,
     word_set,
@@ -164,9 +162,8 @@ def _one_out_of(nps: tuple[NounPhrase, ...]) -> Things | None:
 
 
 _COORDINATION = sequence(_LIST, build=lambda nps: None if _out_of(nps) else nps)
-_COLOR = word(lambda given, text: basic_color(text) is not None and text not in COMMON_NOUNS)
 _COLORED_ONES = sequence(
-    _COLOR, build=lambda color: (NounPhrase("all", (color, "ones"), text=color),)
+    COLOR, build=lambda color: (NounPhrase("all", (color, "ones"), text=color),)
 )
 
 
@@ -184,7 +181,7 @@ def _colors_alone(given: Input, at: int) -> list[Result]:
     ]
 
 
-_COLORS = separated(_COLOR, LIST, most=4)
+_COLORS = separated(COLOR, LIST, most=4)
 _BEFORE_COLORS = {COMMA, COLON, "and", "but", "then", *words_of((verbs.PLACE, verbs.KEEP))}
 _BEHIND_COLORS = word_set(
     "in inside into on onto to at where go goes belong belongs stay stays remain remains should"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import chain
 from operator import add
 
 from etot_cli.reasoning.language.grammar.conditions.ensuring import ENSURE
@@ -407,7 +408,7 @@ WITH_MORE_BEFORE_IT = either(
         some(sequence(LIST, optional("with"), _SO_BY_THEN), most=3),
         COMMA,
         CHAIN,
-        build=lambda first, more, rest: once_done(sum(more, first), rest),
+        build=lambda first, more, rest: once_done((*first, *chain(*more)), rest),
     ),
     sequence(
         "with",

@@ -173,9 +173,7 @@ def on_one_place(clause: Clause) -> Clause | None:
     return clause if several and upon else None
 
 
-SIDE_BY_SIDE = sequence(
-    either(PUT, ENSURE), OPTIONAL_COMMA, manner.NOT_STACKED, build=on_one_place
-)
+SIDE_BY_SIDE = sequence(either(PUT, ENSURE), OPTIONAL_COMMA, manner.NOT_STACKED, build=on_one_place)
 """Several things on one place, none of them on another one."""
 
 

@@ -32,8 +32,9 @@ def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
     return None if held else (*first, *rest)
 
 
-def _kept_upright(at: int, things: Things, rest: Reading) -> Reading | None:
+def _kept_upright(kept: tuple[int, Things], rest: Reading) -> Reading | None:
     """What is kept upright while it, or something else, is put somewhere."""
+    at, things = kept
     put = rest[0].clause
     if not isinstance(put, PutClause) or len(put.groups) != 1:
         return None
@@ -67,6 +68,6 @@ MEANWHILE = either(
         OPTIONAL_COMMA,
         f"{small_words.WHILE}, when [you [are]], and, and then, throughout as you",
         CHAIN,
-        build=lambda kept, rest: _kept_upright(*kept, rest),
+        build=_kept_upright,
     ),
 )

@@ -152,8 +152,8 @@ class Places:
         return tuple(places)
 
     def _as_before(self, place: Place, themes: Sequence[int]) -> Place:
-        """Behind the door of the cabinet that things were put in ("close the door when they are in")
-        they are where they went.
+        """Behind the door of the cabinet that things were put in they are where they went ("close
+        the door when they are in").
         """
         discourse, things = self.discourse, set(self.discourse.things(*themes))
         if place.relation is not Relation.INSIDE or place.where is None or place.beside:
