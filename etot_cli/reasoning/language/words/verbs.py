@@ -183,7 +183,8 @@ BROUGHT = _BROUGHT
 """What was taken from one place is then, to another one."""
 NOTHING_GOES = """
     (nothing|no (thing|object|item)) (should|must|may|can|shall|is to|has to)
-    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move)
+    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move),
+    (nothing|no (thing|object|item)) (goes|belongs)
 """
 """Before where nothing more is to go."""
 _BEING = "standing|lying|sitting|located|resting"
