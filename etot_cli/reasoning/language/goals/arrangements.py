@@ -160,7 +160,8 @@ def _reverse(context: Context, clause: TowerClause) -> None:
             there = thing.name if thing else "none"
             raise ReferenceProblem(end.text, f"it is {there} that is there then", 3)
     indices = [context.single(thing, thing.name) for thing in things]
-    context.steps.append(Put((indices[0],), (context.home(stack[0]),)))
+    foot = context.places.of(clause.base, indices[:1]) or (context.home(stack[0]),)
+    context.steps.append(Put((indices[0],), foot))
     for (under, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
         place = _upon(context, lower, upper, under, inside=False)
         context.steps.append(Put((above,), (place,)))

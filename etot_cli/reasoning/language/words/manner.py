@@ -46,7 +46,9 @@ UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that
 ATOP = "on top [of (it|that|everything)], on (that|this) [one], upon (that|this) [one]"
 """Behind what comes on what was put on the base."""
 AS_BASE = "[as|be|being|is|to be] (the|its|your|my|a) (base|bottom|foundation) [block|piece|layer]"
-TURNED_OVER = "[to be] the other way (around|up)"
+TURNED_OVER = """
+    [to be] the other way (around|up), in reverse [order], in the (reverse|opposite) order
+"""
 """Behind a stack that is to be so."""
 NOT_STACKED = """
     [with] none [of them] [stacked|lying|standing] on [top of] (another [one]|each other|
