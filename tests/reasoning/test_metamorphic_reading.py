@@ -358,10 +358,7 @@ def test_grown_and_broken_sentences_are_read_or_refused_in_time(seeds: list[int]
     """5,200 sentences: none crashes the reader, none takes long."""
     vocabulary = Vocabulary(BREAKFAST)
     for text in map(grown, seeds):
-        took_s = reading_s(text, vocabulary)
-        if took_s >= LIMIT_S:  # a virtual machine that stood still is charged to whoever runs
-            took_s = reading_s(text, vocabulary)
-        assert took_s < LIMIT_S, text
+        assert is_read_in_time(text, vocabulary), text
 
 
 @pytest.mark.slow
@@ -372,7 +369,12 @@ def test_things_described_at_random_are_read_or_refused_in_time(name: str) -> No
     labels = [info.label for info in scene.infos.values()]
     for number in range(60):
         text = pick.choice(JOINTS).join(composed(pick, labels) for _ in range(1 + number % 2))
-        assert reading_s(text, vocabulary, scene) < LIMIT_S, text
+        assert is_read_in_time(text, vocabulary, scene), text
+
+
+def is_read_in_time(text: str, vocabulary: Vocabulary, scene: SceneState = BREAKFAST) -> bool:
+    """Tried twice: a virtual machine that stands still is charged to whoever runs."""
+    return any(reading_s(text, vocabulary, scene) < LIMIT_S for _ in range(2))
 
 
 def reading_s(text: str, vocabulary: Vocabulary, scene: SceneState = BREAKFAST) -> float:

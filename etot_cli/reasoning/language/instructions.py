@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.grammar.text.splitting import QUESTION, sentenc
 from etot_cli.reasoning.language.languages import other_language
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.rewording import Refused, rewordings
+from etot_cli.reasoning.language.start_told import without_start
 from etot_cli.reasoning.language.viewpoint import without_viewpoint
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.categories import is_category
@@ -65,6 +66,8 @@ _WITHIN = word_set("in on into onto inside")
 """A heading by which things are put into or onto others says where, which is to be read."""
 _BUILT = words_of((verbs.BUILD,)) | {"on", "in", "onto"}
 """With "stack" they say what is to become of things."""
+_ALSO_VERBS = frozenset({"open", "please", "first", "empty", "free", "you"})
+"""They begin a request, too, though things are told by them."""
 _DECLARED = frozenset({"is", "are"})
 _OF_ITS_OWN = re.compile(
     r"\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
@@ -104,6 +107,8 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
         with suppress(UnreadableError, ReferenceProblem):
             return _read(text, scene, vocabulary, common=True)
         with suppress(UnreadableError, ReferenceProblem):
+            return _from_start(instruction, scene, vocabulary)
+        with suppress(UnreadableError, ReferenceProblem):
             return _below_heading(instruction, scene, vocabulary)
         with suppress(UnreadableError, ReferenceProblem):
             return _as_end_state(text, scene, vocabulary)
@@ -131,6 +136,42 @@ def _as_end_state(text: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
             raise UnreadableError(text, "")
     note = "what is said to be so is taken for what is to be so in the end"
     return replace(goal, notes=(note, *goal.notes))
+
+
+def _from_start(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What is to be so in the end, where it is told as well how things are at the start: that asks
+    for nothing, and it is noted where it is not so.
+
+    Raises:
+        UnreadableError, ReferenceProblem: no start is told, or the rest is not read.
+    """
+    told = without_start(instruction)
+    if told is None:
+        raise UnreadableError(instruction, "")
+    notes: list[str] = []
+    for sentence in sentences_of(normalized(told.start)):
+        first, *more = sentence.split()
+        asks = first in VERB_WORDS | OTHER_VERBS | _ALSO_VERBS
+        if asks or {"not", "no", "never", "without"} & {first, *more}:
+            raise UnreadableError(sentence, "")  # it asks for, or forbids, something
+        notes += [] if _holds(sentence, scene, vocabulary) else [f"not so at the start: {sentence}"]
+    goal = _read(normalized(told.asked), scene, vocabulary)
+    return replace(goal, notes=(*notes, *goal.notes))
+
+
+def _holds(sentence: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
+    """Whether what is said to be so is.
+
+    Raises:
+        UnreadableError, ReferenceProblem: it is not understood.
+    """
+    try:
+        goal = _read(f"in the end {sentence}", scene, vocabulary)
+    except UnreadableError:
+        goal = _read(sentence, scene, vocabulary)
+    with suppress(InstructionError, ReasonerStopped):
+        return not plans_of(goal, scene, ordered=False)
+    return False
 
 
 def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:

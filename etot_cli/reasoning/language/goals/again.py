@@ -68,6 +68,8 @@ def again(context: Context, clause: AgainClause) -> None:
         _check_another(context, clause.things, themes)
         # "All toys into the box, the bear too": it is one of them.
         themes = [i for i in themes if not {*context.discourse.things(i)} <= there]
+        if not (themes or clause.trailing):  # "…, followed by the cup on the desk" is another one
+            raise ReferenceProblem(text, "it has been put somewhere; say what is meant", 3)
         if set(themes) & {index for place in step.places for index in place.referents()}:
             raise ReferenceProblem(text, "nothing can be put into or on itself", 2)
         if clause.trailing and any(_like_a_place(context, step, index) for index in themes):

@@ -65,6 +65,8 @@ def tower(context: Context, clause: TowerClause) -> None:
     if places:
         context.steps.append(Put((indices[0],), places))
         foot = places[0].where
+        if len(things) == 1:
+            context.discourse.last_places = places
         if len(things) == 1 and len(places) == 1 and foot is not None:
             bottom = foot
     for under, above in pairwise(indices):

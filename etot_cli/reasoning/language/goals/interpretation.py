@@ -59,7 +59,9 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     discourse = Discourse(scene, returning=returning)
     state = Understanding(scene, discourse, Resolver(scene, vocabulary))
     for sentence in sentences:
+        known = state.context.discourse.undecided
         state = best_reading(state, sentence)
+        _leave_open(state.context.discourse, known, sentence.text)
     goal = with_room_made(state.goal(complete=True), state.context.in_the_way)
     check_kept(goal, scene)
     check_shut(goal, scene)
@@ -84,6 +86,23 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         text = sentences[-1 if wished else 0].text
         raise ReferenceProblem(text, f"this says {said}, but not what to do", 2)
     return without_needless(goal)
+
+
+_ARTICLE = re.compile(
+    r"\b(?:the|an?|my|our|your|this|that|these|those|both|all|one|it|them|its|their|every|each)\b"
+)
+
+
+def _leave_open(discourse: Discourse, known: frozenset[int], sentence: str) -> None:
+    """In a sentence without any article "pen in holder" is about a holder, whichever that is."""
+    if _ARTICLE.search(sentence):
+        return
+    for index in sorted(discourse.undecided - known):
+        referent = discourse.referents[index]
+        if len(referent.options) > 1:
+            names = " or ".join(thing.address for thing in things_in(referent.options))
+            discourse.notes.append(f"{referent.text!r} is any: {names}")
+            discourse.undecided -= {index}
 
 
 def _used(goal: Goal) -> set[int]:

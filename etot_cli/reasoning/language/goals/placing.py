@@ -23,10 +23,16 @@ from etot_cli.reasoning.builtin.relations import can_topple, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.asides.asides import ASIDE
-from etot_cli.reasoning.language.grammar.phrases.destinations import EACH_OTHER
+from etot_cli.reasoning.language.grammar.phrases.abreast import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax.clauses import CoverClause, PutGroup, ReorientClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.reference.geometry.space import is_flat
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world import spatial
@@ -34,6 +40,7 @@ from etot_cli.world.spatial import Nearby, Whereabouts
 from etot_cli.world.stance import NO_SIDE, can_lie
 from etot_cli.world.state import DESK
 
+_REGIONS = (Nearby.AT_LEFT, Nearby.AT_RIGHT, Nearby.AT_FRONT, Nearby.AT_BACK)
 _NO_PLACES = (
     Prep.OF,
     Prep.FROM,
@@ -62,6 +69,7 @@ _ELSEWHERE = (
     r"|(?:an?|another) (?:(?:new|good|better|safer?|suitable|different|proper) )+(?:place|spot"
     r"|position|location)|another (?:place|spot|position|location)"
     r"|(?:somewhere|anywhere) (?:that is )?not in the way"
+    r"|(?:anywhere|wherever)(?: else)?(?: you \w+)?(?: ~comma|,)? (?:but|except|just|not|other)"
     r"|(?:somewhere|anywhere|(?:a (?:place|spot|position) )?where|wherever|so that|such that)"
     r" (?:where )?(?:it|they)"
     r" (?:is|are|do|does|will|can)|out of the way(?! of\b))\b"
@@ -200,10 +208,52 @@ def side_by_side(group: PutGroup) -> tuple[PutGroup, bool]:
     return replace(group, destinations=named if said else group.destinations), said
 
 
-def put_side_by_side(context: Context, places_of: dict[int, tuple[Place, ...]]) -> None:
+def told_sides(group: PutGroup) -> tuple[tuple[NounPhrase, Nearby], ...]:
+    """Which of several things that go next to each other is on which side of the others."""
+    return tuple(
+        (item.phrases[1], item.relation)
+        for where in group.destinations
+        for item in where.beside
+        if EACH_OTHER in item.phrases and item.phrases[1:]
+    )
+
+
+_OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
+_OPPOSITE |= {other: side for side, other in _OPPOSITE.items()}
+
+
+def _side_of_first(
+    context: Context,
+    pair: Sequence[Thing],
+    told: Sequence[tuple[NounPhrase, Nearby]],
+) -> Nearby:
+    """The side of the first of two things that the second one is on.
+
+    Raises:
+        ReferenceProblem: another thing is told to be there, or both are on the same side.
+    """
+    sides: set[Nearby] = set()
+    for np, side in told:
+        with_noun = np if np.words else replace(np, words=("one",))
+        (index, *more) = context.phrases.things(Things((with_noun,)), Role.THEME)
+        (thing, *others) = context.only(index, "say which one")
+        if more or others or thing not in pair or len(pair) != 2:
+            raise ReferenceProblem(np.text, "say which of two things it is that is there", 3)
+        sides |= {side if thing == pair[1] else _OPPOSITE[side]}
+    if len(sides) != 1:
+        named = [np.text for np, _ in told]
+        raise AmbiguousReference(named[-1], named, "only one of them can be there:")
+    return sides.pop()
+
+
+def put_side_by_side(
+    context: Context,
+    places_of: dict[int, tuple[Place, ...]],
+    told: Sequence[tuple[NounPhrase, Nearby]] = (),
+) -> None:
     """Puts the first of several things somewhere, and each other one next to the one before it.
 
-    Without a place the first one stays where it is.
+    Without a place the first one stays where it is; ``told``: which of two is on which side.
     """
     text = " and ".join(context.discourse.referents[index].text for index in places_of)
     things = [
@@ -215,16 +265,47 @@ def put_side_by_side(context: Context, places_of: dict[int, tuple[Place, ...]]) 
         raise ReferenceProblem(text, "say next to what", 3)
     if any(p.relation is Relation.INSIDE for _, places in things for p in places):
         raise ReferenceProblem(text, "things are next to each other on something flat only", 3)
+    sides = [Nearby.NEXT_TO]
+    if told:
+        sides.append(_side_of_first(context, [thing for thing, _ in things], told))
     before: int | None = None
     for thing, places in things:
         index = context.single(thing, thing.name)
         if before is not None:
-            near = Near(Nearby.NEXT_TO, (before,))
-            places = tuple(replace(place, beside=(*place.beside, near)) for place in places)
-            add_put(context, (index,), places or (Place(Relation.ON, None, (near,)),), Grouping.ANY)
+            near = tuple(Near(side, (before,)) for side in sides)
+            places = tuple(replace(place, beside=(*place.beside, *near)) for place in places)
+            add_put(context, (index,), places or (Place(Relation.ON, None, near),), Grouping.ANY)
         elif places:
             add_put(context, (index,), places, Grouping.ANY)
         before = index
+    context.discourse.abreast = {thing for thing, _ in things}
+
+
+_BARE_SIDES = ({"left"}, {"right"}, {"front"}, {"back"}, {"rear"})
+
+
+def _is_bare_side(where: Destination) -> bool:
+    """Whether a place is called "on the right", and no more is said of it."""
+    region = [item for item in where.beside if item.relation in _REGIONS and not item.phrases]
+    named = [np for np in where.targets if {*np.words} in _BARE_SIDES and not np.modifiers]
+    return bool(named or (region and not where.targets))
+
+
+def check_no_side(context: Context, group: PutGroup, themes: Sequence[int]) -> None:
+    """Of two things that go next to each other "the white one on the right" is on that side of the
+    other one, and not of the desk.
+
+    Raises:
+        ReferenceProblem: it would go to that side of the desk.
+    """
+    things = {*context.discourse.things(*themes)}
+    if (
+        any(map(_is_bare_side, group.destinations))
+        and things
+        and things <= context.discourse.abreast
+    ):
+        why = "say to the right or left of what"
+        raise ReferenceProblem(group.things.text, why, 3)
 
 
 def _tell_where(context: Context, things: Things, named: Sequence[int]) -> None:
@@ -291,11 +372,16 @@ def reorient(context: Context, clause: ReorientClause) -> None:
                 _keep_standing(context, index)
                 continue
         near, state = Near(clause.stance), "lies" if lying else "stands upright"
+        any_of_them = context.discourse.things(index)
+        so = Whereabouts(clause.stance)
+        if not lying and all(spatial.holds(so, t.name, context.scene) for t in any_of_them):
+            context.discourse.notes += [f"{thing.name} {state} as it is" for thing in any_of_them]
+            continue
         for thing in context.only(index, "say which one"):
             if lying and thing in context.discourse.things(*context.discourse.put):
                 why = f"{thing.name} is put somewhere else before; say where it is to lie"
                 raise ReferenceProblem(thing.name, why, 5)
-            if spatial.holds(Whereabouts(clause.stance), thing.name, context.scene):
+            if spatial.holds(so, thing.name, context.scene):
                 context.discourse.notes.append(f"{thing.name} {state} as it is")
             else:
                 place = replace(context.home(thing), beside=(near,))

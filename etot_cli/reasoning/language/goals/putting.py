@@ -54,9 +54,11 @@ from etot_cli.reasoning.language.goals.pairing import (
 from etot_cli.reasoning.language.goals.placing import (
     add_put,
     add_puts,
+    check_no_side,
     put_side_by_side,
     side_by_side,
     spread,
+    told_sides,
     with_stance,
 )
 from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is, leave_out
@@ -176,7 +178,9 @@ def put(
         several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
         if is_different(group) and several == 1:
             group = elsewhere(group)
+        told = told_sides(group)
         group, abreast = side_by_side(group)
+        check_no_side(context, group, themes)
         destinations, grouping = distributed(group, grouping)
         found = context.places.of(destinations, themes, stays=wherever or clause.stays)
         places = not_beside(context, found, ruled_out, themes)
@@ -184,6 +188,9 @@ def put(
             check_stance(group, stance)
             avoid(context, AvoidClause(Avoid.MOVE, group.things))
             continue
+        just_put = (s for s in context.done if clause.stays and isinstance(s, Put))
+        if any(s.what == tuple(themes) and s.places == places for s in just_put):
+            continue  # "move the cup to the tray and leave it there"
         check_contrasted(context, group.things, themes, places)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
@@ -222,7 +229,7 @@ def put(
         for condition in (item for item in clause.conditions if item not in shut):
             _condition(context, condition, themes, places_of)
         if abreast:
-            put_side_by_side(context, places_of)
+            put_side_by_side(context, places_of, told)
         else:
             add_puts(context, places_of, grouping)
         for condition in shut:

@@ -93,6 +93,9 @@ def remove(context: Context, clause: RemoveClause) -> None:
     elif clause.source is None:
         for index in themes:
             choose_from_somewhere(context, index)
+    if clause.freed:
+        own = (m.referent for m in discourse.mentions if m.clause == discourse.clause)
+        discourse.is_about({*own})
     discourse.last_places = context.source(themes)
     for place in discourse.last_places:
         context.mention_part(place)

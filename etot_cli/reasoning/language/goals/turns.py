@@ -125,24 +125,37 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
 
     "First" goes before everything that was said before it, "before that" before the clause before
     it, "last" after everything. Puts of one sentence that no word puts in an order are a run, a
-    set of placements ("the red block on the green one and the green one on the blue one").
+    set of placements ("the red block on the green one and the green one on the blue one"); what was
+    said before what goes ahead of it is not of that one's run.
     """
     done: list[Timed] = []
     last: list[Timed] = []
-    for item in said:
-        if item.order is Order.FIRST:
+    ahead: Timed | None = None
+    for number, item in enumerate(said):
+        along = ahead is not None and item.sentence == ahead.sentence and item.order is Order.SAID
+        # A door that is named last is rather closed behind all of it.
+        along = along and all(isinstance(step, Put) for step in item.steps)
+        if item.order is Order.BEFORE_THAT:
+            that = said[number - 1] if number else None
+            here = (at for at, other in enumerate(done) if other is that)
+            done.insert(next(here, max(len(done) - 1, 0)), item)
+        elif along:  # "…, but before that take the cup off and put the pen in the box"
+            done.insert(next(at for at, other in enumerate(done) if other is ahead) + 1, item)
+        elif item.order is Order.FIRST:
             done.insert(0, item)
-        elif item.order is Order.BEFORE_THAT:
-            done.insert(max(len(done) - 1, 0), item)
         elif item.order is Order.LAST and not _goes_elsewhere(item, said, discourse):
             last.append(item)
         else:
             done.append(item)
+        ahead = item if along or item.order is Order.BEFORE_THAT else None
     steps: list[Step] = []
     run, sentence = 0, -1
+    position = {id(item): at for at, item in enumerate(said)}
+    before = -1
     for item in [*done, *last]:
         waits = any(isinstance(step, Put) and step.aside for step in item.steps)
-        if item.sentence != sentence or item.order is not Order.SAID:
+        overtaken, before = position[id(item)] < before, position[id(item)]
+        if item.sentence != sentence or item.order is not Order.SAID or overtaken:
             run, sentence = run + 1, item.sentence
         for step in item.steps:
             run += waits

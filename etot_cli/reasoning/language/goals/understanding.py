@@ -85,6 +85,7 @@ class Understanding:
         timed: dict[int, Timed] = {}
         before: int | None = None
         placed: list[tuple[Spoken, dict[Thing, tuple[Place | None, ...]]]] = []
+        asked: list[tuple[Clause, tuple[Step, ...]]] = []
 
         def ahead(spoken: Spoken) -> bool:
             later = reading[reading.index(spoken) + 1 :]
@@ -123,7 +124,9 @@ class Understanding:
                 elif self.timed:
                     self.timed[-1] = set_down(self.context, self.timed[-1], steps)
             self.context.last = spoken.clause
-            item = Timed(steps, spoken.order, self.sentence)
+            order = Order.THEN if self._comes_next(spoken, steps, asked) else spoken.order
+            asked.append((spoken.clause, steps))
+            item = Timed(steps, order, self.sentence)
             if before is not None and continues(timed[before], item):
                 timed[before] = replace(timed[before], steps=(*timed[before].steps, *steps))
             else:
@@ -131,6 +134,31 @@ class Understanding:
                 timed[before] = item
         check_opposites(self.context.discourse)
         self.timed += [timed[id(spoken)] for spoken in reading if id(spoken) in timed]
+
+    def _comes_next(
+        self,
+        spoken: Spoken,
+        steps: Sequence[Step],
+        before: Sequence[tuple[Clause, tuple[Step, ...]]],
+    ) -> bool:
+        """Whether what goes somewhere goes there from where it was put before something was opened
+        ("put the ball aside, open the drawer, put the ball in").
+        """
+        if spoken.order is not Order.SAID or not isinstance(spoken.clause, PutClause):
+            return False
+        opened = [at for at, (said, _) in enumerate(before) if isinstance(said, MoveClause)]
+        earlier = before[: opened[-1]] if opened else ()
+        put = [step for said, done in earlier if isinstance(said, PutClause) for step in done]
+        moved, now = (
+            {
+                thing
+                for step in found
+                if isinstance(step, Put) and not step.removal
+                for thing in self.context.discourse.things(*step.what)
+            }
+            for found in (put, steps)
+        )
+        return bool(moved & now)
 
     def _at_its_time(
         self,

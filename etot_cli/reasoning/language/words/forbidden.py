@@ -31,7 +31,8 @@ TOUCHED = """
     messed with, interfered with, fiddled with
 """
 WAS_HIT = """
-    [so much as] (hit|struck|bumped [into]|nudged|jostled), knocked [over|into], pushed [over]
+    [so much as] (hit|struck|bumped [into]|nudged|jostled), knocked [over|into], pushed [over],
+    tipped over, toppled
 """
 DISTURBED = """
     moved [around|about|away], disturbed, lifted [up|off|out], picked up, shifted, displaced,

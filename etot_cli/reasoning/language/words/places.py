@@ -125,6 +125,11 @@ SOMEWHERE = """
     (in|at|to) a safe (place|spot) [~comma]
 """
 """Before a place that is said more closely."""
+ANYWHERE = """
+    (anywhere|wherever|somewhere|some place) [else] [you (like|want|please|wish|prefer)], elsewhere,
+    where you (like|want|please|wish)
+"""
+"""Before where something is not to go."""
 UP_OR_DOWN = "up, down"
 """Before a place, which is there."""
 BETWEEN = "[in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between"

@@ -96,7 +96,7 @@ WITHOUT_MEANING = f"""
     ~comma (dude|bro|sis|ma am|miss|mister|[good|dear|kind] (sir|madam)|folks|[you] guys|son|boss),
     ~comma [my] (young|good|old|dear|clever) (man|lady|friend|fellow|boy|girl|chap),
     ~comma [my] [little|good|dear|clever] (helper|robot),
-    by (then|tonight|tomorrow [(morning|noon|evening|night)]|noon|midnight|
+    by (tonight|tomorrow [(morning|noon|evening|night)]|noon|midnight|
     lunchtime|bedtime|(this|the) (afternoon|evening)),
     (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here],
     (by the time|before) (i|we|they|he|she|(the|our|my) (guests|kids|children))
@@ -127,9 +127,15 @@ TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 TASK = f"""
     {ANNOUNCED} ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
-    [the|a] [desired|required|intended] (desired|final|goal|target|end|wanted|required)
+    [the|a] [desired|required|intended]
+    (desired|final|goal|target|end|wanted|required|termination|success)
     (state|configuration|arrangement|result|situation|setup|condition|conditions|layout|
     picture) ~comma,
+    [the] (goal|target|(desired|final|goal|target|end) (state|configuration))
+    to (reach|achieve|attain|be (reached|achieved|attained)) ~comma,
+    (achieve|reach) [this|the following] [state|configuration|result] ~comma,
+    what ((has|needs|is) to|should|must) (hold|be (achieved|reached|attained|so|true))
+    [(in|at|by) the end] ~comma,
     [my|our|the|a] [small|little|simple|one] (request|wish|instruction) ~comma,
     [my|our|the|your] (goal|task|job|request|wish|(end|final|goal) state) is
     [very|really|quite] (simple|easy|clear|this|as follows|the following) ~comma
@@ -182,7 +188,8 @@ FRAMES = f"""
     (can|could|would|will) (you|u),
     (can|could|will|may|might) i [please] (ask|trouble|bother) you to,
     (would|will) you be able to, could you possibly,
-    [is there] any (chance|way) [that] [you (can|could|would)], shall we [please],
+    [is there] (any|a) (chance|way|possibility) [that] [you (can|could|would|might)],
+    (do|would) you think [that] you (can|could|might) [be able to], shall we [please],
     (would|could|can|will) (somebody|someone|anybody|anyone), you (might|may) (want|like|wish) to,
     you (should|must|[will] have to|[will] need to|can|may|had better), better,
     (the|your) (task|goal|job|aim) is to, your task is,
@@ -198,7 +205,8 @@ FRAMES = f"""
     (how|what) about [[if] you], why do not you,
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
     i (was|am) hoping [that] you (could|would),
-    (would|is) it [be] possible to, it would be (good|great|nice|kind|lovely|better) [of you] to,
+    (would|is) it [be] possible [for you] to,
+    it would be (good|great|nice|kind|lovely|better) [of you] to,
     i [would|must|have to|would like to] ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by,
     (i|we) [(really|just|still|also)] ought to, we [(really|just|still|also)] (need|have) to,
@@ -297,7 +305,7 @@ SAME_AGAIN = """
 """
 """Before things that what was just asked for is asked for, too."""
 ALSO = "[~comma] (too|as well|also), likewise, [~comma] ditto"
-BEFORE_ALL = "before (anything|everything) else [(is|gets) done|happens]"
+BEFORE_ALL = "before [(doing|you do)] (anything|everything) else [(is|gets) done|happens]"
 LEADING_FIRST = f"""
     first, [but] {BEFORE_ALL}, [but] before all [of] (that|this),
     firstly, first of all, to (begin|start) [off] with, for (a start|starters),
@@ -305,7 +313,7 @@ LEADING_FIRST = f"""
     [as (a|the|your)|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
 LEADING_BEFORE = """
-    [but] before [doing] (that|this), [but] before (doing|you do) so, [but] beforehand
+    [but] before [doing|you do] (that|this), [but] before (doing|you do) (so|it), [but] beforehand
 """
 LEADING_LAST = f"""
     finally, lastly, last, last of all, last but not least, {_AT_END},

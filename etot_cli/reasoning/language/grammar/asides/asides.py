@@ -11,7 +11,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause, clauses_of
-from etot_cli.reasoning.language.grammar.asides.displeasure import dislikes, in_state, is_answered
+from etot_cli.reasoning.language.grammar.asides.displeasure import (
+    dislikes,
+    in_state,
+    is_answered,
+    is_misplaced,
+)
 from etot_cli.reasoning.language.grammar.asides.going import goes_to_it
 from etot_cli.reasoning.language.grammar.asides.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.asides.left_open import (
@@ -61,7 +66,7 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     words_in,
 )
 from etot_cli.reasoning.language.words.known import all_words
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, word_set
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, NUMBERS, word_set
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
@@ -291,7 +296,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             apart = at > 0 and (last or clauses[at + 1].comma or clauses[at + 1].joint == "and")
             return apart and not any(map(is_name, clause.said.split()))
         case "purpose", "before":
-            named = any(map(is_name, clause.said.split()))
+            # "…, but before you do that, close it" says when.
+            named = clause.said.startswith("you do ") or any(map(is_name, clause.said.split()))
             if at == 0 and not all(item.is_polite for item in clauses[1:]):
                 # "Before you do that, …" is about an order.
                 told = not re.match(r"(?:you|we|i)\b", clause.said)
@@ -358,18 +364,24 @@ def _of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:
 
 
 def _named(asides: Iterable[str], is_name: IsName) -> str:
-    """What asides name in the scene, as a remark."""
-    phrases = [
-        in_state(said, phrase) for said in asides for phrase in _phrases(said.split(), is_name)
-    ]
-    return f"{' and '.join(dict.fromkeys(phrases))} {ASIDE}" if phrases else ""
+    """What asides name in the scene, as a remark. Of what stands too close to something else more
+    is said next, so that is named last and alone.
+    """
+    phrases, alone = list[str](), list[str]()
+    for said in asides:
+        found = [in_state(said, phrase) for phrase in _phrases(said.split(), is_name)]
+        alone += found[:1] if is_misplaced(said) else []
+        phrases += found[1:] if is_misplaced(said) else found
+    remarks = (" and ".join(dict.fromkeys(named)) for named in (phrases, alone))
+    return ". ".join(f"{named} {ASIDE}" for named in remarks if named)
 
 
 def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
     """Phrases that name something in the scene."""
     for at, word in enumerate(words):
         if word in BEFORE_NAMES:
-            end = last = at + 1 + (words[at + 1 : at + 2] in _LIKED)
+            counted = words[at + 1 : at + 2] in _LIKED or {*words[at + 1 : at + 2]} & {*NUMBERS}
+            end = last = at + 1 + bool(counted)
             while end < len(words) and is_told_apart_by(words[end], is_name):
                 end += 1
                 last = end if is_name(words[end - 1]) else last

@@ -59,6 +59,21 @@ _HALF_DONE = Expression(
     rf"|(?<=slightly )open|ajar)(?: {_SO})*"
 )
 """What is not to be left half open is opened, or closed, by what is asked for next."""
+_STANDING = (
+    r"(?:is|are|stands?|lies?|sits?|rests?|looks?|gets?)"
+    r"(?: (?:standing|lying|sitting|resting|placed|still|again|now|just))*"
+)
+_VERY = (
+    r"(?: (?:a (?:bit|little)|far|much|way|rather|really|quite|very|so|dangerously|precariously))*"
+)
+_NEAR = r"(?:close to|near(?: to)?|by|at|on)"
+_MISPLACED = Expression(
+    rf"(?!.*\b(?:not|never|must|should|may|can|that)\b){_thing('k')} {_STANDING}{_VERY} "
+    r"(?:too (?:close|near|far)(?: \w+)*"
+    rf"|(?:right|almost|nearly|dangerously|precariously|very|too) {_NEAR} the (?:very )?"
+    r"(?:edge|rim|border|brink)(?: of (?:the|my|our) \w+)?)(?P<l>)"
+)
+"""Where something is not to be left."""
 _MOVED_NEXT = Expression(
     r"(?:(?:please|but|and|so|just|rather|instead|then|(?:can|could|would|will) you) )*"
     r"(?:open|close|shut) (?:it|them|that)\b(?! one\b)"
@@ -74,6 +89,11 @@ _PRONOUNS = word_set("it them that this those these")
 def dislikes(said: str) -> bool:
     """Whether a clause tells such a thing."""
     return _found(said) is not None
+
+
+def is_misplaced(said: str) -> bool:
+    """Whether a clause tells where something is not to be left."""
+    return bool(_MISPLACED.fullmatch(said))
 
 
 def in_state(said: str, phrase: str) -> str:
@@ -102,7 +122,7 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
 
 def _found(said: str) -> tuple[str, str] | None:
     """What a clause is about, and whether it says that it is open or closed."""
-    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _BUMPED, _HALF_DONE):
+    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _BUMPED, _HALF_DONE, _MISPLACED):
         if found := pattern.fullmatch(said):
             told = found.groupdict()
             if told.get("does") in _HELPING:

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
     OPTIONAL_COMMA,
     exceptions,
     noun_phrase,
@@ -55,7 +56,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, nouns, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -78,8 +79,8 @@ def _left_stacked(things: Things) -> AvoidClause | None:
 
 def _not_wanted(things: Things) -> AvoidClause | None:
     """What is to be left alone; "any cups on the tray" are not to be there."""
-    places = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
-    return None if places else AvoidClause(Avoid.MOVE, things, negated=True)
+    told = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
+    return None if told else AvoidClause(Avoid.MOVE, things, negated=True)
 
 
 def _unused(nps: tuple[NounPhrase, ...], things: Things | None) -> AvoidClause:
@@ -116,7 +117,47 @@ def _not_falling_off(nps: tuple[NounPhrase, ...], np: NounPhrase) -> Clause:
     return EnsureClause((State(nps, (Destination(Toward.ON, (np,)),), kept=True),))
 
 
+def _strictest(done: tuple[Avoid, ...]) -> Avoid | None:
+    """What rules out all that must not be done: what is not touched is not moved, either."""
+    kinds = {*done}
+    return Avoid.TOUCH if Avoid.TOUCH in kinds else kinds.pop() if len(kinds) == 1 else None
+
+
+_OR = either(sequence(OPTIONAL_COMMA, "or, nor"), COMMA)
+_DONE = sequence(
+    separated(
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCHED,
+                Avoid.MOVE: forbidden.DISTURBED,
+                Avoid.HIT: forbidden.WAS_HIT,
+            }
+        ),
+        _OR,
+        most=3,
+    ),
+    build=_strictest,
+)
+"""Behind "must not be": one or several things that are not to happen ("lifted or shifted")."""
+_DOING = sequence(
+    separated(
+        one_of(
+            {
+                Avoid.TOUCH: forbidden.TOUCH,
+                Avoid.MOVE: f"{forbidden.DISTURB}, {verbs.PICK}",
+                Avoid.HIT: forbidden.HIT,
+            }
+        ),
+        _OR,
+        most=3,
+    ),
+    build=lambda done: _strictest(done) if done[1:] else None,
+)
+"""Several such things behind "do not" or "without" ("lift or move")."""
+
+
 _FORBIDDEN = either(
+    sequence(_DOING, THINGS, build=_avoid),
     sequence(
         one_of(
             {
@@ -234,9 +275,10 @@ AVOID = either(
     sequence(
         # "The cup can go anywhere but the drawer"
         THINGS,
-        f"{forbidden.MAY_GO} (anywhere|wherever you (like|want)) [else]",
+        f"{forbidden.MAY_GO}",
+        places.ANYWHERE,
         OPTIONAL_COMMA,
-        nouns.EXCEPT,
+        f"{nouns.EXCEPT}, {nouns.CONTRAST}",
         either(DESTINATIONS, sequence(NP_LIST, build=lambda nps: (Destination(Toward.TO, nps),))),
         build=lambda things, where: AvoidClause(Avoid.PUT, things, where, negated=True),
     ),
@@ -244,13 +286,7 @@ AVOID = either(
         # "None of the cups may be moved"
         noun_phrase,
         f"({forbidden.MAY}) be",
-        one_of(
-            {
-                Avoid.TOUCH: forbidden.TOUCHED,
-                Avoid.MOVE: forbidden.DISTURBED,
-                Avoid.HIT: forbidden.WAS_HIT,
-            }
-        ),
+        _DONE,
         build=_none_disturbed,
     ),
     sequence(
@@ -260,15 +296,7 @@ AVOID = either(
         either(
             sequence(
                 f"({forbidden.MAY}) be [ever]",
-                one_of(
-                    {
-                        Avoid.TOUCH: forbidden.TOUCHED,
-                        Avoid.MOVE: forbidden.DISTURBED,
-                        Avoid.HIT: forbidden.WAS_HIT,
-                        Avoid.OPEN: "opened",
-                        Avoid.CLOSE: "closed, shut",
-                    }
-                ),
+                either(_DONE, one_of({Avoid.OPEN: "opened", Avoid.CLOSE: "closed, shut"})),
             ),
             phrase(f"({forbidden.MAY}) move", Avoid.MOVE),
         ),
@@ -294,14 +322,7 @@ AVOID = either(
     sequence(
         THINGS,
         forbidden.NOT_TO_BE,
-        one_of(
-            {
-                Avoid.TOUCH: forbidden.TOUCHED,
-                Avoid.MOVE: forbidden.DISTURBED,
-                Avoid.HIT: forbidden.WAS_HIT,
-                Avoid.OPEN: "opened",
-            }
-        ),
+        either(_DONE, phrase("opened", Avoid.OPEN)),
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),
 )

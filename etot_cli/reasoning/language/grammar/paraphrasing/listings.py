@@ -38,7 +38,18 @@ def _one_by_one(said: re.Match[str]) -> str:
     return f"{asked} these{where}: {', then '.join(parts)}"
 
 
+def _picked_and_placed(said: re.Match[str]) -> str:
+    """What goes where, told as two entries of a form ("pick: pen. place: cup")."""
+    thing, place = said["thing"].strip(), said["place"].strip()
+    return said["before"] + (f"{thing} {place}" if re.match(WHERE, place) else f"{place}: {thing}")
+
+
 LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        r"(?P<before>^|[.;\n] ?)(?:pick(?: up)?|grasp|object|item): ?(?P<thing>[^.,;:\n]+)"
+        r"[.,;\n]\s*(?:and )?(?:place|put|drop|target|destination): ?(?P<place>[^.,;:\n]+)",
+        _picked_and_placed,
+    ),
     (
         r"\b(put|place|set|stack) (?:these|them|the following|these things|the following things)"
         r"( (?:on|in|into|onto) [^:.;]*?),? in (?:this|the following) order: ([^.;]*)",

@@ -133,6 +133,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (rf"\b((?:on|in) {NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(please |(?:could|can) you )?(without \w+ing any other [^,.;]*), ([^.;]*)", r"\1\3 \2"),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
+    # A place behind what follows tells which that is: where it goes was said before
+    (rf",? followed by (?={NAMED} (?:(?!and\b)\w+ )+{WHERE})", ", then likewise "),
     (r",? followed by ", ", then "),
     (
         rf"\b(?:keep|leave) ({NAMED} [^.,;]*?) stacked(?=[.,;]| and\b|$)(?! on)",
@@ -156,6 +158,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     # "The box itself" is the box; "by itself" and "inside itself" are something else.
     (rf"\b({NAMED}(?: (?!(?:{_NO_NOUN})\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
     (rf"\bbut none of (?={NAMED})", "but not "),
+    (r", (?:but )?only not (?=(?:in|on|into|onto|to|the|an?|next|beside|near)\b)", ", just not "),
     (r"\bthe pair of them\b", "both of them"),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
     (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),
@@ -339,7 +342,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1 is empty",
     ),
     (r"\bup (?=with\b)", ""),
-    (r"(^|[.;,] )only then (?=\w)", r"\1then "),
+    (
+        r"(^|[.;,] |\b(?:and|but) )only (?:then|afterwards?|thereafter|after (?:that|this)),? "
+        r"(?=\w)(?!(?:should|may|can|could|must|shall|will|is|are|has|have|does|do)\b)",
+        r"\1then ",
+    ),
     (
         r"\bthe (middle|left|right|\w+most|\w+est|first|second|third|last) (\w+) of the "
         r"(two|three|four|five)\b(?! \w+s\b)",

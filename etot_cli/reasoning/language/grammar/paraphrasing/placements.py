@@ -20,6 +20,21 @@ _OF_TWO = r"one of (?:the two|them|these|those)"
 _NOUNS = r"(?:(?:the|my) )?\w+(?: (?!or\b|and\b)\w+){0,2}"
 _LIE = r"(?:(?:be (?:put |placed |moved )?|stay|remain|go|end up|stand|lie) ?)"
 _THERE = r"(?:(?:in|on|inside) it|inside|there|(?:in|on|inside) (?!it\b|them\b)\w[^.,;:]*?)"
+_SO_MANY = r"(?:one|an?|two|three|four|five|\d)"
+_WHICH = r"which(?: (?:ones?|of (?:them|these|those)))?"
+_ANY_OF_THEM = (
+    r"(?:(?:it (?:really )?(?:does not (?:really )?matter|makes no difference)"
+    r"|(?:i|we) do not (?:really )?(?:mind|care)|no matter|you (?:can )?(?:choose|decide|pick)"
+    rf"|(?:it is )?(?:up to you|your choice)) {_WHICH}"
+    rf"|any (?:{_SO_MANY} )?(?:of them )?(?:will|would) do"
+    rf"|any (?:{_SO_MANY} )?(?:of them )?(?:is|are|would be) (?:fine|ok|okay))"
+)
+"""Which of several things are meant is left open."""
+_SAID_OF_IT = (
+    r"(?:(?:in|into|on|onto|next to|beside|behind|should|must|needs?|belongs?|goes|go|ha(?:s|ve) to"
+    r"|(?:is|are) to|ought to) )"
+)
+"""What is asked for with some of several things, behind these."""
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
 )
@@ -162,9 +177,10 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"\b{_OF_TWO}(?:,| -)? ?\(?({_NOUNS}) or ({_NOUNS})(?:\)|, |(?= (?:should|goes|has)\b))",
         r"either \1 or \2 ",
     ),
+    # "Two of the cups, no matter which, should be on the tray"
     (
-        r"\b((?:one|an?) (?:\w+ )??\w+), (?:no matter|it does not matter) which(?: one)?, "
-        r"(?=(?:in|into|on|onto|next to|beside|behind) )",
+        rf"\b((?:{_SO_MANY})(?: \w+){{1,5}})(?:,| -| \() ?{_ANY_OF_THEM}(?:,|\)| -) "
+        rf"(?={_SAID_OF_IT})",
         r"\1 ",
     ),
     # Of levels "on top" is the upper one.

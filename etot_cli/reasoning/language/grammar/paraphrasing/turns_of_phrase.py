@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.asides.remarks import PEOPLE
-from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 from etot_cli.world.colors import BASIC_COLORS
 
 _COLOR = "|".join(BASIC_COLORS)
@@ -24,6 +24,7 @@ _AFTERWARDS = (
     r"|(?:when|once) you have finished)"
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
+_NOW = "currently|at present|at the moment|presently|right now|now|still"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
 _TO_GO = (
     rf"{NAMED} (?:\w+ ){{1,3}}?"
@@ -277,6 +278,20 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"\1 ",
     ),
     # How a thing is by now
+    (
+        rf"\b(that|which) (?:{_NOW}) (?=(?:is|are|stands?|lies?|sits?|rests?) (?:{WHERE}|there\b))",
+        r"\1 ",
+    ),
+    (
+        rf"\b((?:that|which) (?:is|are|stands?|lies?|sits?|rests?)) (?:{_NOW}) "
+        rf"(?={WHERE}|there\b)",
+        r"\1 ",
+    ),
+    (
+        r", (?:currently|presently|at present|at the moment) "
+        rf"(?=(?:in|on|inside|next to) [^,.;]*, {WHERE})",
+        ", which is ",
+    ),
     (
         r"\b((?:that|which) (?:is|are)) (?:still|currently|now|right now|at the moment|at present) "
         rf"(?={_IS_SO}{_END})",

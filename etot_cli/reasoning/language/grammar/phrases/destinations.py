@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from operator import add
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
     Parser,
     Rule,
     either,
@@ -16,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     quiet,
     separated,
     sequence,
+    some,
     spanned,
     valued,
 )
@@ -29,6 +32,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD, Input, Result
+from etot_cli.reasoning.language.grammar.phrases.abreast import ABREAST, ABREAST_SO, EACH_OTHER
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
 from etot_cli.reasoning.language.grammar.phrases.levels import AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
@@ -60,8 +64,8 @@ ACROSS = "over to"
 """The word of a destination that things are brought over to, be it into it or beside it."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
-EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
-"""What each of several things is to be beside."""
+THE_DESK = NounPhrase("the", ("desk",), text="the desk")
+"""What has room for anything."""
 TARGETS = sequence(
     alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
 )
@@ -89,7 +93,6 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
     return (Beside(relation, nps),)
 
 
-_CLOSE_BY = f"{places.NEARBY[Nearby.NEXT_TO]}, {places.NEARBY[Nearby.NEAR]}"
 _NEARBY = one_of({**places.NEARBY, Nearby.NEAR: places.GOES_NEAR, Nearby.AWAY: places.GOES_AWAY})
 _REGION = one_of(places.REGIONS)
 _ITS_SIDE = one_of(places.ITS_SIDE)
@@ -97,13 +100,6 @@ _SIDE_OF_IT = one_of(
     {Nearby.LEFT: "left [hand] side, left", Nearby.RIGHT: "right [hand] side, right"}
 )
 _REGION_OF_IT = one_of(places.REGION_OF_IT)
-_ABREAST = valued(
-    either(
-        "side by side, close[r] together, as close together",
-        sequence(_CLOSE_BY, "each other, one another"),
-    ),
-    lambda _: _beside(Nearby.NEXT_TO, EACH_OTHER),
-)
 BESIDE = spanned(
     either(
         sequence(
@@ -132,7 +128,8 @@ BESIDE = spanned(
             _REGION_OF_IT,
             build=lambda np, regions: _region(regions, np),
         ),
-        _ABREAST,
+        ABREAST,
+        sequence(ABREAST, ABREAST_SO, build=add),
         valued(BETWEEN, lambda pair: (Beside(Nearby.BETWEEN, pair),)),
         sequence(
             EXACTLY,
@@ -143,9 +140,36 @@ BESIDE = spanned(
     ),
     lambda text, found: tuple(replace(item, text=text) for item in found),
 )
-BESIDES = valued(
-    separated(BESIDE, either(COMMA, "and, but"), most=3),
-    lambda found: tuple(item for several in found for item in several),
+_SIDES_OF_IT = {Nearby.AT_LEFT: Nearby.LEFT, Nearby.AT_RIGHT: Nearby.RIGHT}
+_OF_THE_DESK = frozenset({"far", "half", "part", "end", "edge", "border"})
+"""With such words a side is that of the desk, whatever is said before."""
+
+
+def _besides(first: tuple[Beside, ...], more: Any) -> tuple[Beside, ...]:
+    """All that is said of where; "next to the cup, on the right" is on the cup's right."""
+    found = list(first)
+    for behind_comma, also in more:
+        (near, *others), (item, *further) = found, also
+        side = _SIDES_OF_IT.get(item.relation)
+        bare = not (item.phrases or further or _OF_THE_DESK & {*item.text.split()})
+        known = near.relation in (Nearby.NEXT_TO, Nearby.NEAR) and near.phrases[1:] == ()
+        of_it = side and bare and behind_comma and known and not others
+        if of_it and side and EACH_OTHER not in near.phrases:
+            item = replace(item, relation=side, phrases=near.phrases)
+        found += (item, *further)
+    return tuple(found)
+
+
+BESIDES = sequence(
+    BESIDE,
+    some(
+        either(
+            sequence(COMMA, BESIDE, build=lambda also: (True, also)),
+            sequence("and, but", BESIDE, build=lambda also: (False, also)),
+        ),
+        most=3,
+    ),
+    build=_besides,
 )
 INTO = sequence(places.INTO, TARGETS, build=_toward(Toward.INSIDE))
 _BEHIND_COLORS = frozenset({COMMA, "and", "then", NO_WORD})
@@ -247,7 +271,7 @@ _place = either(
     valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
     _beside_something,
     sequence(
-        _ABREAST,
+        ABREAST,
         BESIDES,
         build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
     ),
@@ -270,9 +294,15 @@ _place = either(
         ),
     ),
     sequence(
-        either(_ABREAST, sequence(BESIDES, COMMA), _BESIDE_IT),
+        either(ABREAST, sequence(BESIDES, COMMA), _BESIDE_IT),
         either(ONTO, _to, INTO),
         build=lambda found, surface: replace(surface, beside=found),
+    ),
+    sequence(
+        ABREAST,
+        either(ONTO, _to),
+        ABREAST_SO,
+        build=lambda abreast, surface, so: replace(surface, beside=(*abreast, *so)),
     ),
 )
 destination = Rule(
@@ -323,9 +353,31 @@ def rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
 _BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")
 INSTEAD = sequence(DESTINATIONS, _BUT, DESTINATIONS, build=rather)
 """Behind "not": where things are not to go, and where they are."""
+
+
+def _is_permitted(before: tuple[str, ...]) -> bool:
+    """Whether what may go anywhere but to one place is only kept from that."""
+    return bool({"can", "may", "could", "might"} & {*before}) and "you" not in before
+
+
+_ANYWHERE_BUT = sequence(
+    Parser(
+        lambda given, at: [] if _is_permitted(given.words[max(at - 4, 0) : at]) else [(at, NOTHING)]
+    ),
+    places.ANYWHERE,
+    OPTIONAL_COMMA,
+    f"{nouns.CONTRAST}, {nouns.EXCEPT}, [and|but] never",
+    either(
+        separated(destination, "or, nor", most=3),
+        sequence(TARGETS, build=lambda nps: (Destination(Toward.TO, nps),)),
+    ),
+    build=lambda out: (Destination(Toward.ON, (THE_DESK,)), *denied(out)),
+)
+"""All that is said is where things are not to go: they go somewhere else on the desk."""
 WHERE = Rule(
     either(
         DESTINATIONS,
+        _ANYWHERE_BUT,
         sequence(
             DESTINATIONS,
             OPTIONAL_COMMA,

@@ -184,7 +184,8 @@ def _colors_alone(given: Input, at: int) -> list[Result]:
 _COLORS = separated(COLOR, LIST, most=4)
 _BEFORE_COLORS = {COMMA, COLON, "and", "but", "then", *words_of((verbs.PLACE, verbs.KEEP))}
 _BEHIND_COLORS = word_set(
-    "in inside into on onto to at where go goes belong belongs stay stays remain remains should"
+    "in inside into on onto to at where go goes belong belongs stay stays remain remains "
+    "should untouched unmoved"
 )
 _NEITHER = sequence(alternatives(noun_phrase, 3), build=lambda nps: nps if nps[1:] else None)
 exceptions.define(either(_COORDINATION, _COLORED_ONES, _NEITHER))

@@ -142,8 +142,8 @@ _EXTRA = sequence(
             either(PLAIN_MODIFIER, quality_alone),
             build=lambda several, modifier: ("that", (several, modifier)),
         ),
-        f"{manner.IN_THIS_ORDER}, one (by one|after the other|after another), "
-        "in (any|whatever) order",
+        phrase(manner.IN_THIS_ORDER, ("ordered", ())),
+        "one (by one|after the other|after another), in (any|whatever) order",
     ),
     build=lambda *found: found[0] if found else (),
 )
@@ -212,6 +212,7 @@ def put_of(
         by_color="color" in named,
         far_fetched=2 * len(described) + 2 * (_RATHER in named),
         one_each="each" in named,
+        ordered="ordered" in named,
     )
 
 

@@ -130,7 +130,7 @@ def _nothing_there(said: str) -> Parser:
     )
 
 
-_HOLDS_NOTHING = "contains nothing, contain nothing, holds nothing, hold nothing"
+_HOLDS_NOTHING = "(contains|contain|holds|hold|carries|carry|bears|bear|supports|support) nothing"
 _TOP = ("top",)
 
 

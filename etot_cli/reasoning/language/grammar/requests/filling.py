@@ -36,7 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import places, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
 
@@ -107,6 +107,16 @@ FILL = quiet(
             some(sequence(LIST, noun_phrase, "for", ALL_THINGS, build=lambda *pair: pair), most=4),
             optional(sequence(OPTIONAL_COMMA, "[and|but] not", noun_phrase), None),
             build=_used,
+        ),
+        sequence(
+            # "Use the bigger of the two cups to put the pen in"
+            verbs.USE,
+            noun_phrase,
+            "to",
+            verbs.SET,
+            ALL_THINGS,
+            one_of({Toward.INSIDE: places.INTO, Toward.ON: places.ONTO}),
+            build=lambda np, things, toward: _filled(toward, np, things),
         ),
         *(
             sequence(

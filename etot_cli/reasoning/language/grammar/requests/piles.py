@@ -8,6 +8,7 @@ from typing import Any
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     optional,
+    phrase,
     separated,
     sequence,
     some,
@@ -16,8 +17,13 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.tower_bases import NEXT
-from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause, put_to
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.words import manner, places, verbs
 from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color
 
@@ -46,7 +52,7 @@ def _standing_on(pairs: Any) -> TowerClause | None:
     return _piled(None, second, first, tuple(more))
 
 
-_COLOR = sequence(
+COLOR = sequence(
     some(word(lambda given, text: text in SIZES), most=1),
     word(lambda given, text: basic_color(text) is not None),
     build=lambda size, color: NounPhrase(words=(*size, color), text=" ".join((*size, color))),
@@ -55,15 +61,15 @@ _COLOR = sequence(
 PILED = sequence(
     either(verbs.STACK, verbs.PUT),
     optional(sequence(THINGS, COMMA), None),
-    _COLOR,
+    COLOR,
     places.ONTO,
-    _COLOR,
+    COLOR,
     some(
         sequence(
             NEXT,
-            _COLOR,
+            COLOR,
             either(
-                sequence(places.ONTO, _COLOR),
+                sequence(places.ONTO, COLOR),
                 sequence(manner.ATOP, build=lambda: ()),
             ),
             build=lambda upper, lower: (upper, lower or None),
@@ -73,10 +79,20 @@ PILED = sequence(
     build=_piled,
 )
 """Behind a verb."""
+PUT_ON_COLOR = sequence(
+    # "Take green off blue and put it on red"
+    either(verbs.STACK, verbs.PUT),
+    phrase("it"),
+    places.ONTO,
+    COLOR,
+    build=lambda it, color: put_to(
+        Things((NounPhrase(pronoun=it, text=it),)), (Destination(Toward.ON, (color,)),)
+    ),
+)
 PAIR_BY_PAIR = sequence(
     # "Blue on red, yellow on blue"
     separated(
-        sequence(_COLOR, f"{places.ONTO}, above, over", _COLOR, build=lambda *pair: pair),
+        sequence(COLOR, f"{places.ONTO}, above, over", COLOR, build=lambda *pair: pair),
         NEXT,
         most=5,
     ),

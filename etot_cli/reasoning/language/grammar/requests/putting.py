@@ -67,6 +67,7 @@ from etot_cli.reasoning.language.grammar.requests.flanking import (
     to_others,
 )
 from etot_cli.reasoning.language.grammar.requests.laying import LAID_DOWN, rather_laid_down
+from etot_cli.reasoning.language.grammar.requests.piles import PUT_ON_COLOR
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUP, PUT_GROUPS
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.requests.throwing import INSERTED, THROWN
@@ -79,7 +80,7 @@ from etot_cli.reasoning.language.grammar.requests.word_order import (
     NAMED_BEHIND,
     SAID_AHEAD,
 )
-from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, Turns, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
     Destination,
@@ -126,7 +127,10 @@ def _stacked(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     """Each thing on or in another; several on one are a tower."""
     (np, *more), (where, *_) = groups[0].things.phrases, groups[0].destinations
     nested = where.toward is Toward.INSIDE and singular(np.head) == np.head and not more
-    return put_of(groups, extras) if nested or extras or len(groups) > 1 else None
+    put = put_of(groups, extras) if nested or extras or len(groups) > 1 else None
+    # "Stack the cups on the tray, the blue one first" lays none beside another.
+    beside = put is not None and put.turns != Turns() and groups[0].things.may_be_several
+    return None if beside else put
 
 
 def _put_away(verb: str, groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
@@ -229,6 +233,7 @@ _COMES_AND_GOES = """
 
 PUT = either(
     AS_MANY,
+    PUT_ON_COLOR,
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
     sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
     sequence(

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.requests.grasping import GRASPED, HELD_SO, POSES
+from etot_cli.reasoning.language.grammar.requests.piles import COLOR
 from etot_cli.reasoning.language.grammar.requests.unstacking import UNSTACK, is_stack
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
@@ -133,6 +134,14 @@ REMOVE = either(
     sequence(phrase(verbs.REMOVE), THINGS, optional(SOURCE, None), build=_removed),
     UNSTACK,
     sequence(verbs.UNSTACK, THINGS, SOURCE, build=RemoveClause),
+    sequence(
+        # "Unstack green from blue"
+        f"{verbs.UNSTACK}, {verbs.TAKE}, lift[ing]",
+        COLOR,
+        places.SOURCE,
+        COLOR,
+        build=lambda color, source: RemoveClause(Things((color,)), source),
+    ),
     # Without a source "unload" and "clear" are rather said of what holds them.
     sequence("unload[ing], clear[ing]", THINGS, SOURCE, build=RemoveClause),
     sequence(
@@ -146,10 +155,12 @@ REMOVE = either(
     sequence(f"{verbs.GET_OUT}, whisk[ing]", THINGS, "out of, off [of]", noun_phrase, build=_taken),
     sequence(f"{verbs.TAKE}, {verbs.FREE}", THINGS, SOURCE, build=_taken),
     sequence(
-        "clear[ing], empty[ing], rid",
+        # "Free the cup from the pen" is said of what is in it, "free the pen from the cup" of the
+        # pen: only one of them is where that says.
+        "clear[ing], empty[ing], free[ing], rid[ding], reliev(e|ing)",
         noun_phrase,
-        "of",
+        "of, from",
         THINGS,
-        build=lambda source, things: RemoveClause(things, source),
+        build=lambda source, things: RemoveClause(things, source, freed=True),
     ),
 )

@@ -87,10 +87,16 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     PickClause,
     PutClause,
+    PutGroup,
     RemoveClause,
     TowerClause,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -183,7 +189,7 @@ JOINED = either(
     joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
     joint(
-        # "…, but first the cup on the tray"
+        # "…, but first the cup on the tray", "…, but before that the cup"
         "and",
         OPTIONAL_COMMA,
         optional("and, but"),
@@ -196,7 +202,7 @@ JOINED = either(
                 }
             ),
             OPTIONAL_COMMA,
-            PLACED,
+            either(PLACED, plain(sequence(THINGS, build=once_more))),
             # "…, last, the cup in the box first" is two orders for one thing.
             build=lambda order, placed: (
                 None
@@ -317,10 +323,34 @@ def _done_after(done: Reading, clause: Reading) -> Reading:
     return once_done(clause, done)
 
 
+def _brought_beside(before: Clause, clause: Clause) -> PutClause | None:
+    """What is brought to a thing and then left beside "that" goes beside that thing at once."""
+    match before, clause:
+        case (
+            PutClause(
+                groups=(PutGroup(destinations=(Destination(toward=Toward.TO) as to,)) as put,)
+            ),
+            PutClause(
+                groups=(PutGroup(destinations=(Destination(beside=(near,)) as there,)) as left,)
+            ),
+        ) if len(put.things.phrases) == len(to.targets) == 1 and not there.targets:
+            (theme, *more), marks = left.things.phrases, near.phrases
+            of_that = len(marks) == 1 and marks[0].text in ("it", "that") and not marks[0].modifiers
+            if theme.text != "it" or more or not of_that:
+                return None
+            where = replace(there, beside=(replace(near, phrases=to.targets),))
+            return replace(clause, groups=(replace(put, destinations=(where,)),), stays=False)
+    return None
+
+
 def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
     for said, clause in more:
+        beside = _brought_beside(done[-1].clause, clause[0].clause)
+        if beside is not None and len(clause) == 1:
+            done = (*done[:-1], replace(done[-1], clause=beside))
+            continue
         put = done[-1].clause if said == "listed" else None
         put = None if isinstance(clause[0].clause, RemoveClause) else put
         if isinstance(put, PutClause) and not any(sources(item.things) for item in put.groups):

@@ -313,6 +313,9 @@ def _spoken(said: tuple[tuple[Order | bool, ...], Any]) -> list[Reading]:
     leading, (at, clause, order, instead, avoided) = said
     whole = _in_order(leading, at, clause, order, instead=instead, avoided=avoided)
     *before, last = _each(clause)
+    if whole is not None and before and isinstance(clause, PutClause) and clause.ordered:
+        then = (Spoken(item, at + n, Order.THEN) for n, item in enumerate((*before[1:], last), 1))
+        return [(replace(whole[0], clause=before[0]), *then, *whole[1:])]
     if whole is None or not before or order is not Order.FIRST or leading:
         return [] if whole is None else [whole]
     first = Spoken(last, at + 1, order, far_fetched=1)

@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,
     complete,
     either,
+    one_of,
     optional,
     sequence,
     silent,
@@ -99,10 +100,18 @@ SENTENCE = either(
         )
     ),
     sequence(
-        f"{small_words.LEADING_THEN}, [and] now",
+        optional("but"),
+        one_of(
+            {
+                Order.THEN: f"{small_words.LEADING_THEN}, [and] now",
+                Order.FIRST: small_words.LEADING_FIRST,
+                Order.BEFORE_THAT: small_words.LEADING_BEFORE,
+            }
+        ),
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        plain(sequence(THINGS, build=once_more), Order.THEN),
+        plain(sequence(THINGS, build=once_more)),
+        build=lambda order, said: (replace(said[0], order=order),),
     ),
 )
 

@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED, WHERE
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
@@ -54,9 +55,12 @@ from etot_cli.reasoning.language.words import nouns, small_words, verbs
 
 
 def _wanted_in_hand(things: Things) -> PickClause | None:
-    """Who wants something off the tray does not say that it is to be held, nor who wants all."""
+    """Who wants something off the tray does not say that it is to be held, nor who wants all, or
+    one in each of several.
+    """
     away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
-    said = {word for np in things.phrases for word in np.determiner.split()}
+    said = {word for np in nodes(things) if isinstance(np, NounPhrase)
+            for word in np.determiner.split()}  # fmt: skip
     every = {"all", "both", "each", "every"} & said
     return None if away or every else PickClause(things, wanted=True)
 

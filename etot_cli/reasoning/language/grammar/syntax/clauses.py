@@ -96,6 +96,8 @@ class PutClause:
     """Each goes to a place of its own colour."""
     one_each: bool = False
     """Every place gets one."""
+    ordered: bool = False
+    """One group after the other, as they are said."""
     stays: bool = False
     """They are left or kept there, which is rather said of what is there already."""
     far_fetched: int = 0
@@ -121,6 +123,8 @@ class RemoveClause:
     """It has been done before what is asked for next ("once it is out, …")."""
     aside: bool = False
     """It is in the way of what is opened next, where something is."""
+    freed: bool = False
+    """It is said of where that is ("free the cup from the pen"), which "it" may mean next."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -72,6 +72,8 @@ class Discourse:
     """Number of a clause that only names something by where it is, how it is to what, and that;
     "there" means that then. None for how where it is beside something.
     """
+    abreast: set[Thing] = field(default_factory=set)
+    """What was put next to each other last."""
     left_alone: frozenset[int] = frozenset()
     """Referents that must not be moved or touched."""
     returning: bool = False

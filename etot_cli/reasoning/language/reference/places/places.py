@@ -91,6 +91,11 @@ class Places:
         for phrase in named:
             with suppress(ReferenceProblem):
                 meant.append(self._phrases.meaning(phrase, Role.ANY).options)
+        marks = (p for item in destinations for b in item.beside for p in b.phrases)
+        if any(item.word == "there" for item in destinations) or any(p.pronoun for p in marks):
+            # "Move the cup to the tray and leave it there": the cup
+            below = (place.where for place in self.discourse.last_places)
+            meant += [referents[index].options for index in below if index is not None]
         return [index for index, referent in enumerate(referents) if referent.options in meant]
 
     def _waits(self, index: int) -> bool:

@@ -136,6 +136,12 @@ def meant_by_it(
                 discourse.notes.append(
                     f"read '{text}' as {names_of_things(discourse.things(*acted_on))}"
                 )
+            held = _holding(discourse, acted_on[0])
+            if role is Role.THEME and text == "that" and held and rivals == held:
+                # "Put the plum into the mug and put that on the tray", where the plum comes along
+                names = names_of_things(discourse.things(*held))
+                discourse.notes.append(f"read '{text}' as {names}")
+                return held[0]
             # "Take the cup off the saucer and put the plum on it": either takes a plum.
             own = {thing.name for thing in discourse.things(acted_on[0])}
             if role in (Role.SURFACE, Role.CONTAINER):
@@ -202,6 +208,12 @@ def meant_by_it(
         if found:
             return found[0]
     raise ReferenceProblem(text, UNCLEAR, 2)
+
+
+def _holding(discourse: Discourse, thing: int) -> list[int]:
+    """What a thing has been put into."""
+    around = discourse.put_into.get(thing)
+    return [] if around is None else [around]
 
 
 def _came_out_of(discourse: Discourse, thing: int, rivals: Sequence[int]) -> bool:

@@ -1,0 +1,41 @@
+"""Instructions that tell how things are at the start before they say how they are to be."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+_STATE = "(?:state|configuration|situation|set-?up|scene|conditions?|arrangement|layout)"
+_GOAL = (
+    r"(?:the )?(?:[a-z]+ )?(?:goal|desired|target|final|end|task|required|wanted|intended)"
+    rf"(?: {_STATE})?(?: is)?\s*:"
+)
+_START = re.compile(
+    r"(?P<before>^|[.;!\n]\s*)(?:the )?"
+    rf"(?:(?:initial|start(?:ing)?|current|present|original) {_STATE}|start|initially|currently)"
+    rf"\s*:\s*(?P<told>.+?)(?:[.;!\n]\s*(?=(?P<goal>{_GOAL}))|[.;!\s]*$)",
+    re.IGNORECASE | re.DOTALL,
+)
+"""How things are up to where it is said how they are to be, or to the end."""
+_GOAL_BEFORE = re.compile(rf"(?:^|[.;!\n]\s*){_GOAL}", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class StartTold:
+    """What an instruction says is so at the start, and what it asks for."""
+
+    start: str
+    asked: str
+
+
+def without_start(instruction: str) -> StartTold | None:
+    """An instruction without how things are at the start; None where it does not say that, or has
+    no heading for what is to be so, from which alone it is told where that ends.
+    """
+    found = _START.search(instruction)
+    if found is None:
+        return None
+    before = instruction[: found.start()] + found["before"]
+    if found["goal"] is None and _GOAL_BEFORE.search(before) is None:
+        return None
+    return StartTold(found["told"].strip(), before + instruction[found.end() :])
