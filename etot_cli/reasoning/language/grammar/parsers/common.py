@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.input import Input
 from etot_cli.reasoning.language.grammar.text import splitting as text
 from etot_cli.reasoning.language.words import known, manner, small_words
 from etot_cli.reasoning.language.words.categories import is_category
-from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, PURPOSES, basic_color
+from etot_cli.reasoning.language.words.lexicon import PURPOSES
 
 noun_phrase = Rule()
 exceptions = Rule()
@@ -65,8 +65,6 @@ def _is_noun(given: Input, said: str) -> bool:
 
 
 NOUN_WORD = word(_is_noun)
-COLOR = word(lambda given, text: basic_color(text) is not None and text not in COMMON_NOUNS)
-"""A colour that is no thing as well."""
 OPTIONAL_COMMA = optional(COMMA)
 
 

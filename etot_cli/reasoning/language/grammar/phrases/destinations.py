@@ -23,7 +23,6 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
-    COLOR,
     COMMA,
     EXACTLY,
     OPTIONAL_COMMA,
@@ -31,8 +30,8 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     alternatives,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD, Input, Result
 from etot_cli.reasoning.language.grammar.phrases.abreast import ABREAST, ABREAST_SO, EACH_OTHER
+from etot_cli.reasoning.language.grammar.phrases.colors import ONE_OF_A_COLOR
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
 from etot_cli.reasoning.language.grammar.phrases.levels import AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
@@ -48,7 +47,6 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     in_a_stance,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import basic_color
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -172,28 +170,9 @@ BESIDES = sequence(
     build=_besides,
 )
 INTO = sequence(places.INTO, TARGETS, build=_toward(Toward.INSIDE))
-_BEHIND_COLORS = frozenset({COMMA, "and", "then", NO_WORD})
-
-
-def _told_by_color(given: Input, at: int) -> list[Result]:
-    """The one of a colour, where something has a noun ("the green block on blue"); of colours alone
-    stacks are built.
-    """
-    named = any(
-        word == "the" or word in given.nouns for word in given.words if basic_color(word) is None
-    )
-    found = COLOR.find(given, at) if named else ()
-    return [
-        (end, (NounPhrase("the", (color, "one"), text=color, loose=True),))
-        for end, color in found
-        if given.ahead[end] in _BEHIND_COLORS
-    ]
-
-
-_COLOR_ALONE = Parser(_told_by_color, lambda: COLOR.first)
 ONTO = sequence(
     phrase(places.ONTO),
-    either(TARGETS, _COLOR_ALONE),
+    either(TARGETS, ONE_OF_A_COLOR),
     build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
 )
 

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     one_of,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     silent,
@@ -213,25 +214,27 @@ def _turned_over(said: tuple[Things, tuple[Destination, ...]], ends: Any) -> Tow
 
 
 _SO = either(COMMA, sequence(OPTIONAL_COMMA, f"with, that is, {small_words.SO_THAT}"))
-REVERSED = sequence(
-    either(
-        sequence(
-            f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)",
-            THINGS,
-            optional(_ONTO_A_BASE, ()),
-            build=lambda things, base: (things, base),
-        ),
-        sequence(
-            f"{verbs.WANT}, {verbs.TURN}, {verbs.STACK}, {verbs.BUILD}, {verbs.REBUILD}",
-            THINGS,
-            optional(_ONTO_A_BASE, ()),
-            manner.TURNED_OVER,
-            optional(_ONTO_A_BASE, ()),
-            build=lambda things, before, after: (
-                None if before and after else (things, before or after)
+REVERSED = quiet(
+    sequence(
+        either(
+            sequence(
+                f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)",
+                THINGS,
+                optional(_ONTO_A_BASE, ()),
+                build=lambda things, base: (things, base),
+            ),
+            sequence(
+                f"{verbs.WANT}, {verbs.TURN}, {verbs.STACK}, {verbs.BUILD}, {verbs.REBUILD}",
+                THINGS,
+                optional(_ONTO_A_BASE, ()),
+                manner.TURNED_OVER,
+                optional(_ONTO_A_BASE, ()),
+                build=lambda things, before, after: (
+                    None if before and after else (things, before or after)
+                ),
             ),
         ),
-    ),
-    optional(sequence(_SO, either(_ENDS, _ON_EACH_OTHER)), ()),
-    build=_turned_over,
+        optional(sequence(_SO, either(_ENDS, _ON_EACH_OTHER)), ()),
+        build=_turned_over,
+    )
 )
