@@ -151,29 +151,33 @@ class Places:
                     found = [self._at_end(place, destination.word) for place in found]
                 if destination.beside:
                     found = self._spots.narrowed(found, destination, themes)
-            if destination.toward is Toward.HERE or any(np.pronoun for np in destination.targets):
-                found = [self._as_before(place, themes) for place in found]
+            here = destination.toward is Toward.HERE
+            if here or any(np.pronoun for np in destination.targets):
+                found = [self._as_before(place, themes, here=here) for place in found]
             places.update(dict.fromkeys(found))
         return tuple(places)
 
-    def _as_before(self, place: Place, themes: Sequence[int]) -> Place:
-        """Behind the door of the cabinet that things were put in they are where they went ("close
-        the door when they are in").
+    def _as_before(self, place: Place, themes: Sequence[int], *, here: bool) -> Place:
+        """Behind what is closed things are where they went ("close the door when they are in"):
+        what is ``here`` wherever that was, what is "in it" where it is the door of that.
         """
-        discourse, things = self.discourse, set(self.discourse.things(*themes))
+        discourse, things = self.discourse, {*self.discourse.things(*themes)}
         if place.relation is not Relation.INSIDE or place.where is None or place.beside:
             return place
-        parts = discourse.things(place.where)
+        parts = [(thing.name, thing.part) for thing in discourse.things(place.where)]
+        shut = {item.referent for item in discourse.mentions if item.role is Role.PART}
         for around in {*discourse.put_into.values()}:
             put = [i for i, at in discourse.put_into.items() if at == around]
-            behind = [(thing.name, thing.part) for thing in parts] == [
+            there = Place(Relation.INSIDE, around)
+            behind = parts == [
                 (whole.name, part.name)
                 for whole in discourse.things(around)
                 if whole.part is None
                 for part in parts_of(self._scene, whole)
             ]
-            if behind and things <= {*discourse.things(*put)}:
-                return replace(place, where=around)
+            latest = here and place.where in shut and there in discourse.last_places
+            if (behind or latest) and things <= {*discourse.things(*put)}:
+                return there
         return place
 
     def _targets(
