@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     Parser,
     separated,
@@ -45,7 +47,8 @@ _BEHIND_COLORS = word_set(
 )
 COLORS_ALONE = Parser(_colors_alone, lambda: _COLORS.first)
 _GOES_ON = frozenset({COMMA, "and", "then", NO_WORD})
-_STACKING = words_of((verbs.STACK,))
+_STACKING = words_of((verbs.STACK,)) - {"up"}
+_BEFORE_A_STACK = frozenset({"the", "a", "this", "that"})
 
 
 def _told_by_color(given: Input, at: int) -> list[Result]:
@@ -53,7 +56,11 @@ def _told_by_color(given: Input, at: int) -> list[Result]:
     stacks are built.
     """
     others = {said for said in given.words if basic_color(said) is None}
-    named = others & {"the", *given.nouns} and not others & _STACKING
+    stacking = any(
+        said in _STACKING and before not in _BEFORE_A_STACK
+        for before, said in pairwise(("", *given.words))
+    )
+    named = others & {"the", *given.nouns} and not stacking
     return [
         (end, (NounPhrase("the", (color, "one"), text=color, loose=True),))
         for end, color in (_COLOR.find(given, at) if named else ())
