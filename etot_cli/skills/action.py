@@ -85,6 +85,16 @@ class Action:
     onward: Action | None = None
     coming: tuple[Coming, ...] = ()
 
+    @property
+    def arrivals(self) -> dict[str, tuple[float, float]]:
+        """At which points things will stand that are still to come, where that is told."""
+        return {
+            thing.name: where.point
+            for thing in self.coming
+            for where in thing.where
+            if where.point is not None and not where.denied
+        }
+
     def __str__(self) -> str:
         text = f"[{self.verb.value}, {self.target}]"
         notes = [*([self.pose.value] if self.pose else []), *map(str, self.where)]

@@ -40,12 +40,10 @@ def wanted_spots(world: World, data: mujoco.MjData, action: Action, name: str) -
     area = outline_in(world, data, action.target.partition(".")[0])
     forward = forward_of(world.scene)
     radius = max(world.entries[name].info.size[:2]) / 2
-    to_be = {thing.name: item.point for thing in action.coming for item in thing.where
-             if item.point is not None and not item.denied}  # fmt: skip
 
     def landmark(name: str) -> Outline:
         seen = outline_in(world, data, name)
-        return replace(seen, center=to_be[name]) if name in to_be else seen
+        return replace(seen, center=action.arrivals.get(name, seen.center))
 
     wanted = [(where, [*map(landmark, where.landmarks)]) for where in action.where]
 
