@@ -75,7 +75,7 @@ def _following(
     """
     known = set(beside)
     for held, action, _ in list(in_hand(actions, None))[put + 1 :]:
-        if held is None or held in beside or action.safe or action.verb is not Verb.PUT_ON:
+        if held is None or held in known or action.safe or action.verb is not Verb.PUT_ON:
             continue
         if action.target != actions[put].target:
             continue

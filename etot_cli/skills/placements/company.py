@@ -53,10 +53,10 @@ class Company:
     def __init__(self, belief: Belief, request: Request, cells: Cells) -> None:
         self._belief, self._support = belief, request.support
         world, self._name = belief.world, request.attached.name
+        sizes = {one.name: world.entries[one.name].info.size for one in request.coming}
         self._guests = [
             _Guest(one.name, one.where, max(size[:2]) / 2, (size[0] / 2, size[1] / 2))
-            for one in request.coming
-            if (size := world.entries[one.name].info.size)
+            for one, size in ((one, sizes[one.name]) for one in request.coming)
         ]
         going = {self._name, *request.absent}
         for guest in self._guests:
