@@ -163,7 +163,8 @@ def other_places(failed: FailedStep, put: int) -> Iterator[Correction]:
     places = safe_places(actions, failed.start, held)
     tried = next((i for i, place in enumerate(places) if place[1] == action.target), -1)
     for verb, target in places[tried + 1 :]:
-        other = replace(action, verb=verb, target=target)
+        # What comes beside it where it should have gone does not come there.
+        other = replace(action, verb=verb, target=target, coming=())
         yield Correction(_replaced(actions, put, other), f"{target} serves as the safe place")
 
 
