@@ -99,6 +99,29 @@ def grasped_for(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[
         yield Correction(posed, f"{name} is grasped so that it goes to {put.target}")
 
 
+def laid_down(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[Correction]:
+    """What is held from above and does not stand under a roof as it is held lies there: for what no
+    level hand takes, or gets in with.
+
+    Args:
+        failed: the failed put.
+        pick: place in the branch of the action that grasped the object; None where it was in the
+            hand from the start.
+        cause: of the failure.
+    """
+    actions, name = failed.branch.actions, failed.record.before.holding
+    put = actions[failed.index]
+    level = pick is not None and actions[pick].pose is GraspPose.HORIZONTAL
+    if name is None or level or cause.kind not in _AS_HELD or not _is_roofed(failed):
+        return
+    info = failed.record.before.infos[name]
+    if info.container or not can_lie(info) or any(one.relation.is_stance for one in put.where):
+        return
+    lying = replace(put, where=(*put.where, Whereabouts(Nearby.LYING)))
+    laid = (*actions[: failed.index], lying, *actions[failed.index + 1 :])
+    yield Correction(laid, f"{name} is laid down")
+
+
 def set_down_for(failed: FailedStep) -> Iterator[Correction]:
     """What is nowhere held so that it goes to its place, where it is, is set down first."""
     actions, index = failed.branch.actions, failed.index

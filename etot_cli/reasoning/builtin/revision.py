@@ -15,6 +15,8 @@ from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import SceneState
 
 Actions = tuple[Action, ...]
+PurposedPut = tuple[str, Verb, str, tuple[Whereabouts, ...]]
+"""What is put, how, to what, and where there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +44,7 @@ class Purpose:
         held: what is in the hand at the end.
     """
 
-    places: frozenset[tuple[str, Verb, str, tuple[Whereabouts, ...]]]
+    places: frozenset[PurposedPut]
     parts: frozenset[tuple[str, Verb]]
     held: str | None
 
