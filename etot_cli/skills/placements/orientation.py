@@ -12,7 +12,7 @@ from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import LEVEL, UP, cross, quaternion_of, rotation_between, turn_about
 from etot_cli.world.spatial import Nearby
-from etot_cli.world.stance import RIGHTED_DEG, has_top, lies
+from etot_cli.world.stance import RIGHTED_DEG, TOPPLED_DEG, has_top, lies
 
 HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
@@ -55,6 +55,28 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
     if has_top(entry.info) and -ON_ITS_HEAD < columns[2] < 0.0:
         columns[2] = 0.0  # it hangs in the hand; only what stood on its head may do so again
     return _flat(belief, attached, pose.rotation, int(np.argmax(np.abs(columns))))
+
+
+def fallen_flat(belief: Belief, attached: Attached) -> Vector | None:
+    """The orientation (3, 3) on its flattest side of something that has turned in the hand, so that
+    it is neither as it stood nor level, and a narrower side is nearer to the ground; None for all
+    else, and where the hand would have to point up for it.
+
+    A flat thing that a slanted hand takes at its corners turns between them, and would end up
+    standing on its edge.
+    """
+    entry = belief.world.entries[attached.name]
+    state = belief.scene.states[attached.name]
+    if not entry.upright_matters or has_top(entry.info) or state.tilt_deg < TOPPLED_DEG:
+        return None
+    rotation, size = belief.object_pose(attached.name).rotation, entry.info.size
+    rises = np.abs(rotation[2])
+    nearest, flattest = int(np.argmax(rises)), int(np.argmin(size))
+    askew = np.cos(np.radians((90.0 - RIGHTED_DEG, RIGHTED_DEG)))
+    if rises[nearest] >= askew[1] or rises[flattest] <= askew[0] or size[flattest] >= size[nearest]:
+        return None
+    flat = _flat(belief, attached, rotation, flattest)
+    return flat if _approach(attached, flat)[2] <= HIGHEST_APPROACH else None
 
 
 def stood_up(belief: Belief, attached: Attached, support: Support) -> Vector | None:
@@ -121,12 +143,14 @@ def orientations(
     """
     entry = belief.world.entries[attached.name]
     now = belief.object_pose(attached.name).rotation
-    base = resting_rotation(belief, attached)
+    nearest = resting_rotation(belief, attached)
+    flat = fallen_flat(belief, attached)
+    base = nearest if flat is None else flat
     hangs = has_top(entry.info) and abs(now[2, 2]) < LEVEL
     enters_level = support.from_front and hangs and points_down(belief)
     found: list[Orientations] = []
     if entry.upright_matters and stance is Nearby.LYING:
-        ways = [base, *laid_rotations(belief, attached, base)]
+        ways = [base, *laid_rotations(belief, attached, nearest)]
         flat = [way for way in ways if lies(entry.info, (*quaternion_of(way),))]
         return [one for way in flat for one in _turned(belief, attached, support, way, laid=False)]
     if entry.upright_matters and (stance is Nearby.UPRIGHT or enters_level):
@@ -150,6 +174,8 @@ def orientations(
         stood = stood_up(belief, attached, support)
         found = [] if stood is None else _turned(belief, attached, support, stood, laid=False)
     found += _turned(belief, attached, support, base, laid=False)
+    if flat is not None:
+        found += _turned(belief, attached, support, nearest, laid=False)
     approach = _approach(attached, base)
     if entry.axis is not None and approach[2] > -DOWN:
         rolled = rolled_down(belief, attached, base)
