@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.relations import carriers, has_front
+from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction, set_aside
 from etot_cli.reasoning.builtin.revision import Actions, inserted, relocations
 from etot_cli.reasoning.protocol import FailedStep
@@ -112,10 +112,11 @@ def laid_down(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[Co
     actions, name = failed.branch.actions, failed.record.before.holding
     put = actions[failed.index]
     level = pick is not None and actions[pick].pose is GraspPose.HORIZONTAL
-    if name is None or level or cause.kind not in _AS_HELD or not _is_roofed(failed):
+    misfit = cause.kind is CauseKind.NO_ROOM and cause.objects[:1] == (name,)
+    if name is None or level or misfit or cause.kind not in _AS_HELD or not _is_roofed(failed):
         return
-    info = failed.record.before.infos[name]
-    if info.container or not can_lie(info) or any(one.relation.is_stance for one in put.where):
+    info, stance = failed.record.before.infos[name], any(w.relation.is_stance for w in put.where)
+    if stance or info.container or info.kind in ROLLING_KINDS or not can_lie(info):
         return
     lying = replace(put, where=(*put.where, Whereabouts(Nearby.LYING)))
     laid = (*actions[: failed.index], lying, *actions[failed.index + 1 :])

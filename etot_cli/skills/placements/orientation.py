@@ -12,7 +12,7 @@ from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import LEVEL, UP, cross, quaternion_of, rotation_between, turn_about
 from etot_cli.world.spatial import Nearby
-from etot_cli.world.stance import RIGHTED_DEG, TOPPLED_DEG, has_top, lies
+from etot_cli.world.stance import RIGHTED_DEG, SAME, TOPPLED_DEG, has_top, lies
 
 HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
@@ -57,25 +57,24 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
     return _flat(belief, attached, pose.rotation, int(np.argmax(np.abs(columns))))
 
 
-def fallen_flat(belief: Belief, attached: Attached) -> Vector | None:
-    """The orientation (3, 3) on its flattest side of something that has turned in the hand, so that
-    it is neither as it stood nor level, and a narrower side is nearer to the ground; None for all
-    else, and where the hand would have to point up for it.
+def flat_side_down(belief: Belief, attached: Attached) -> Vector | None:
+    """The orientation (3, 3) on its flattest side of something that has turned in the hand so far
+    that a narrower one is nearer to the ground; None for all else, and where the hand would have to
+    point up for it.
 
     A flat thing that a slanted hand takes at its corners turns between them, and would end up
     standing on its edge.
     """
     entry = belief.world.entries[attached.name]
-    state = belief.scene.states[attached.name]
-    if not entry.upright_matters or has_top(entry.info) or state.tilt_deg < TOPPLED_DEG:
+    turned = belief.scene.states[attached.name].tilt_deg >= TOPPLED_DEG
+    if not (turned and entry.upright_matters) or has_top(entry.info):
         return None
     rotation, size = belief.object_pose(attached.name).rotation, entry.info.size
-    rises = np.abs(rotation[2])
-    nearest, flattest = int(np.argmax(rises)), int(np.argmin(size))
-    askew = np.cos(np.radians((90.0 - RIGHTED_DEG, RIGHTED_DEG)))
-    if rises[nearest] >= askew[1] or rises[flattest] <= askew[0] or size[flattest] >= size[nearest]:
+    nearest, flattest = int(np.argmax(np.abs(rotation[2]))), int(np.argmin(size))
+    if size[flattest] > SAME * size[nearest]:
         return None
-    flat = _flat(belief, attached, rotation, flattest)
+    up = rotation[:, flattest] * (1.0 if rotation[2, flattest] >= 0.0 else -1.0)
+    flat = rotation_between(up, UP) @ rotation
     return flat if _approach(attached, flat)[2] <= HIGHEST_APPROACH else None
 
 
@@ -144,15 +143,15 @@ def orientations(
     entry = belief.world.entries[attached.name]
     now = belief.object_pose(attached.name).rotation
     nearest = resting_rotation(belief, attached)
-    flat = fallen_flat(belief, attached)
+    flat = flat_side_down(belief, attached)
     base = nearest if flat is None else flat
     hangs = has_top(entry.info) and abs(now[2, 2]) < LEVEL
     enters_level = support.from_front and hangs and points_down(belief)
     found: list[Orientations] = []
     if entry.upright_matters and stance is Nearby.LYING:
         ways = [base, *laid_rotations(belief, attached, nearest)]
-        flat = [way for way in ways if lies(entry.info, (*quaternion_of(way),))]
-        return [one for way in flat for one in _turned(belief, attached, support, way, laid=False)]
+        lain = [way for way in ways if lies(entry.info, (*quaternion_of(way),))]
+        return [one for way in lain for one in _turned(belief, attached, support, way, laid=False)]
     if entry.upright_matters and (stance is Nearby.UPRIGHT or enters_level):
         standing = rotation_between(now[:, 2], UP) @ now if has_top(entry.info) else base
         found = _turned(belief, attached, support, standing, laid=False)
