@@ -271,6 +271,26 @@ def test_from_drawer_to_drawer_by_way_of_the_desk() -> None:
     ]
 
 
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 2), (2, 1, 0)])
+def test_a_drawer_that_is_to_be_closed_is_not_opened_again(order: tuple[int, ...]) -> None:
+    """The one that the nut comes from is closed on the way; where no word closes it, it is open
+    again in the end.
+    """
+    state = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 0.9, "lower": 0.0}),
+        scenes.ball("nut", (0.5, 0.0), on="chest", inside="chest.upper"),
+    )
+    moved = (
+        "[PICK UP, nut] [PUT ON, desk] [CLOSE, chest.upper] "
+        "[OPEN, chest.lower] [PICK UP, nut] [PUT INTO, chest.lower] [CLOSE, chest.lower]"
+    )
+    asked: list[dict[str, Any]] = [
+        {"inside": ["nut", "chest.lower"]}, {"closed": "chest.upper"}, {"closed": "chest.lower"},
+    ]  # fmt: skip
+    assert plans(state, *(asked[place] for place in order)) == [moved]
+    assert plans(state, asked[0]) == [f"{moved} [OPEN, chest.upper]"]
+
+
 TOWER = [("red", "green"), ("green", "blue"), ("blue", "desk2")]
 
 

@@ -368,6 +368,26 @@ def test_what_goes_in_through_a_front_is_held_from_the_side() -> None:
     assert revision(asked) is None, "an asked pose is not replaced"
 
 
+@pytest.mark.parametrize("kind", ["box", "cup"])
+def test_what_no_level_hand_takes_may_lie_under_a_roof_at_last(kind: str) -> None:
+    """Vessels are to stand; and so is what is asked to."""
+    tall = (0.06, 0.06, 0.10)
+    start = scenes.scene(
+        scenes.item("rack", "shelf", (0.6, 0.0), size=(0.2, 0.4, 0.5), boards=("low", "high")),
+        scenes.item("tin", kind, size=tall),
+    )
+    plan = "[PICK UP, tin] [PUT ON, rack.low]"
+    reason = cause(CauseKind.UNREACHABLE, "rack", "tin")
+    found = revisions(failed(start, plan, 1, reason, held(start, "tin")))
+    assert found[0] == "[PICK UP, tin] (horizontal) [PUT ON, rack.low]"
+    assert (f"{plan} (lying)" in found) is (kind == "box")
+    upright = revisions(failed(start, f"{plan} (upright)", 1, reason, held(start, "tin")))
+    assert not any("lying" in one for one in upright)
+    level = "[PICK UP, tin] (horizontal) [PUT ON, rack.low]"
+    again = revisions(failed(start, level, 1, reason, held(start, "tin")))
+    assert f"{level} (lying)" not in again
+
+
 @pytest.mark.parametrize("kind", [CauseKind.NO_GRASP, CauseKind.BLOCKED, CauseKind.COLLISION])
 def test_what_is_taken_out_through_a_front_is_held_from_the_side(kind: CauseKind) -> None:
     start = changed(scenes.microwave(), tennis_ball={"inside": "microwave", "on": ("microwave",)})
