@@ -295,13 +295,16 @@ def keep_as_it_is(
     Of a chest of drawers that was spoken of as "the drawer" or "the drawers", only what is so by
     now is meant, and noted where it is ``called`` one; ``every``: all are.
     """
+    keep = Keep.OPEN if word == "open" else Keep.CLOSED
+    if is_not_chosen(context, index):  # "open one of the drawers and keep the other one closed"
+        context.constraints.append(Constraint(keep, (), referent=index))
+        return
     holds = is_open if word == "open" else is_closed
     if not every:
         context.discourse.as_it_stands(index, holds, called, word)
     for thing in context.discourse.things(index):
         for part in parts_of(context.scene, thing):
             if holds(context.scene, part) or (always and word == "closed"):
-                keep = Keep.OPEN if word == "open" else Keep.CLOSED
                 name = f"{part.owner}.{part.name}"
                 context.constraints.append(Constraint(keep, (name,)))
 

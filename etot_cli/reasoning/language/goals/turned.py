@@ -80,7 +80,11 @@ def in_turn(
         for at in (at for name in item.names if name not in released for at in turns.get(name, ())):
             if way is not None and not item.needless and not isinstance(steps[at], way):
                 raise _both(item.names[0], steps[at], referents)
-    kept = [item for item in constraints if item.keep not in _WAYS or not {*item.names} <= released]
+    kept = [
+        item
+        for item in constraints
+        if item.keep not in _WAYS or not item.names or not {*item.names} <= released
+    ]
     return steps, kept
 
 
