@@ -71,7 +71,7 @@ def in_turn(
             if then == at + 1 and (one.final or other.final):
                 raise _both(part, other, referents)
             sweeping = len([*_parts(other, referents, scene)]) > 1
-            if one.final and sweeping and part not in _filled(steps[at:then], referents, scene):
+            if one.final and sweeping and part not in filled_parts(steps[at:then], referents, scene):
                 raise _both(part, other, referents)
             steps[at] = replace(one, final=False)
             released.add(part)
@@ -94,7 +94,7 @@ def _both(part: str, step: Step, referents: Sequence[Referent]) -> ReferenceProb
     return ReferenceProblem(referents[step.what].text, why, 4)
 
 
-def _filled(
+def filled_parts(
     steps: Sequence[Step], referents: Sequence[Referent], scene: SceneState
 ) -> Iterator[str]:
     """The parts that steps put something into."""
