@@ -71,7 +71,11 @@ def in_turn(
             if then == at + 1 and (one.final or other.final):
                 raise _both(part, other, referents)
             sweeping = len([*_parts(other, referents, scene)]) > 1
-            if one.final and sweeping and part not in filled_parts(steps[at:then], referents, scene):
+            if (
+                one.final
+                and sweeping
+                and part not in filled_parts(steps[at:then], referents, scene)
+            ):
                 raise _both(part, other, referents)
             steps[at] = replace(one, final=False)
             released.add(part)

@@ -427,7 +427,10 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"(?:(?:still |left )*(?:inside|in there|in it))(?=[.,;!?]|$)",
         r", but first make sure \1 is not in it",
     ),
-    (r"(?<=\w)(?<!together)(?<!apart)(?<!separately), (?=either (?:in|on|into|onto|inside|next to|beside|at) )", " "),
+    (
+        r"(?<=\w)(?<!together)(?<!apart)(?<!separately), (?=either (?:in|on|into|onto|inside|next to|beside|at) )",
+        " ",
+    ),
     # "…, and the right way up"
     (
         r"(?<=\w), and (?=(?:standing )?(?:upright|(?:the )?(?:right (?:way|side) up)"
