@@ -173,8 +173,8 @@ _PREDICATE = Expression(
 _A_BIT = Expression(r" (?:a (?:little|bit|lot)|quite a bit)(?= |$)")
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
 _TOO_BIG = Expression(
-    r"^(?:is|are) (?:just |far |much |a bit |a little )*too \w+ (?:to (?:stand|fit|lie|sit|go|be put)"
-    r"(?: (?:up|upright|straight|standing up|in|inside))?|for)"
+    r"^(?:is|are) (?:just |far |much |a bit |a little )*too \w+ "
+    r"(?:to (?:stand|fit|lie|sit|go|be put)(?: (?:up|upright|straight|standing up|in|inside))?|for)"
     r"(?: (?:(?:in|into|on|onto|inside) )?(?:there|it|that|(?:the|my) (?:\w+ ){0,3}\w+))?$"
 )
 """Why something lies rather than stands somewhere, or goes elsewhere."""

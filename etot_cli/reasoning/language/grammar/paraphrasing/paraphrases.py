@@ -418,7 +418,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
     # A thing that "should stay away from the cup" stands so; the robot keeps away.
     (
-        r"(^|[.;!?] )((?:but |and |also |please )*)stay (?=(?:well |far )?(?:away from|clear of)\b)",
+        r"(^|[.;!?] )((?:but |and |also |please )*)stay "
+        r"(?=(?:well |far )?(?:away from|clear of)\b)",
         r"\1\2keep ",
     ),
     # "Open the drawer, but not with the cup inside": it is not in there by then
@@ -428,7 +429,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r", but first make sure \1 is not in it",
     ),
     (
-        r"(?<=\w)(?<!together)(?<!apart)(?<!separately), (?=either (?:in|on|into|onto|inside|next to|beside|at) )",
+        r"(?<=\w)(?<!together)(?<!apart)(?<!separately), "
+        r"(?=either (?:in|on|into|onto|inside|next to|beside|at) )",
         " ",
     ),
     # "…, and the right way up"

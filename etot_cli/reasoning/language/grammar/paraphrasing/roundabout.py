@@ -26,7 +26,8 @@ _SOMETHING = (
     rf"{PEOPLE} (?:(?:just|also|really|only) )?(?:(?:will )?needs?|wants?|would like"
     r"|(?:have|has|needs?|wants?|would like|(?:am|is|are) (?:going|trying)) to"
     r" (?:get|take|fetch|grab|reach)|(?:am|is|are) looking for)"
-    r" (?:something|some (?:things?|stuff)|a thing(?: or two)?|a (?:few|couple of) things)(?: else)?"
+    r" (?:something|some (?:things?|stuff)|a thing(?: or two)?|a (?:few|couple of) things)"
+    r"(?: else)?"
 )
 """What somebody wants who tells why something is to be opened."""
 
@@ -89,8 +90,8 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (
         rf"\b((?:open(?: up)?|pull open|unlock) {_NOUN}(?: of {_NOUN})?(?: for me)?)"
-        rf"(?:[,.;:!?]+| because| since| as| for)* {_SOMETHING} (?:from|out of|in|inside|from inside)"
-        rf"(?: (?:it|there|in there))?{_END}",
+        rf"(?:[,.;:!?]+| because| since| as| for)* {_SOMETHING} "
+        rf"(?:from|out of|in|inside|from inside)(?: (?:it|there|in there))?{_END}",
         r"\1",
     ),
     # "To the chest's top", "in the desk's far right corner"
