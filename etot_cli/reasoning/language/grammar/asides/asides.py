@@ -224,6 +224,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     )
     told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
     told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
+    told = told or wants_such_a_thing(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
