@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from etot_cli.reasoning.builtin.company import coming_beside, landmarks, room_beside
 from etot_cli.reasoning.builtin.fetching import fetched_first
 from etot_cli.reasoning.builtin.keepouts import kept_away
 from etot_cli.reasoning.builtin.openings import closed_alike, closed_by_others, reopened_at_once
@@ -192,7 +193,8 @@ class _Case:
         actions = moved_before(self.actions, own, failing.start)
         at = failing.start + pick + 1 - own.start
         discs = {*put.keepout, *kept_away(actions[at + 1 :], put, self.scene)}
-        there = replace(put, keepout=tuple(sorted(discs)))
+        coming = coming_beside(actions, at, name)
+        there = replace(put, keepout=tuple(sorted(discs)), coming=coming)
         actions = (*actions[:at], there, *actions[at + 1 :])
         yield Correction(
             reachable_throughout(actions, self.start),
@@ -340,6 +342,10 @@ class _Case:
             yield from other_places(self.failed, index)
             if self.action.target == DESK:
                 return  # what stands on a full desk has nowhere to go but where this could go
+        marks = landmarks(self.action) if self.is_full else []
+        others = {name for name in self._culprits() if self.scene.infos[name].movable}
+        if others <= {owner, *marks}:
+            yield from self._room_beside(marks)
         for name in self._culprits():
             if name == owner:
                 yield from opened_wider(self.failed, owner)
@@ -361,6 +367,8 @@ class _Case:
                 yield from fetched_first(self.failed, name)
                 if owner in self.scene.infos:
                     yield from self._brought_out(name, [owner])
+        if not others <= {owner, *marks}:
+            yield from self._room_beside(marks)
         if self.action.safe and not self.is_full:
             yield from other_places(self.failed, index)
         if pick is not None:
@@ -368,6 +376,12 @@ class _Case:
         yield from grasped_anew(self.failed, pick, self.cause.kind)
         if not self._culprits() or self._is_furniture_alone():
             yield from grasped_for(self.failed, pick, self.cause)
+
+    def _room_beside(self, marks: Iterable[str]) -> Iterator[Correction]:
+        """The branch with one of the landmarks at another place, those to blame first."""
+        blamed = self._culprits()
+        for name in sorted(marks, key=lambda mark: mark not in blamed):
+            yield from room_beside(self.failed, name)
 
     def _is_furniture_alone(self) -> bool:
         """Whether only what cannot be moved is in the way."""
