@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.goals.grasps import grasped
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
 from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
+from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
@@ -167,9 +168,9 @@ class Understanding:
         """Whether something is only told not to be in what the clause before closes: it is taken
         out ahead ("close the drawer; the cup must not be in it").
         """
-        if spoken.order is not Order.SAID or not isinstance(
-            spoken.clause, AvoidClause | EnsureClause
-        ):
+        clause = spoken.clause
+        told = isinstance(clause, AvoidClause | EnsureClause) or is_emptying(clause)
+        if spoken.order is not Order.SAID or not told:
             return False
         discourse, states = self.context.discourse, self._scene.states
         shut = [step.what for step in before.steps if isinstance(step, Close)]
