@@ -169,8 +169,8 @@ class Places:
         return tuple(places)
 
     def _beside_what_has_no_top(self, where: Destination, themes: Sequence[int]) -> Destination:
-        """Next to what things are brought to that takes nothing in and nothing is put on, or off
-        which they would roll.
+        """Next to what things are brought to that takes nothing in and nothing is put on; over
+        to what they would roll off.
         """
         (np, *more) = where.targets or (NounPhrase(),)
         plain = where.word in ("", ACROSS) and not (where.beside or more)
@@ -181,14 +181,15 @@ class Places:
             things = {*things_in(self._phrases.meaning(np, Role.ANY).options)}
         infos = self._scene.infos
         moved = self.discourse.things(*themes)
-        round_ones = all(t.name in infos and infos[t.name].kind == "sphere" for t in moved)
+        kinds = {infos[thing.name].kind if thing.name in infos else "" for thing in moved}
+        rolls = where.word == ACROSS and kinds == {"sphere"}
         if not things or any(
             thing.name not in infos
             or self._scene.states[thing.name].inside is not None  # rather where that is
             or can_be(thing, Role.CONTAINER, self._scene)
             or not (
                 has_no_top(infos[thing.name].label)
-                or (moved and round_ones and not space.is_support(thing, self._scene))
+                or (rolls and not space.is_support(thing, self._scene))
             )
             for thing in things
         ):
