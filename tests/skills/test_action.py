@@ -37,7 +37,8 @@ placed = st.builds(
     names,
     st.lists(whereabouts(), max_size=3),
 )
-actions = st.one_of(plain, placed)
+partly = st.builds(lambda name: Action(Verb.OPEN, name, partly=True), names)
+actions = st.one_of(plain, placed, partly)
 
 
 @given(st.lists(actions, min_size=1, max_size=8))
