@@ -101,7 +101,8 @@ def shortened(word: str, known: Iterable[str]) -> str | None:
 def exchanged(word: str, known: Iterable[str]) -> str | None:
     """The one known word of the same letters ("teh" for "the"); None when there is none."""
     letters = sorted(word)
-    alike = (item for item in known if len(word) > 2 and item[:1] == word[0])
+    begun = (word[0], word[1::-1])  # as it begins, or with that exchanged
+    alike = (item for item in known if len(word) > 2 and item.startswith(begun))
     found = [item for item in alike if sorted(item) == letters]
     return found[0] if len(found) == 1 and not is_english(word) else None
 
