@@ -261,7 +261,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", ""),
     (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
     (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),
-    (r"\bnothing (?:but|except(?: for)?|other than|besides)\b(?=(?: \w+){1,5})", "only"),
+    (
+        r"\bnothing (?:but|except(?: for)?|other than|besides|(?:apart|aside) from"
+        r"|with the exception of)\b(?=(?: \w+){1,5})",
+        "only",
+    ),
     (
         rf"[,.;]? \(?(?:(?:final|exact|target|its) )?(?:position|location|placement) ?: ?"
         rf"(?={_BESIDE})",
