@@ -90,11 +90,15 @@ def _with_noun(phrase: NounPhrase, noun: tuple[str, ...], context: Context) -> N
 
 @dataclass(frozen=True, slots=True)
 class Timed:
-    """A clause's steps, when they are to be done, and the number of the sentence."""
+    """A clause's steps, when they are to be done, and the number of the sentence; ``stays``: it
+    says where things stay; ``led``: the word for when stands before it.
+    """
 
     steps: tuple[Step, ...]
     order: Order
     sentence: int
+    stays: bool = False
+    led: bool = False
 
 
 def continues(item: Timed, after: Timed, discourse: Discourse) -> bool:
@@ -165,7 +169,10 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
             last.append(item)
         else:
             done.append(item)
-        ahead = item if along or item.order is Order.BEFORE_THAT else None
+        # "First …" begins what is told in its order; "…, but first …" goes back.
+        back = item.order is Order.FIRST and item.led and number > 0
+        back = back and said[number - 1].sentence == item.sentence
+        ahead = item if along or back or item.order is Order.BEFORE_THAT else None
     steps: list[Step] = []
     run, sentence = 0, -1
     position = {id(item): at for at, item in enumerate(said)}

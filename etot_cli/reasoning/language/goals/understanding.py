@@ -46,6 +46,13 @@ def _check_instead(spoken: Spoken, before: Clause | None, *, room: bool) -> None
         raise ReferenceProblem("instead", "say only what is to be done", 3, word="instead")
 
 
+def _says_what_stays(clause: Clause) -> bool:
+    """Whether a clause says that things stay, or are left, where they are."""
+    if isinstance(clause, EnsureClause):
+        return all(state.kept and not (state.denied or state.allowed) for state in clause.states)
+    return isinstance(clause, PutClause) and clause.stays
+
+
 def _lying(step: Put) -> Put:
     """The same without that things are to stand there."""
     near = Near(Nearby.UPRIGHT)
@@ -126,7 +133,8 @@ class Understanding:
             self.context.last = spoken.clause
             order = Order.THEN if self._comes_next(spoken, steps, asked) else spoken.order
             asked.append((spoken.clause, steps))
-            item = Timed(steps, order, self.sentence)
+            stays = _says_what_stays(spoken.clause)
+            item = Timed(steps, order, self.sentence, stays=stays, led=spoken.led)
             if before is not None and continues(timed[before], item, self.context.discourse):
                 timed[before] = replace(timed[before], steps=(*timed[before].steps, *steps))
             else:
