@@ -99,7 +99,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(?<=[.!] )(?:all )?done(?=[.!]*$)", "that is all"),
     (
         rf"(^|[.;!] )(?:how|what) about (?={NAMED} (?:\w+ ){{0,2}}?\w+ (?:in|on|into|onto|inside|"
-        rf"next to|beside) {NAMED})",
+        rf"next to|beside|on top of|behind|in front of|between|near|to the (?:left|right) of) "
+        rf"{NAMED})",
         r"\1put ",
     ),
     *CONTRACTIONS,
@@ -232,7 +233,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     *CORNERS_AND_SIDES,
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
-    (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
+    (r"\b(?:down|out|over|up) here (?=(?:on|in|onto|into) (?:the|my)\b)", ""),
     (r",? from now on\b", ""),
     (r"(?<=\w) by (?:tonight|noon|bedtime|dinnertime|lunchtime|tomorrow)(?=, )", ""),
     (

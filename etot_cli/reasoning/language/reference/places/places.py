@@ -179,7 +179,9 @@ class Places:
             thing.name not in infos
             or self._scene.states[thing.name].inside is not None  # rather where that is
             or can_be(thing, Role.CONTAINER, self._scene)
-            or not has_no_top(infos[thing.name].label)
+            or not (
+                has_no_top(infos[thing.name].label) or not can_be(thing, Role.PLACE, self._scene)
+            )
             for thing in things
         ):
             return where
