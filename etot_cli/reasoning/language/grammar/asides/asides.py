@@ -227,7 +227,8 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
     told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
     told = told or is_in_passing(aside.said)
-    told = told or (aside.joint == "before" and is_of_people(aside.said))
+    somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
+    told = told or (aside.joint == "before" and somebody)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told

@@ -39,7 +39,7 @@ _OWN = (
 )
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
-    r"(?:i|we|you|he|she|nobody|no one|somebody|someone|everybody|everyone|people"
+    r"(?:i|we|you|he|she|nobody|no one|somebody|someone|anybody|anyone|everybody|everyone|people"
     r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
@@ -247,7 +247,9 @@ def is_in_passing(said: str) -> bool:
     it ("it is full", "it is going to be painted tomorrow").
     """
     found = _IN_PASSING.fullmatch(said)
-    return found is not None and found["done"] not in all_words()
+    done = (found and found["done"]) or ""
+    stems = {done, done[:-1], done[:-2], done[:-3], f"{done[:-3]}y"}
+    return found is not None and not stems & (_DONE_TO_THINGS | words_of((verbs.BROUGHT,)) | WORK)
 
 
 def is_not_to_stay(said: str) -> bool:

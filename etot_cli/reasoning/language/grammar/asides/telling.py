@@ -143,10 +143,10 @@ _ABOUT_TO = Expression(
 
 def is_about_to(said: str, is_name: IsName) -> bool:
     """Whether a clause tells, behind a request, what somebody is about to do ("Tom is about to
-    draw"), which is nothing that the robot does.
+    draw"), with nothing that is named.
     """
     found = _ABOUT_TO.fullmatch(said)
-    if found is None or found["does"] in _ASKING | VERB_WORDS - OTHER_VERBS:
+    if found is None or found["does"] in ASKING | CHANGING | DECREEING:
         return False
     return not (is_name(found["who"]) or found["who"] in _NO_SUBJECT)
 

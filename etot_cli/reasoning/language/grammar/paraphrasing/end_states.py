@@ -175,6 +175,13 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?:when|while|as) (?:you )?({_MOVED}) (?:\3|it) ([^.,;]*)",
         _left_while_moved,
     ),
+    # "One walnut in the bowl is enough"
+    (
+        r"(^|[.;!] )(?:just )?((?:one|two|three|four) (?:\w+ ){1,3}?(?:in|on) "
+        r"(?:the|my|our) (?:\w+ ){0,2}?\w+) (?:is|are|would be|will be|should be) "
+        r"(?:enough|sufficient|plenty)(?: for (?:me|us|now|today))?(?=[.,;!]|$)",
+        r"\1there should be exactly \2",
+    ),
     # "Put the egg in the bowl; nothing else should be in there"
     (
         rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? {_NOTHING_ELSE}",

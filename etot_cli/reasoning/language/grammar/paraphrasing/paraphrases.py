@@ -233,7 +233,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     *CORNERS_AND_SIDES,
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
-    (r"\b(?:down|out|over|up) here (?=(?:on|in|onto|into) (?:the|my)\b)", ""),
+    (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
+    (r"\b(come|go) (?:out|over|up) here (?=(?:on|in) (?:the|my)\b)", r"\1 "),
     (r",? from now on\b", ""),
     (r"(?<=\w) by (?:tonight|noon|bedtime|dinnertime|lunchtime|tomorrow)(?=, )", ""),
     (
