@@ -145,8 +145,8 @@ def _goes_elsewhere(item: Timed, said: Sequence[Timed], discourse: Discourse) ->
 def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     """All steps in the order in which they are to be done.
 
-    "First" goes before everything that was said before it, "before that" before the clause before
-    it, "last" after everything. Puts of one sentence that no word puts in an order are a run, a
+    "First" goes before everything that was said before it, "…, but first" before what its sentence
+    says, "before that" before the clause before it, "last" after everything. Puts of one sentence that no word puts in an order are a run, a
     set of placements ("the red block on the green one and the green one on the blue one"); what was
     said before what goes ahead of it is not of that one's run.
     """
@@ -164,7 +164,8 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
         elif along:  # "…, but before that take the cup off and put the pen in the box"
             done.insert(next(at for at, other in enumerate(done) if other is ahead) + 1, item)
         elif item.order is Order.FIRST:
-            done.insert(0, item)
+            own = (at for at, other in enumerate(done) if other.sentence == item.sentence)
+            done.insert(next(own, 0) if item.led else 0, item)
         elif item.order is Order.LAST and not _goes_elsewhere(item, said, discourse):
             last.append(item)
         else:
