@@ -146,9 +146,10 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     """All steps in the order in which they are to be done.
 
     "First" goes before everything that was said before it, "…, but first" before what its sentence
-    says, "before that" before the clause before it, "last" after everything. Puts of one sentence that no word puts in an order are a run, a
-    set of placements ("the red block on the green one and the green one on the blue one"); what was
-    said before what goes ahead of it is not of that one's run.
+    says, "before that" before the clause before it, "last" after everything. Puts of one sentence
+    that no word puts in an order are a run, a set of placements ("the red block on the green one
+    and the green one on the blue one"); what was said before what goes ahead of it is not of that
+    one's run.
     """
     done: list[Timed] = []
     last: list[Timed] = []
