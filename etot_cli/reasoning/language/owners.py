@@ -15,21 +15,33 @@ _OWNED = re.compile(
     r"(?= (?P<first>\w+)(?: (?P<second>\w+))?)"
 )
 """Within a sentence; what it begins with has a capital anyway."""
+_WANTS = re.compile(
+    r"(?:^|(?<=[.!?;,] )|(?<=\b(?:so|as) ))(?P<who>[A-Z][a-z]+)"
+    r"(?= (?:wants|needs|would like|asked for|asks for) (?:to have )?"
+    r"(?:the|my|his|her|both|all|an?)\b)"
+)
+"""Who asks for things that are not for "me"."""
 
 
 def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
-    """An instruction in which things of the scene that belong to somebody by name are "mine".
+    """An instruction in which things of the scene that belong to somebody by name are "mine", and
+    who wants something by name is "somebody".
 
     Args:
         instruction: as typed: names of people have capitals.
         is_name: whether something in the scene is called by a word.
     """
 
+    def is_stranger(who: str) -> bool:
+        return not (is_name(who) or who in all_words() or is_descriptive(who))
+
     def told(found: re.Match[str]) -> str:
         who, first, second = ((found[part] or "").casefold() for part in ("who", "first", "second"))
         noun = second if is_descriptive(first) else first
         known = is_name(noun) or singular(noun) in spellings(STACK)
-        stranger = not (is_name(who) or who in all_words() or is_descriptive(who))
-        return "my" if known and stranger else found[0]
+        return "my" if known and is_stranger(who) else found[0]
 
-    return _OWNED.sub(told, instruction)
+    def wanting(found: re.Match[str]) -> str:
+        return "somebody" if is_stranger(found["who"].casefold()) else found[0]
+
+    return _WANTS.sub(wanting, _OWNED.sub(told, instruction))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, things_in
+from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import InTheWay
@@ -197,6 +197,28 @@ def check_turns(said: Sequence[Timed], discourse: Discourse) -> None:
         if item.order in (Order.FIRST, Order.LAST) and put[number] & others:
             why = "it was asked for already; say there what goes first or last"
             raise ReferenceProblem(str(item.order), why, 4)
+
+
+def check_stays(said: Sequence[Timed], discourse: Discourse) -> None:
+    """Whether anything is to stay somewhere and is put elsewhere by another sentence, where no word
+    says which comes first. What stays on the desk may be on what stands there.
+    """
+
+    def places(item: Timed) -> Iterator[tuple[Thing, set[str]]]:
+        for step in (step for step in item.steps if isinstance(step, Put)):
+            where = [place.where for place in step.places]
+            known = discourse.things(*(at for at in where if at is not None))
+            if None not in where and (step.removal or DESK not in {at.name for at in known}):
+                yield from ((t, {at.name for at in known}) for t in discourse.things(*step.what))
+
+    for item in (item for item in said if item.stays and item.order is Order.SAID):
+        left = tuple(s for s in item.steps if not isinstance(s, Put) or not s.removal)
+        staying = dict(places(replace(item, steps=left)))
+        others = (i for i in said if i.sentence != item.sentence and i.order is Order.SAID)
+        for thing, there in (found for other in others for found in places(other)):
+            if thing in staying and not staying[thing] & there:
+                why = "it cannot stay where it is said to and go elsewhere; say 'then'"
+                raise ReferenceProblem(thing.name, why, 4)
 
 
 def check_swept_away(goal: Goal, swept: Collection[int]) -> None:

@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.reference.geometry.space import carries, touche
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.known import REASONS
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.places import WAS_THERE
 
 _ITS_PLACE = "back to its place"
@@ -185,6 +186,9 @@ def in_stead(
         ReferenceProblem: it is not known where that was, or it is said to have been elsewhere.
     """
     (where,), discourse = group.destinations, context.discourse
+    around = [np.head for item in where.around for np in item.targets]
+    if where.word.startswith("instead of") and (not around or {*around} & {*DESK_NOUNS}):
+        raise ReferenceProblem(where.word, "say where each one is to go", 2)
     things = [thing for index in replaced for thing in context.only(index, "say which one")]
     (new, *others) = discourse.things(*themes)
     if others or any(carries(old, new, context.scene) for old in things):

@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.goals.checks import (
     check_kept,
     check_run,
     check_shut,
+    check_stays,
     check_swept_away,
     check_turns,
     with_room_made,
@@ -70,6 +71,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     check_circle(goal)
     _check_remarks(goal, state.context.discourse)
     check_turns(state.timed, state.context.discourse)
+    check_stays(state.timed, state.context.discourse)
     goal = without_ruled_out(without_places(goal, state.context.discourse), scene)
     goal = settled(goal, scene, state.context.turned)
     check_held(state.timed, goal, scene)

@@ -90,11 +90,15 @@ def _with_noun(phrase: NounPhrase, noun: tuple[str, ...], context: Context) -> N
 
 @dataclass(frozen=True, slots=True)
 class Timed:
-    """A clause's steps, when they are to be done, and the number of the sentence."""
+    """A clause's steps, when they are to be done, and the number of the sentence; ``stays``: it
+    says where things stay; ``led``: the word for when stands before it.
+    """
 
     steps: tuple[Step, ...]
     order: Order
     sentence: int
+    stays: bool = False
+    led: bool = False
 
 
 def continues(item: Timed, after: Timed, discourse: Discourse) -> bool:
@@ -141,10 +145,11 @@ def _goes_elsewhere(item: Timed, said: Sequence[Timed], discourse: Discourse) ->
 def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     """All steps in the order in which they are to be done.
 
-    "First" goes before everything that was said before it, "before that" before the clause before
-    it, "last" after everything. Puts of one sentence that no word puts in an order are a run, a
-    set of placements ("the red block on the green one and the green one on the blue one"); what was
-    said before what goes ahead of it is not of that one's run.
+    "First" goes before everything that was said before it, "…, but first" before what its sentence
+    says, "before that" before the clause before it, "last" after everything. Puts of one sentence
+    that no word puts in an order are a run, a set of placements ("the red block on the green one
+    and the green one on the blue one"); what was said before what goes ahead of it is not of that
+    one's run.
     """
     done: list[Timed] = []
     last: list[Timed] = []
@@ -160,12 +165,16 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
         elif along:  # "…, but before that take the cup off and put the pen in the box"
             done.insert(next(at for at, other in enumerate(done) if other is ahead) + 1, item)
         elif item.order is Order.FIRST:
-            done.insert(0, item)
+            own = (at for at, other in enumerate(done) if other.sentence == item.sentence)
+            done.insert(next(own, 0) if item.led else 0, item)
         elif item.order is Order.LAST and not _goes_elsewhere(item, said, discourse):
             last.append(item)
         else:
             done.append(item)
-        ahead = item if along or item.order is Order.BEFORE_THAT else None
+        # "First …" begins what is told in its order; "…, but first …" goes back.
+        back = item.order is Order.FIRST and item.led and number > 0
+        back = back and said[number - 1].sentence == item.sentence
+        ahead = item if along or back or item.order is Order.BEFORE_THAT else None
     steps: list[Step] = []
     run, sentence = 0, -1
     position = {id(item): at for at, item in enumerate(said)}

@@ -47,6 +47,13 @@ def _check_instead(spoken: Spoken, before: Clause | None, *, room: bool) -> None
         raise ReferenceProblem("instead", "say only what is to be done", 3, word="instead")
 
 
+def _says_what_stays(clause: Clause) -> bool:
+    """Whether a clause says that things stay, or are left, where they are."""
+    if isinstance(clause, EnsureClause):
+        return all(state.kept and not (state.denied or state.allowed) for state in clause.states)
+    return isinstance(clause, PutClause) and clause.stays
+
+
 def _lying(step: Put) -> Put:
     """The same without that things are to stand there."""
     near = Near(Nearby.UPRIGHT)
@@ -130,7 +137,8 @@ class Understanding:
             if said_before and self._is_out_by_then(spoken, steps, said_before[-1]):
                 order = Order.BEFORE_THAT
             asked.append((spoken.clause, steps))
-            item = Timed(steps, order, self.sentence)
+            stays = _says_what_stays(spoken.clause)
+            item = Timed(steps, order, self.sentence, stays=stays, led=spoken.led)
             if before is not None and continues(timed[before], item, self.context.discourse):
                 timed[before] = replace(timed[before], steps=(*timed[before].steps, *steps))
             else:

@@ -165,16 +165,20 @@ NOTHING_IS_SO = """
 """
 """Before where there is to be nothing, as was said before."""
 NOTHING_IS = f"""
-    (nothing (should|must|may|can|is to|has to) (be|stay|remain)|
+    (nothing (should|must|is to|has to) (be|stay|remain|stand|lie|sit)|
     (i|we) (do not want anything|want nothing) [to be]) [left|lying|standing|sitting],
     (nothing (should|must|may|can|is to|has to)|(ensure|make sure|see to it) [that] nothing)
     (stay|remain|stays|remains) [left],
     there (should|must|has to|needs to|is to) be nothing [left],
-    there (should|must|may|can) (not|no longer) be anything [left],
+    there (should|must) (not|no longer) be anything [left],
     leav(e|ing) nothing [lying|standing|sitting],
     ({ENSURE}) ({NOTHING_IS_SO})
 """
 """Before where there is to be nothing."""
+NOTHING_MAY_BE = """
+    nothing (may|can) (be|stay|remain|stand|lie|sit) [left|lying|standing|sitting],
+    there (may|can) (not|no longer) be anything [left]
+"""
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|

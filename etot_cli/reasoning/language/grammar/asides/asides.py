@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.grammar.asides.remarks import (
     asks_besides,
     is_comment,
     is_doing,
+    is_in_passing,
     is_made_possible,
     is_not_to_stay,
     is_of_people,
@@ -55,7 +56,9 @@ from etot_cli.reasoning.language.grammar.asides.telling import (
     goes_there,
     goes_there_later,
     goes_with_somebody,
+    is_about_to,
     tells_of_others,
+    there_is_such,
 )
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import wants_such_a_thing
 from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering
@@ -225,6 +228,9 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
     told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
     told = told or wants_such_a_thing(aside.said, is_name)
+    told = told or is_in_passing(aside.said)
+    somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
+    told = told or (aside.joint == "before" and somebody)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -339,7 +345,15 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         or tells_of_others(clause.said, is_name, before_so=so)
     ):
         return True
-    if trailing and clause.comma and goes_there(clause.said, is_name):
+    if (
+        trailing
+        and clause.comma
+        and (
+            goes_there(clause.said, is_name)
+            or is_about_to(clause.said, is_name)
+            or there_is_such(clause.said, is_name)
+        )
+    ):
         return True
     if dislikes(clause.said) or is_hindering(clause.said):
         return True

@@ -12,7 +12,7 @@ _DOES = (
 )
 _GETS = (
     f"{TURNED}|lost|broken|damaged|stolen|spoilt|spoiled|squashed|crushed|ruined|scratched|stained|"
-    "spilt|spilled|messy|lukewarm|sticky|rusty"
+    "spilt|spilled|messy|lukewarm|sticky|rusty|knocked (?:over|down|off)|stepped on|sat on"
 )
 BEFALLS = (
     rf"(?:(?:just|only|all|quickly|soon) )?"

@@ -39,7 +39,7 @@ _OWN = (
 )
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
-    r"(?:i|we|you|he|she|nobody|no one|somebody|someone|everybody|everyone|people"
+    r"(?:i|we|you|he|she|nobody|no one|somebody|someone|anybody|anyone|everybody|everyone|people"
     r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
@@ -156,6 +156,12 @@ _IN_GENERAL = Expression(
     r"|^it is \w+time for (?:the|my|our) \w+(?: \w+)?$"
     r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b"
 )
+_IN_PASSING = Expression(
+    r"(?:it|they) (?:is|are) (?:(?:still|quite|very|really|rather|almost|too) )?full"
+    r"(?: of \w+| to the (?:brim|rim|top))?"
+    r"|(?:it|they) (?:is|are) (?:going|about) to (?:be|get) (?P<done>\w+(?:ed|t|n))"
+    r"(?: (?:today|tomorrow|tonight|soon|later|next week|this week|in a (?:minute|moment)))?"
+)
 _YONDER = Expression(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
 REFERRING = word_set(
     "it they them this that these those one ones two three other others another rest everything "
@@ -170,7 +176,7 @@ _PREDICATE = Expression(
     r"(?: (?:still|just|already|always|all|so|very|too|really|a bit|far|badly|quite|less|more))*"
     r"(?= |$)"
 )
-_A_BIT = Expression(r" (?:a (?:little|bit|lot)|quite a bit)(?= |$)")
+_A_BIT = Expression(r" (?:a (?:little|bit|lot)|quite a bit|by now)(?= |$)")
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
 _TOO_BIG = Expression(
     r"^(?:is|are) (?:just |far |much |a bit |a little )*too \w+ "
@@ -240,6 +246,16 @@ _SO_NOTHING = Expression(
 )
 _OR_WILL = Expression(rf"^(?:{PEOPLE}|it|they) \w+")
 _COMMENT = Expression(r"^(?:is|are|was|were|has|have) ")
+
+
+def is_in_passing(said: str) -> bool:
+    """Whether this tells of what was spoken of why some care is taken, or what others will do with
+    it ("it is full", "it is going to be painted tomorrow").
+    """
+    found = _IN_PASSING.fullmatch(said)
+    done = (found and found["done"]) or ""
+    stems = {done, done[:-1], done[:-2], done[:-3], f"{done[:-3]}y"}
+    return found is not None and not stems & (_DONE_TO_THINGS | words_of((verbs.BROUGHT,)) | WORK)
 
 
 def is_not_to_stay(said: str) -> bool:
@@ -329,6 +345,8 @@ def is_remark(said: str, is_name: IsName) -> bool:
         return not any(map(is_name, said.split())) and is_remark(said[: then.start()], is_name)
     words = said.split()
     person = _PERSON.match(said)
+    if is_in_passing(said):
+        return True
     if asks_besides(said) or lacks_room(said):
         return lacks_room(said)
     if person:

@@ -78,8 +78,13 @@ _PLACED_THERE = Expression(
 _HOW_LONG = Expression(
     r" (?:all (?:day|night|week|morning|the time)(?: long)?|every (?:day|night))"
 )
-_THERE_IS = Expression(r"there (?:is|are|was|were) (?:an?|some|so much|too much|such an?) ")
-_YONDER = Expression(r"(?: (?:in|out|over|up|down))? (?:here|there)(?= |$)")
+_THERE_IS = Expression(
+    r"there (?:is|are|was|were) (?:(?:still|already|also|even) )?"
+    r"(?:(?:an?|some|so much|too much|such an?) |(?=(?:\w+ ){1,2}(?:in|on|inside) (?:it|them)$))"
+)
+_YONDER = Expression(
+    r"(?: (?:in|out|over|up|down))? (?:here|there)(?= |$)| (?:in|on|inside) (?:it|them)$"
+)
 _NO_EXISTENCE = REFERRING | {*THING_NOUNS, *LEVELS, *SIDES, *STATES}
 """What is there of these may be in the scene."""
 
@@ -101,8 +106,7 @@ def tells_of_others(said: str, is_name: IsName, *, before_so: bool = False) -> b
     """
     words = _HOW_LONG.sub("", said.replace(" 's ", "s ")).split()
     if _THERE_IS.match(said):
-        words = _YONDER.sub("", said).split()
-        return not (any(map(is_name, words)) or (_ASKING | _NO_EXISTENCE) & {*words[2:]})
+        return there_is_such(said, is_name)
     if any(map(is_name, words)) or _ASKING & {*words} or re.match(rf"{PEOPLE}\b", said):
         return False
     first = int(words[:1] != [] and words[0] in BEFORE_NAMES)
@@ -118,6 +122,33 @@ def tells_of_others(said: str, is_name: IsName, *, before_so: bool = False) -> b
             sure = words[at] in _IRREGULAR or words[at].endswith("ed")
             return sure or (bool(more or before_so) and not _WHERE & {*more})
     return False
+
+
+def there_is_such(said: str, is_name: IsName) -> bool:
+    """Whether a clause tells that there is something, which is not in the scene ("there is milk in
+    it").
+    """
+    words = _YONDER.sub("", said).split()
+    told = {*words[2:]} - {"still"}
+    return bool(_THERE_IS.match(said)) and not (
+        any(map(is_name, words)) or (_ASKING | _NO_EXISTENCE) & told
+    )
+
+
+_ABOUT_TO = Expression(
+    r"(?P<who>(?!it\b|they\b|this\b|that\b|these\b|those\b)\w+) (?:is|am|are) (?:just )?"
+    r"(?:about|going) to (?P<does>\w+)(?: (?:soon|now|today|tonight|later|it|there))?"
+)
+
+
+def is_about_to(said: str, is_name: IsName) -> bool:
+    """Whether a clause tells, behind a request, what somebody is about to do ("Tom is about to
+    draw"), with nothing that is named.
+    """
+    found = _ABOUT_TO.fullmatch(said)
+    if found is None or found["does"] in ASKING | CHANGING | DECREEING:
+        return False
+    return not (is_name(found["who"]) or found["who"] in _NO_SUBJECT)
 
 
 def _may_be_verb(word: str, subject: str) -> bool:

@@ -64,6 +64,12 @@ def _held(np: NounPhrase, held: NounPhrase) -> State:
     return State((held,), (Destination(Toward.INSIDE, (np,)),))
 
 
+def _borne_by(np: NounPhrase, below: NounPhrase) -> EnsureClause | None:
+    """What stands on something that it "needs under it"; "something" may be anything."""
+    vague = np.pronoun or below.pronoun or matches_any(below.head, THING_NOUNS)
+    return None if vague else EnsureClause((State((np,), (Destination(Toward.ON, (below,)),)),))
+
+
 _EACH = phrase("each, both, all")
 
 
@@ -201,6 +207,14 @@ ENSURE = either(
         ),
         RESPECTIVE_PLACES,
         build=_respectively,
+    ),
+    sequence(
+        # "The vase needs a mat under it"
+        noun_phrase,
+        "needs, need, wants, (should|must|has to|needs to|is to) (have|get|stand on|sit on)",
+        noun_phrase,
+        "under it, underneath it, beneath it, below it, under them, underneath them",
+        build=_borne_by,
     ),
     sequence(verbs.ARRANGE, noun_phrase, small_words.SO_THAT, states, build=_arranged),
     sequence(

@@ -34,6 +34,12 @@ CORNERS_AND_SIDES: tuple[tuple[str, str], ...] = (
         )
         for high, side in (("top|upper", "back"), ("bottom|lower", "front"))
     ),
+    # What is taken away from the edges of the table is in its middle.
+    (
+        r"\b((?:move|take|put|bring|shift|set|get) [^.,;]*?) (?:further )?away from "
+        rf"the (?:edge|border)s?(?: of (?:the|my) {TABLE})?(?=[.,;!?]|$| (?:and|then|before)\b)",
+        r"\1 to the middle of the table",
+    ),
     # "From the right to the left" is about the sides of the table.
     (
         rf"\b(?:away )?from the {_SIDE}(?: of the {TABLE})?"

@@ -7,12 +7,20 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.lexicon import is_descriptive
 from etot_cli.reasoning.language.words.small_words import NAMED
 
 _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|ought to"
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
 _WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
+
+
+def _one(said: str) -> str:
+    """A colour alone is the thing of that colour."""
+    return f"the {said} one" if is_descriptive(said) else said
+
+
 _IN_THERE = r"(?:(?:in|on|inside) (?:there|it)|there|inside)"
 _NOTHING_ELSE = (
     r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
@@ -174,6 +182,32 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"\b(?:do not|never) (?:take|remove|lift|get) ({_SOME}) (out of|off) ({_SOME}) "
         rf"(?:when|while|as) (?:you )?({_MOVED}) (?:\3|it) ([^.,;]*)",
         _left_while_moved,
+    ),
+    # "Red should not be on blue, it should be the other way round"
+    (
+        r"^((?:(?:the|my) )?(?:\w+ )?\w+) (?:should|must|shall) not be (on|in) "
+        r"((?:(?:the|my) )?(?:\w+ )?\w+)[,;.:] (?:(?:but|instead|rather) )?"
+        r"(?:it (?:should|must) be |it is )?the other way (?:round|around)(?=[.!]|$)",
+        lambda said: f"{_one(said[3])} should be {said[2]} {_one(said[1])}",
+    ),
+    # "Only socks go in the basket. Put both of them in": these, rather than a rule for such things
+    (
+        r"(^|[.;!] )(?:only|nothing (?:but|except)) (?!the\b)(\w+[^s\W]s) (go|belong)(?:e?s)? "
+        r"(?=(?:in|on|into|onto)\b[^.;!]*[.;!] (?:please )?(?:put|place) (?:both|all) of them\b)",
+        r"\1only the \2 \3 ",
+    ),
+    # "Make room on the lower shelf by moving the cup to the upper"
+    (
+        r"\b(on the (?:top|bottom|upper|lower|middle) (\w+) by \w+ing [^.,;]*? (?:to|on|onto) the "
+        r"(?:top|bottom|upper|lower|middle))(?: one)?(?=[.,;!?]|$| and\b)",
+        r"\1 \2",
+    ),
+    # "One walnut in the bowl is enough"
+    (
+        r"(^|[.;!] )(?:just )?((?:one|two|three|four) (?:\w+ ){1,3}?(?:in|on) "
+        r"(?:the|my|our) (?:\w+ ){0,2}?\w+) (?:is|are|would be|will be|should be) "
+        r"(?:enough|sufficient|plenty)(?: for (?:me|us|now|today))?(?=[.,;!]|$)",
+        r"\1there should be exactly \2",
     ),
     # "Put the egg in the bowl; nothing else should be in there"
     (

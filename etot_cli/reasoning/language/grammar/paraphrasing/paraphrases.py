@@ -99,7 +99,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(?<=[.!] )(?:all )?done(?=[.!]*$)", "that is all"),
     (
         rf"(^|[.;!] )(?:how|what) about (?={NAMED} (?:\w+ ){{0,2}}?\w+ (?:in|on|into|onto|inside|"
-        rf"next to|beside) {NAMED})",
+        rf"next to|beside|on top of|behind|in front of|between|near|to the (?:left|right) of) "
+        rf"{NAMED})",
         r"\1put ",
     ),
     *CONTRACTIONS,
@@ -233,6 +234,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     *CORNERS_AND_SIDES,
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
     (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
+    (r"\b(come|go) (?:out|over|up) here (?=(?:on|in) (?:the|my)\b)", r"\1 "),
     (r",? from now on\b", ""),
     (r"(?<=\w) by (?:tonight|noon|bedtime|dinnertime|lunchtime|tomorrow)(?=, )", ""),
     (
@@ -261,7 +263,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", ""),
     (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
     (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),
-    (r"\bnothing (?:but|except(?: for)?|other than|besides)\b(?=(?: \w+){1,5})", "only"),
+    (
+        r"\bnothing (?:but|except(?: for)?|other than|besides|(?:apart|aside) from"
+        r"|with the exception of)\b(?=(?: \w+){1,5})",
+        "only",
+    ),
     (
         rf"[,.;]? \(?(?:(?:final|exact|target|its) )?(?:position|location|placement) ?: ?"
         rf"(?={_BESIDE})",

@@ -37,7 +37,12 @@ from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEV
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     BETWEEN,
 )
-from etot_cli.reasoning.language.grammar.phrases.steads import STEAD, WITH, told_by_it
+from etot_cli.reasoning.language.grammar.phrases.steads import (
+    INSTEAD_OF_IT,
+    STEAD,
+    WITH,
+    told_by_it,
+)
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
     Destination,
@@ -251,7 +256,9 @@ _place = either(
         build=lambda stead, around: replace(stead, around=(around,)),
     ),
     sequence(
-        either(INTO, ONTO), STEAD, build=lambda around, stead: replace(stead, around=(around,))
+        either(INTO, ONTO),
+        either(STEAD, INSTEAD_OF_IT),
+        build=lambda around, stead: replace(stead, around=(around,)),
     ),
     valued(
         either(phrase(places.HERE), phrase("(up|down) there", "there")),

@@ -23,10 +23,12 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Modifier,
     NounPhrase,
+    State,
     Things,
 )
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -35,6 +37,8 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
     that its last phrase means, or that ``at`` an index.
     """
     some = left_out.prep is Prep.EXCEPT and not left_out.denied
+    if only := only_there(clause, left_out):
+        return only
 
     def without(np: NounPhrase) -> NounPhrase | None:
         # "Any cup, put it there, but not the red one" is said of what "it" was chosen from.
@@ -42,6 +46,22 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
         return None if np.pronoun == "it" or single else np.told_by(left_out)
 
     return changed(clause, without, at)
+
+
+def only_there(clause: Clause, left_out: Modifier) -> EnsureClause | None:
+    """What is excepted where nothing is to be in the end ("nothing should be on the tray except the
+    cup") is to be there, alone; what alone "may" be there need not be. None where no such thing is
+    said.
+    """
+    if not isinstance(clause, AvoidClause) or clause.negated or not clause.not_left:
+        return None
+    phrases = clause.things.phrases if clause.things else ()
+    (first, *more), the = left_out.phrases, left_out.phrases[0].determiner or "the"
+    excepted = left_out.prep is Prep.EXCEPT and not left_out.denied and the in THE_WORDS
+    if [np.words for np in phrases] != [("anything",)] or not excepted or first.pronoun:
+        return None
+    only = replace(first, determiner=f"only {the}")
+    return EnsureClause((State((only, *more), clause.destinations, alone=True),))
 
 
 def changed(

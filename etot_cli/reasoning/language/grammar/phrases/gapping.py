@@ -47,12 +47,15 @@ _ACROSS |= {other: side for side, other in _ACROSS.items()}
 
 def lending_nouns(groups: tuple[PutGroup, ...]) -> Sequence[tuple[PutGroup, ...]]:
     """The groups as they stand, and with the last place's noun lent to those that leave theirs out
-    ("A in the top and B in the bottom drawer"); what that is part of is said for all.
+    ("A in the top and B in the bottom drawer"); what that is part of is said for all. Of "the
+    drawer", which nothing tells from others, there is no front one ("A to the front, B in it").
     """
     groups = other_sides(groups)
     last = [np for np in _targets(groups[-1]) if not _is_bare(np) and np.words]
     nouns = {np.words[-1] for np in last}
-    if len(nouns) != 1 or matches_any(last[0].words[-1], THING_NOUNS):
+    alone = [np.determiner for np in last] == ["the"] and not last[0].modifiers
+    alone = alone and not any(map(_tells, last[0].words[:-1]))
+    if len(nouns) != 1 or alone or matches_any(last[0].words[-1], THING_NOUNS):
         return (groups,)
     noun, whole = last[0].words[-1], [item for item in last[0].modifiers if item.prep is Prep.OF]
 

@@ -94,11 +94,18 @@ def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
 
 def opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...]) -> State | None:
     """What is not to be so is to be the opposite; "not all are open" may leave some that are."""
+    if any({"off", "out"} & {*np.text.split()} and _is_taken(np) for np in subjects):
+        return None  # nobody wants "the cup off the tray" to be nowhere else
     several = any(quantity not in nouns.THE_WORDS for np in subjects if (quantity := np.determiner))
     left = ([item.words for item in np.modifiers] in ([], [("left",)]) for np in subjects)
     bare = all(left) and subjects[0].words == ("anything",)  # then it is to be empty
     emptied = bare and not any(isinstance(item, Destination) and item.beside for item in so)
     return None if several or emptied else _opposite(subjects, so)
+
+
+def _is_taken(np: NounPhrase) -> bool:
+    """Whether a phrase says from where something is to go."""
+    return any(item.prep is Prep.FROM for item in np.modifiers)
 
 
 def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:

@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 
 WITH = spanned(
     either(
@@ -55,6 +56,15 @@ STEAD = spanned(
     lambda text, np: Destination(Toward.STEAD, (np,), text),
 )
 """Where something was that goes elsewhere."""
+INSTEAD_OF_IT = spanned(
+    sequence(
+        "instead of",
+        noun_phrase,
+        build=lambda np: None if np.pronoun or np.is_elliptic or np.head in DESK_NOUNS else np,
+    ),
+    lambda text, np: Destination(Toward.STEAD, (np,), text),
+)
+"""Behind a place: what is there goes elsewhere; "one" is rather another such place."""
 
 _PLACE_OF = either(
     sequence("the (place|spot|position) of", noun_phrase),

@@ -76,11 +76,13 @@ ANYTHING = Things((NounPhrase(words=("anything",), text="anything"),))
 
 
 def stays_empty(
-    np: NounPhrase, far_fetched: int = 0, toward: Toward = Toward.INSIDE
+    np: NounPhrase, far_fetched: int = 0, toward: Toward = Toward.INSIDE, *, negated: bool = False
 ) -> AvoidClause:
     """Nothing is to be put into what stays empty, or is to be so and is already."""
     where = Destination(toward, (np,))
-    return AvoidClause(Avoid.PUT, ANYTHING, (where,), not_left=True, far_fetched=far_fetched)
+    return AvoidClause(
+        Avoid.PUT, ANYTHING, (where,), negated=negated, not_left=True, far_fetched=far_fetched
+    )
 
 
 def to_be_empty(things: Things) -> tuple[Clause, ...]:
@@ -109,12 +111,14 @@ def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutC
     return replace(put_to(things, where), far_fetched=0 if things_said else cost)
 
 
-def _to_be_bare(found: tuple[Prep | None, tuple[str, ...], Things]) -> tuple[Clause, ...]:
+def _to_be_bare(
+    found: tuple[Prep | None, tuple[str, ...], Things], *, negated: bool = False
+) -> tuple[Clause, ...]:
     """What takes all off things, or out of them; the one thing that is so already stays so."""
     at, part, things = found
     (np, *more) = things.phrases
     toward = Toward.ON if at else Toward.INSIDE
-    stays = () if part or more or np.modifiers else (stays_empty(np, 1, toward),)
+    stays = () if part or more or np.modifiers else (stays_empty(np, 1, toward, negated=negated),)
     return emptied(things, held=at, part=part), *stays
 
 
@@ -159,6 +163,7 @@ TO_BE_EMPTY = either(
         to_be_empty,
     ),
     variants(_nothing_there(verbs.NOTHING_IS), _to_be_bare),
+    variants(_nothing_there(verbs.NOTHING_MAY_BE), partial(_to_be_bare, negated=True)),
 )
 """What is said of how things are to be, rather than of what is to be done."""
 

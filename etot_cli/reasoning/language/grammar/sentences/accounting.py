@@ -276,6 +276,7 @@ def _said(node: object) -> Iterator[str]:
             yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects, destinations=where, always=always):
             yield from ("all",) if always else ()
+            yield from ("empty", "any", "other", _DENIAL) if node.alone else ()
             yield from ("either",) if sum(not item.denied for item in where) > 1 else ()
             each = len(subjects) > 1 or subjects[0].determiner.split()[:1] in (["both"], ["all"])
             yield from ("both", "each", "all") if each else ()

@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, denied, rather
-from etot_cli.reasoning.language.grammar.phrases.exclusions import changed
+from etot_cli.reasoning.language.grammar.phrases.exclusions import changed, only_there
 from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT, Reading
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -64,7 +64,7 @@ def _without(out: Modifier, rest: Reading) -> Reading | None:
         contrasted = out.prep is Prep.CONTRAST and not more
         return (replace(np, modifiers=tuple(upon)) if contrasted else np).told_by(out)
 
-    clause = changed(rest[0].clause, told)
+    clause = only_there(rest[0].clause, out) or changed(rest[0].clause, told)
     return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 

@@ -361,7 +361,8 @@ def _in_order(
         return None  # "do not open it before that" rules nothing out for later
     when = strong[0] if strong else (said[0] if said else Order.SAID)
     instead = instead or True in leading
-    return (Spoken(clause, at, when, instead), *(Spoken(item, at) for item in avoided))
+    led = bool(strong) and when in leading
+    return (Spoken(clause, at, when, instead, led=led), *(Spoken(item, at) for item in avoided))
 
 
 LED_CLAUSE = Rule(

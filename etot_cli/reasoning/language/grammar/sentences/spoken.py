@@ -30,5 +30,9 @@ class Spoken:
     """In place of what was taken away before, or is not to be done."""
     not_before: bool = False
     """It is said to be done only when something else has been."""
+    led: bool = False
+    """The word for when stands before it ("…, but first …"), so that what follows by "and" may be
+    meant as well.
+    """
     far_fetched: int = 0
     """What says when ("first", "second") may rather say which ("the second drawer")."""

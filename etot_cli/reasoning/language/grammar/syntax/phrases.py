@@ -179,6 +179,7 @@ class State:
     ``denied``: it was said that the opposite must not be ("is not open"), or that they must not be
     there. ``going``: they go or belong there, which says nothing of what is there already.
     ``always``: it must be so all the time. ``allowed``: it may be so, which asks for nothing.
+    ``alone``: it was said that nothing else is to be there.
     """
 
     subjects: tuple[NounPhrase, ...]
@@ -189,6 +190,7 @@ class State:
     going: bool = False
     always: bool = False
     allowed: bool = False
+    alone: bool = False
 
 
 def in_a_stance(stance: Nearby, where: tuple[Destination, ...]) -> tuple[Destination, ...] | None:

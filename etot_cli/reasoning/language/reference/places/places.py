@@ -189,6 +189,7 @@ class Places:
             or can_be(thing, Role.CONTAINER, self._scene)
             or not (
                 has_no_top(infos[thing.name].label)
+                or not can_be(thing, Role.PLACE, self._scene)
                 or (rolls and not space.is_support(thing, self._scene))
             )
             for thing in things
