@@ -118,7 +118,9 @@ DOES_NOT_MATTER = """
 """
 """Before or behind what is left open."""
 ALL_ALONG = """
-    at all times, (all|the (whole|entire)) [the] (time|while), throughout, all along
+    at all times, at any (time|point|moment|stage),
+    (during|throughout) the [whole|entire]
+    (run|task|trial|episode|execution|process|motion|move|experiment|test|procedure|operation), (all|the (whole|entire)) [the] (time|while), throughout, all along
 """
 """Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
@@ -381,7 +383,7 @@ COMES = "comes, come, goes, go"
 """Between a thing and its turn."""
 ONWARD = "[and] then [finally], [and] after that, and finally"
 """Before the next place of what was put somewhere."""
-EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
+EXACTLY = "exactly, precisely, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you], prior to, by the time [you]"
 _ONCE = "[only|right|straight|just|directly|immediately] (once|after|when|as soon as)"
