@@ -325,7 +325,8 @@ LEADING_FIRST = f"""
     [as (a|the|your)|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
 LEADING_BEFORE = """
-    [but] before [doing|you do] (that|this), [but] before (doing|you do) (so|it), [but] beforehand
+    [but] before [doing|you do] (that|this), [but] before (doing|you do) (so|it), [but] beforehand,
+    [but] prior to (that|this|doing so)
 """
 LEADING_LAST = f"""
     finally, lastly, last, last of all, last but not least, {_AT_END},
@@ -345,7 +346,7 @@ LEADING_THEN = f"""
     {_THAT_DONE}, {_WHEN_DONE}, and then, subsequently, later
 """
 TRAILING_FIRST = f"""
-    first, before, beforehand, before that, {BEFORE_ALL}, as [the|your|a] first (thing|step|action),
+    first, before, beforehand, before that, prior to (that|this|doing so), {BEFORE_ALL}, as [the|your|a] first (thing|step|action),
     before you do [so|that|this], before doing (so|that|this)
 """
 TRAILING_LAST = f"""

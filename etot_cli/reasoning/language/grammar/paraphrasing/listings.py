@@ -15,8 +15,10 @@ ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
 """Before what somebody is asked for."""
 _ALL_NAMED = Expression(
     r"(^|[.;\n]\s*)([^:.;\n]+): "
-    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
-    r" (?=(?:in|on|into|onto|to)\b)"
+    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot"
+    rf"|(?:all )?(?:the )?(?P<number>{'|'.join(NUMBERS)})(?: of (?:them|these))?)"
+    r" (?=(?:in|on|into|onto|to)\b"
+    r"|(?P<verb>(?:go|belong)|(?:should|must|have to|need to|are to) (?:go|be|end up)) )"
 )
 """What a list before a colon names, all of it."""
 _BOARDS = {"below": "lower", "above": "upper"}
@@ -36,6 +38,17 @@ def _one_by_one(said: re.Match[str]) -> str:
     asked, where, items = said.groups()
     parts = re.split(rf"(?:, | and |, and )(?:then )?(?={NAMED}|\w+$|\w+,)", items)
     return f"{asked} these{where}: {', then '.join(parts)}"
+
+
+def _named_before(said: re.Match[str]) -> str:
+    """What a list names, where that are as many things as it is said to name."""
+    items = re.split(r",? and |, ", said[2])
+    if said["number"] and len(items) != int(NUMBERS[said["number"]]):
+        return said[0]
+    if not said["number"] and said["verb"]:
+        return said[0]  # they are topics that the verb speaks of
+    named = ", and ".join(filter(None, (", ".join(items[:-1]), items[-1])))
+    return f"{said[1]}{named if said['number'] else said[2]} {said['both'] or ''} "
 
 
 def _picked_and_placed(said: re.Match[str]) -> str:
@@ -142,7 +155,7 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         rf"|({_ONE}(?: and {_ONE})*))[:,] (?=(?:either )?(?:in|into|inside|on|onto) )",
         lambda said: f"{said[1]}{said[2] or said[3]}: ",
     ),
-    (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
+    (_ALL_NAMED, _named_before),
     (
         rf"^({ASKED}(?:sort|arrange|organi[sz]e) (?:the|my) [^.,;:]*?) by (?=\w+ing\b)",
         r"\1: ",
