@@ -51,7 +51,7 @@ _TABLE_SET = re.compile(
 """Says nothing of what is to stand where, which comes next."""
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
-    "neither nor only instead first last then do t "
+    "neither nor only instead first last end then do t "
     "forbidden prohibited banned unwanted undesired avoid wrong bad current currently initial "
     "initially starting present previous old so far example optional maybe perhaps alternatively "
     "go goes belong belongs stay stays remain remains"

@@ -57,6 +57,25 @@ def _picked_and_placed(said: re.Match[str]) -> str:
     return said["before"] + (f"{thing} {place}" if re.match(WHERE, place) else f"{place}: {thing}")
 
 
+_FOR_LAST = (
+    r"(?:leav|sav|keep)(?:e|ing)? (?P<what>(?:the|my|our|that) (?:\w+ ){0,2}?\w+) "
+    r"(?:for|until|till) (?:last|the (?:very )?end)"
+)
+_LAST_TURN = re.compile(r"\b(?:then|finally|lastly|last)\b,? (?!.*\b(?:then|finally|lastly)\b)(.*)")
+
+
+def _left_for_last(said: re.Match[str]) -> str:
+    """What is left for last, said ahead of what is done: as the last of what is told in turn, else
+    behind it.
+    """
+    begun, what, rest = said["begun"], said["what"], said["rest"]
+    if last := _LAST_TURN.search(rest):
+        words = what.split()[1:]
+        named = re.match(r"(?:the |my |our |that )?(\w+)", last[1])
+        return f"{begun}{rest}" if named and named[1] in words else said[0]
+    return f"{begun}{rest}, {what} last"
+
+
 LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (
         r"(?P<before>^|[.;\n] ?)(?:pick(?: up)?|grasp|object|item): ?(?P<thing>[^.,;:\n]+)"
@@ -84,6 +103,17 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"(?:them|these|those)(?: all)? "
         r"(?=(?:in|on|into|onto|to)\b)",
         r"\1\2 go ",
+    ),
+    # "Leave the cup for last: first the pen, …", "put all in the box, but leave the cup for last"
+    (
+        rf"(?P<begun>(?:^|[.;!] ){ASKED}){_FOR_LAST}[:;,.] (?P<rest>[^.;!]*)",
+        _left_for_last,
+    ),
+    (
+        rf"\b((?:put|place|move|bring|stack|take) [^.;:]*?)(?:[,;.]|(?= but\b| and\b))(?: but| and)?"
+        rf"(?: please)? (?:{_FOR_LAST}|(?P<it>(?:the|my) (?:\w+ )??\w+) "
+        r"(?:goes|comes|(?:should|must|has to) (?:go|come|be)) last)(?=[.;!]|$)",
+        lambda said: f"{said[1]}, {said['what'] or said['it']} last",
     ),
     # "One thing after another" is in turn
     (
