@@ -51,7 +51,8 @@ _BARELY = "[even|so much as|as much as]"
 TOUCH = f"""
     {_BARELY} touch[ing], (com(e|ing)|go|going|get|getting) [anywhere] near [to],
     contact[ing], {_BARELY} (graz(e|ing)|brush[ing]) [against|past], lay[ing] [a] (hand|finger) on,
-    (make|making|come into|coming into) [any] contact with, mess[ing] with, fiddl(e|ing) with, meddl(e|ing) with, interfer(e|ing) with
+    (make|making|come into|coming into) [any] contact with,
+    mess[ing] with, fiddl(e|ing) with, meddl(e|ing) with, interfer(e|ing) with
 """
 HIT = f"""
     {_BARELY} (hit[ting]|bump[ing] [against]|nudg(e|ing)|jostl(e|ing)), (bang|banging) against,

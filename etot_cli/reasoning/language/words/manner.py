@@ -128,15 +128,17 @@ THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, gripper, the robot, 
 HELD = "held"
 """The state of what is there."""
 AS_IT_IS = """
-    [standing|lying|sitting] [exactly|precisely|right|just] where (it|they|he|she) (is|are|was|were),
+    [standing|lying|sitting] [exactly|precisely|right|just] where
+    (it|they|he|she) (is|are|was|were),
     [exactly|precisely|just] as (it|they) (is|are) [right] [now],
-    [exactly|precisely|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched, unchanged,
+    [exactly|precisely|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched,
+    unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
 UNTOUCHED = """
     [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
     [left|kept|staying|remaining] [standing|lying|sitting] [exactly|precisely|just|right]
-    (as|where|like) (it|they) (is|are|was|were) [now], (staying|remaining) (put|in place|there),
+    (as|where|like) (it|they) (is|are) [now], (staying|remaining) (put|in place|there),
     [left|kept] as is, left alone
 """
 """Behind what is to stay so, in a headline."""

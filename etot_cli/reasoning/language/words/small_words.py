@@ -120,7 +120,8 @@ DOES_NOT_MATTER = """
 ALL_ALONG = """
     at all times, at any (time|point|moment|stage),
     (during|throughout) the [whole|entire]
-    (run|task|trial|episode|execution|process|motion|move|experiment|test|procedure|operation), (all|the (whole|entire)) [the] (time|while), throughout, all along
+    (run|task|trial|episode|execution|process|motion|move|experiment|test|procedure|operation),
+    (all|the (whole|entire)) [the] (time|while), throughout, all along
 """
 """Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
@@ -346,8 +347,8 @@ LEADING_THEN = f"""
     {_THAT_DONE}, {_WHEN_DONE}, and then, subsequently, later
 """
 TRAILING_FIRST = f"""
-    first, before, beforehand, before that, prior to (that|this|doing so), {BEFORE_ALL}, as [the|your|a] first (thing|step|action),
-    before you do [so|that|this], before doing (so|that|this)
+    first, before, beforehand, before that, prior to (that|this|doing so), {BEFORE_ALL},
+    as [the|your|a] first (thing|step|action), before you do [so|that|this], before doing (so|that|this)
 """
 TRAILING_LAST = f"""
     last, as [the|your|a] (last|final) (thing|step|action), {BY_THE_END}, finally, at last,

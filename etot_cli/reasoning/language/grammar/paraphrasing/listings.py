@@ -110,8 +110,8 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         _left_for_last,
     ),
     (
-        rf"\b((?:put|place|move|bring|stack|take) [^.;:]*?)(?:[,;.]|(?= but\b| and\b))(?: but| and)?"
-        rf"(?: please)? (?:{_FOR_LAST}|(?P<it>(?:the|my) (?:\w+ )??\w+) "
+        r"\b((?:put|place|move|bring|stack|take) [^.;:]*?)(?:[,;.]|(?= but\b| and\b))"
+        rf"(?: but| and)?(?: please)? (?:{_FOR_LAST}|(?P<it>(?:the|my) (?:\w+ )??\w+) "
         r"(?:goes|comes|(?:should|must|has to) (?:go|come|be)) last)(?=[.;!]|$)",
         lambda said: f"{said[1]}, {said['what'] or said['it']} last",
     ),

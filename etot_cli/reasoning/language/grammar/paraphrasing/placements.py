@@ -62,7 +62,8 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (_ONCE_DONE, _to_do),
     # "Empty the box and the bag; their contents go in the bin"
     (
-        rf"\b((?:empty|unload) (?:(?!\band (?!{NAMED}))[^.;,:])*?)[.;,:] (?:and )?(?:(?:please |then )*{_PUT} )?(?:all )?"
+        rf"\b((?:empty|unload) (?:(?!\band (?!{NAMED}))[^.;,:])*?)[.;,:] "
+        rf"(?:and )?(?:(?:please |then )*{_PUT} )?(?:all )?"
         rf"(?:(?:the|its|their) )?contents (?:(?:{_GO} ))?(?=(?:in|into|on|onto|to) {NAMED})",
         r"\1 ",
     ),
