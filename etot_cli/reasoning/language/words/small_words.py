@@ -348,7 +348,8 @@ LEADING_THEN = f"""
 """
 TRAILING_FIRST = f"""
     first, before, beforehand, before that, prior to (that|this|doing so), {BEFORE_ALL},
-    as [the|your|a] first (thing|step|action), before you do [so|that|this], before doing (so|that|this)
+    as [the|your|a] first (thing|step|action), before you do [so|that|this],
+    before doing (so|that|this)
 """
 TRAILING_LAST = f"""
     last, as [the|your|a] (last|final) (thing|step|action), {BY_THE_END}, finally, at last,

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
@@ -31,6 +32,22 @@ _ITEM = r"(?:(?:the|my|our) )?(?!the\b|my\b|our\b|each\b)\w+(?: (?!and\b|or\b)\w
 def _named(item: str) -> str:
     """One of several things that are listed, with the article that lists leave out."""
     return item if re.match(r"(?:the|my|our)\b", item) else f"the {item}"
+
+
+_NTH_OF_TWO = re.compile(
+    r"\b(?:the (first|second)(?: one)?|(first|second) one)"
+    r"(?= (?:in|on|into|onto|to|inside|next|beside|goes|should|must|belongs|has to|is to)\b)"
+)
+
+
+def _by_their_place(said: re.Match[str]) -> str:
+    """Two things, and what is said of either by which of them was named first."""
+    begun, first, second, rest = said.groups()
+    told = [found[1] or found[2] for found in _NTH_OF_TWO.finditer(rest)]
+    if sorted(told) != ["first", "second"] or {first.split()[0], second.split()[0]} & VERB_WORDS:
+        return said[0]
+    named = {"first": _named(first), "second": _named(second)}
+    return begun + _NTH_OF_TWO.sub(lambda found: named[found[1] or found[2]], rest)
 
 
 def _one_by_one(said: re.Match[str]) -> str:
@@ -186,6 +203,11 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         lambda said: f"{said[1]}{said[2] or said[3]}: ",
     ),
     (_ALL_NAMED, _named_before),
+    # "The cup and the pen: first one on the tray, second one in the box"
+    (
+        rf"(^|[.;!] )({_ITEM})(?:,| and|, and) ({_ITEM})[:;] ([^.;!]*\bsecond\b[^.;!]*)",
+        _by_their_place,
+    ),
     (
         rf"^({ASKED}(?:sort|arrange|organi[sz]e) (?:the|my) [^.,;:]*?) by (?=\w+ing\b)",
         r"\1: ",
