@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
 from itertools import pairwise
 
 from etot_cli.reasoning.builtin.goal import (
@@ -20,7 +22,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.layers import any_of, end_of
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, TowerClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Things
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import below, carries
 from etot_cli.reasoning.language.reference.geometry.stacks import stack_of
 from etot_cli.reasoning.language.reference.geometry.vessels import lies_on
@@ -36,6 +38,7 @@ def tower(context: Context, clause: TowerClause) -> None:
     if clause.placed:
         _layer_by_layer(context, clause, clause.placed)
         return
+    clause = _on_what_stays(context, clause)
     context.tell_others(clause.things, clause.base)
     text = clause.things.text
     before = len(context.discourse.referents)
@@ -70,6 +73,24 @@ def tower(context: Context, clause: TowerClause) -> None:
         place = _upon_any(context, under, above, inside=clause.nested)
         context.steps.append(Put((above,), (place,)))
     context.discourse.stacks[context.discourse.clause] = bottom, indices[-1]
+
+
+def _on_what_stays(context: Context, clause: TowerClause) -> TowerClause:
+    """The base of a stack where the lowest of its layers is nothing that could be picked up ("stack
+    from the bottom up: shelf, box, ball").
+    """
+    nps = clause.things.phrases
+    if clause.upward is None or clause.base or clause.whole or len(nps) < 2:
+        return clause
+    lowest, layers = (nps[0], nps[1:]) if clause.upward else (nps[-1], nps[:-1])
+    with suppress(ReferenceProblem):
+        context.phrases.meaning(lowest, Role.THEME)
+        return clause
+    with suppress(ReferenceProblem):
+        context.phrases.meaning(lowest, Role.SURFACE)
+        base = (Destination(Toward.ON, (lowest,)),)
+        return replace(clause, things=replace(clause.things, phrases=layers), base=base)
+    return clause
 
 
 def _upon_any(context: Context, under: int, above: int, *, inside: bool) -> Place:
@@ -141,7 +162,8 @@ def _reverse(context: Context, clause: TowerClause) -> None:
             there = thing.name if thing else "none"
             raise ReferenceProblem(end.text, f"it is {there} that is there then", 3)
     indices = [context.single(thing, thing.name) for thing in things]
-    context.steps.append(Put((indices[0],), (context.home(stack[0]),)))
+    foot = context.places.of(clause.base, indices[:1]) or (context.home(stack[0]),)
+    context.steps.append(Put((indices[0],), foot))
     for (under, lower), (above, upper) in pairwise(zip(indices, things, strict=True)):
         place = _upon(context, lower, upper, under, inside=False)
         context.steps.append(Put((above,), (place,)))

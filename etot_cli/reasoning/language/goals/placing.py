@@ -8,7 +8,9 @@ from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import (
+    Constraint,
     Grouping,
+    Keep,
     Near,
     Pick,
     Place,
@@ -366,8 +368,9 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             if _is_carried_so(context, index):
                 context.discourse.notes.append(f"{text} is lifted as it stands")
                 continue
-            if not again:  # how it is put is told where it is put
-                raise ReferenceProblem(text, "say behind where it is put how it is kept", 4)
+            if not again:
+                _keep_standing(context, index)
+                continue
         near, state = Near(clause.stance), "lies" if lying else "stands upright"
         any_of_them = context.discourse.things(index)
         so = Whereabouts(clause.stance)
@@ -404,6 +407,22 @@ def _is_rod(context: Context, index: int) -> bool:
     """Whether things stand as what holds them lets them."""
     things = context.discourse.things(index)
     return all(context.scene.infos[thing.name].elongated for thing in things)
+
+
+def _keep_standing(context: Context, index: int) -> None:
+    """What stands as it is, and is not tilted by what is done with other things.
+
+    Raises:
+        ReferenceProblem: it lies, or nothing is done yet; how it is put is told where it is put.
+    """
+    text = context.discourse.referents[index].text
+    things = context.only(index, "say which one")
+    upright = Whereabouts(Nearby.UPRIGHT)
+    stand = all(spatial.holds(upright, thing.name, context.scene) for thing in things)
+    if not (context.done and stand):
+        raise ReferenceProblem(text, "say behind where it is put how it is kept", 4)
+    names = tuple(thing.name for thing in things)
+    context.constraints.append(Constraint(Keep.UNHIT, names))
 
 
 def _is_carried_so(context: Context, index: int) -> bool:

@@ -46,13 +46,18 @@ UPON_THAT = "(on [top of]|above|over) (that|it|this) [one], on which, upon (that
 ATOP = "on top [of (it|that|everything)], on (that|this) [one], upon (that|this) [one]"
 """Behind what comes on what was put on the base."""
 AS_BASE = "[as|be|being|is|to be] (the|its|your|my|a) (base|bottom|foundation) [block|piece|layer]"
-TURNED_OVER = "[to be] the other way (around|up)"
+TURNED_OVER = """
+    [to be] the other way (around|up), in reverse [order], in the (reverse|opposite) order
+"""
 """Behind a stack that is to be so."""
 NOT_STACKED = """
     [with] none [of them] [stacked|lying|standing] on [top of] (another [one]|each other|
     one another|the other[s]|any other [one]),
     [but|and] not (on [top of]|in|inside) (each other|one another),
-    [but|and] not one (on [top of]|in|inside) (the other|another)
+    [but|and] not one (on [top of]|in|inside) (the other|another),
+    [and|but|with] no stacking [them|allowed|please],
+    [but] without stacking [them|any [of them]|anything],
+    [and|but] (not stacked|unstacked) [up] [on [top of] (each other|one another)]
 """
 """Behind where all of some things lie side by side."""
 _SINGLY = "(by (itself|themselves)|on (its|their) own|alone|separately)"
@@ -292,7 +297,7 @@ HORIZONTAL = f"""
 """
 VERTICAL = f"""
     vertically, top down, straight (down|downwards|downward) [from above],
-    [with|using|in|by] [a] (vertical|top|top down|rim) ({GRASP}), [a] vertical,
+    [with|using|in|by] [a|an] (vertical|top|top down|overhead|rim) ({GRASP}), [a] vertical,
     [from] (above|straight above|overhead), from [the|its] top,
     by (the|its) (rim|edge|top) [from above],
     with a vertical ({GRIPPER}), with {HAND_DOWN}

@@ -184,7 +184,8 @@ BROUGHT = _BROUGHT
 """What was taken from one place is then, to another one."""
 NOTHING_GOES = """
     (nothing|no (thing|object|item)) (should|must|may|can|shall|is to|has to)
-    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move)
+    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move),
+    (nothing|no (thing|object|item)) (goes|belongs)
 """
 """Before where nothing more is to go."""
 _BEING = "standing|lying|sitting|located|resting"
@@ -405,6 +406,7 @@ TILTING = "tilting, leaning, tipping"
 STACK = "stack[ing] [up], pil(e|ing) [up]"
 NEST = "nest[ing]"
 """Of several vessels they come to stand in each other, wherever that is; one goes into another."""
+REBUILD = "rebuild[ing], restack[ing]"
 BUILD = "(build|building|make|making) [me|us|him|her|them], creat(e|ing), form[ing]"
 A_TOWER = "(a|one) [single] (tower|stack|pile)"
 OUT_OF = f"{A_TOWER} (out of|of|from|with|using)"

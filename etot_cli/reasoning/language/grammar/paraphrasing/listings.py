@@ -139,7 +139,11 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         " one after another",
     ),
     (r"\bone (\w+) (?:after|by) (?:another|the other|one) \1\b", "one after another"),
-    (r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b", r"build a \1"),
+    (
+        r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b"
+        r"(?![^.;:]*\b(?:reverse|other way|opposite order)\b)",
+        r"build a \1",
+    ),
     (
         r"\bmake (?:the|a second|another|a new) (tower|stack) (?=(?:out of|with|from|of|on)\b)",
         r"make a \1 ",

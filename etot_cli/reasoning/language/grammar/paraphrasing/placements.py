@@ -206,9 +206,11 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # What has room in something, where it is put there
     (
-        rf"(^|[.;!] )({NAMED} [^.,:;]*?) (?:will |would |should |can )?fits? "
+        rf"(^|[.;!] )({NAMED} [^.,:;]*?) "
+        r"(?:(?:will |would |should |can )?fits?|is (?:small|narrow) enough to fit) "
         rf"(in|into|inside|on|onto) ({NAMED} [^.,:;]*?)[.,;](?: so)?(?: please)? "
-        r"(put|place|set|drop) it (?:in |inside |on )?(?:there|it)(?=[.,;!?]|$)",
+        r"(put|place|set|drop) it "
+        r"(?:(?:in |inside |on )?(?:there|it)|in|inside)(?=[.,;!?]| and\b|$)",
         r"\1\5 \2 \3 \4",
     ),
     (rf", (?=(?:anywhere|somewhere) [^.,:;]* {_FINE}[.!]?$)", ". "),

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.abreast import ABREAST, ABREAST_SO, EACH_OTHER
+from etot_cli.reasoning.language.grammar.phrases.colors import ONE_OF_A_COLOR
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
 from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
@@ -178,7 +179,7 @@ BESIDES = sequence(
 INTO = sequence(places.INTO, TARGETS, build=_toward(Toward.INSIDE))
 ONTO = sequence(
     phrase(places.ONTO),
-    TARGETS,
+    either(TARGETS, ONE_OF_A_COLOR),
     build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
 )
 

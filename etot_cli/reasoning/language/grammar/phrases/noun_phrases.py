@@ -17,10 +17,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     some,
     valued,
-    word,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
-    COLON,
     COMMA,
     LIST,
     LIST_COMMA,
@@ -29,7 +27,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     exceptions,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
+from etot_cli.reasoning.language.grammar.phrases.colors import COLORS_ALONE, ONES_OF_A_COLOR
 from etot_cli.reasoning.language.grammar.phrases.comparing import COMPARED, WHICHEVER_IS, the_more
 from etot_cli.reasoning.language.grammar.phrases.coordination import (
     coordinated,
@@ -41,15 +39,12 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Thing
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
-    COMMON_NOUNS,
     NUMBERS,
-    basic_color,
     same_noun,
     singular,
-    word_set,
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
-from etot_cli.reasoning.language.words.patterns import openings_of, words_of
+from etot_cli.reasoning.language.words.patterns import openings_of
 
 
 def _both(both: Any, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
@@ -164,40 +159,14 @@ def _one_out_of(nps: tuple[NounPhrase, ...]) -> Things | None:
 
 
 _COORDINATION = sequence(_LIST, build=lambda nps: None if _out_of(nps) else nps)
-_COLOR = word(lambda given, text: basic_color(text) is not None and text not in COMMON_NOUNS)
-_COLORED_ONES = sequence(
-    _COLOR, build=lambda color: (NounPhrase("all", (color, "ones"), text=color),)
-)
-
-
-def _colors_alone(given: Input, at: int) -> list[Result]:
-    """Colours alone, where nothing before them and behind them could belong to them, are the ones
-    of such a colour ("red and green in the mug, blue stays where it is").
-    """
-    before = given.words[at - 1] if at else COMMA
-    if before not in _BEFORE_COLORS:
-        return []
-    return [
-        (end, tuple(NounPhrase(words=(color, "ones"), text=color) for color in colors))
-        for end, colors in _COLORS.find(given, at)
-        if given.ahead[end] in _BEHIND_COLORS and given.words[end + 1 : end + 2] != ("top",)
-    ]
-
-
-_COLORS = separated(_COLOR, LIST, most=4)
-_BEFORE_COLORS = {COMMA, COLON, "and", "but", "then", *words_of((verbs.PLACE, verbs.KEEP))}
-_BEHIND_COLORS = word_set(
-    "in inside into on onto to at where go goes belong belongs stay stays remain remains "
-    "should untouched unmoved"
-)
 _NEITHER = sequence(alternatives(noun_phrase, 3), build=lambda nps: nps if nps[1:] else None)
-exceptions.define(either(_COORDINATION, _COLORED_ONES, _NEITHER))
+exceptions.define(either(_COORDINATION, ONES_OF_A_COLOR, _NEITHER))
 NP_LIST = Rule(
     either(
         _PARTS,
         sequence(optional(phrase("both"), None), _COORDINATION, build=_both),
         _INCLUDING,
-        Parser(_colors_alone, lambda: _COLORS.first),
+        COLORS_ALONE,
     )
 )
 

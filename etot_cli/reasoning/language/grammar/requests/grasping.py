@@ -120,6 +120,13 @@ _NAMED_GRASP = sequence(
     spanned(sequence(optional("(grasp|grip) [~comma]"), POSES), _named_grasp),
     build=lambda poses: poses,
 )
+_A_GRASP, _NO_SUCH_GRASP = (
+    sequence(spanned(said, _named_grasp), build=lambda poses: poses)
+    for said in (
+        alternatives(_POSE, 1),
+        valued(_OTHER_POSE, lambda pose: (pose,)),
+    )
+)
 
 
 def _told(parser: Parser) -> Parser:
@@ -299,14 +306,15 @@ _WHETHER = sequence(
 GRASP = quiet(
     spanned(
         either(
-            # "Use a side grasp on the holder"
+            # "Use a side grasp on the holder", "side grasp on the holder"
             sequence(
-                f"us(e|ing), try[ing], {verbs.PERFORM}",
-                _told(POSES),
+                optional(f"us(e|ing), try[ing], {verbs.PERFORM}"),
+                _A_GRASP,
                 "on, for, with, of, at",
                 ALL_THINGS,
                 build=lambda poses, things: _asked(things, poses),
             ),
+            sequence(_NO_SUCH_GRASP, "on, for, with, of, at", ALL_THINGS, build=_so),
             sequence("us(e|ing), try[ing]", _told(POSES), build=_so),
             sequence(
                 "us(e|ing) (whichever|whatever|any) (grasp|grip|approach)",

@@ -277,7 +277,11 @@ _TOWER = either(
         ],
     ),
     sequence(
-        either(verbs.STACK, sequence(verbs.BUILD, verbs.OUT_OF)),
+        either(
+            verbs.STACK,
+            sequence(verbs.BUILD, verbs.OUT_OF),
+            "[the] (stack|stacking|tower) order [~comma|is]",
+        ),
         optional(sequence(THINGS, optional("up"), SO), None),
         _LAYERS,
         build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     one_of,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     silent,
@@ -22,7 +23,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, ONTO
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
@@ -182,23 +183,58 @@ _ENDS = either(
 )
 
 
-def _turned_over(things: Things, ends: Any) -> TowerClause | None:
+def _on_each_other(
+    lower: NounPhrase, base: Destination, upper: NounPhrase, upon: Destination
+) -> Any:
+    """The ends of a stack, with what it stands on ("blue on the tray and green on blue")."""
+    same = [np.text for np in upon.targets] == [lower.text]
+    more = ((base, _BASE), (upon.targets[0], _AGAIN))
+    return ((lower, "bottom"), (upper, "top"), *more) if same else None
+
+
+_BASE, _AGAIN = "base", "again"
+_ONTO_A_BASE = sequence(ONTO, build=lambda where: (where,))
+_ON_EACH_OTHER = sequence(_PLAIN, ONTO, LIST, _PLAIN, ONTO, build=_on_each_other)
+
+
+def _turned_over(said: tuple[Things, tuple[Destination, ...]], ends: Any) -> TowerClause | None:
     """The same stack, or what makes one up, from top to bottom."""
+    things, base = said
     named = {end: np for np, end in ends}
     (np, *more) = things.phrases
     stack = not more and (is_stack(np) or singular(np.head) != np.head)
     told = stack and len(named) == len(ends)
-    return TowerClause(things, reverses=True, **named) if told else None
+    foot, again = named.pop(_BASE, None), named.pop(_AGAIN, None)
+    if foot and base and [to.words for to in foot.targets] != [to.words for to in base[0].targets]:
+        return None
+    base = base or ((foot,) if foot else ())
+    layers = () if again is None else (again,)
+    tower = TowerClause(things, reverses=True, base=base, again=layers, **named)
+    return tower if told else None
 
 
-_SO = either(COMMA, sequence(OPTIONAL_COMMA, f"with, {small_words.SO_THAT}"))
-REVERSED = sequence(
-    either(
-        sequence(
-            f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)", THINGS
+_SO = either(COMMA, sequence(OPTIONAL_COMMA, f"with, that is, {small_words.SO_THAT}"))
+REVERSED = quiet(
+    sequence(
+        either(
+            sequence(
+                f"{verbs.REVERSE}, (revers(e|ing)|flip[ping]|invert[ing]) the order (of|in)",
+                THINGS,
+                optional(_ONTO_A_BASE, ()),
+                build=lambda things, base: (things, base),
+            ),
+            sequence(
+                f"{verbs.WANT}, {verbs.TURN}, {verbs.STACK}, {verbs.BUILD}, {verbs.REBUILD}",
+                THINGS,
+                optional(_ONTO_A_BASE, ()),
+                manner.TURNED_OVER,
+                optional(_ONTO_A_BASE, ()),
+                build=lambda things, before, after: (
+                    None if before and after else (things, before or after)
+                ),
+            ),
         ),
-        sequence(f"{verbs.WANT}, {verbs.TURN}, {verbs.STACK}", THINGS, manner.TURNED_OVER),
-    ),
-    optional(sequence(_SO, _ENDS), ()),
-    build=_turned_over,
+        optional(sequence(_SO, either(_ENDS, _ON_EACH_OTHER)), ()),
+        build=_turned_over,
+    )
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import chain
 from operator import add
 
 from etot_cli.reasoning.language.grammar.conditions.ensuring import ENSURE
@@ -241,6 +242,28 @@ def _made_so(first: Reading, more: Joined) -> Reading | None:
 
 _AND = either(COMMA, "and, and then, then")
 
+_SO_BY_THEN = plain(
+    either(
+        SO,
+        sequence(ALL_THINGS, build=taken_out),
+        sequence(
+            ALL_THINGS,
+            optional(f"{verbs.BE}, out of the way, staying, {verbs.DONE}"),
+            DESTINATIONS,
+            build=put_to,
+        ),
+        sequence(ALL_THINGS, verbs.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
+        sequence(
+            ALL_THINGS,
+            "[safely] [moved|put] (out of the way|aside)",
+            build=lambda things: RemoveClause(things, by_then=True, aside=True),
+        ),
+        STANDS_UP,
+        UNTOUCHED,
+    )
+)
+"""How things are by then, behind "with" ("with the drawer open, …")."""
+
 
 WITH_MORE_BEFORE_IT = either(
     sequence(small_words.LOOK_FOR, NAMED, _AND, CHAIN, build=done_there),
@@ -420,29 +443,11 @@ WITH_MORE_BEFORE_IT = either(
     ),
     sequence(
         "with",
-        plain(
-            either(
-                SO,
-                sequence(ALL_THINGS, build=taken_out),
-                sequence(
-                    ALL_THINGS,
-                    optional(f"{verbs.BE}, out of the way, staying, {verbs.DONE}"),
-                    DESTINATIONS,
-                    build=put_to,
-                ),
-                sequence(ALL_THINGS, verbs.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
-                sequence(
-                    ALL_THINGS,
-                    "[safely] [moved|put] (out of the way|aside)",
-                    build=lambda things: RemoveClause(things, by_then=True, aside=True),
-                ),
-                STANDS_UP,
-                UNTOUCHED,
-            )
-        ),
+        _SO_BY_THEN,
+        some(sequence(LIST, optional("with"), _SO_BY_THEN), most=3),
         COMMA,
         CHAIN,
-        build=once_done,
+        build=lambda first, more, rest: once_done((*first, *chain(*more)), rest),
     ),
     sequence(
         "with",

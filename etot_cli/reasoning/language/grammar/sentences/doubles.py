@@ -156,10 +156,10 @@ PARENTHETIC = located(
 )
 
 
-def _side_by_side(clause: Clause) -> Clause | None:
-    """What lies on one place anyway is on nothing else."""
+def on_one_place(clause: Clause) -> Clause | None:
+    """What lies on one place anyway is on nothing else; that is said of what comes last."""
     match clause:
-        case PutClause(groups=(PutGroup(things=Things(phrases=nps), destinations=(where,)),)):
+        case PutClause(groups=(*_, PutGroup(things=Things(phrases=nps), destinations=(where,)))):
             pass
         case EnsureClause(states=(State(subjects=nps, destinations=(where,)),)):
             pass
@@ -173,9 +173,7 @@ def _side_by_side(clause: Clause) -> Clause | None:
     return clause if several and upon else None
 
 
-SIDE_BY_SIDE = sequence(
-    either(PUT, ENSURE), OPTIONAL_COMMA, manner.NOT_STACKED, build=_side_by_side
-)
+SIDE_BY_SIDE = sequence(either(PUT, ENSURE), OPTIONAL_COMMA, manner.NOT_STACKED, build=on_one_place)
 """Several things on one place, none of them on another one."""
 
 

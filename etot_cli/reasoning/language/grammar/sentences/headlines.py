@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.grammar.requests.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.requests.emptying import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.requests.towers import STACKED
 from etot_cli.reasoning.language.grammar.sentences.clauses import INSTEAD, LEFT_OUT, plain
+from etot_cli.reasoning.language.grammar.sentences.doubles import on_one_place
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
@@ -50,6 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
     PutClause,
     RemoveClause,
+    ReorientClause,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -63,6 +65,7 @@ from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import words_of
+from etot_cli.world.spatial import Nearby
 
 
 def left_so(nps: tuple[NounPhrase, ...], word: str) -> EnsureClause:
@@ -155,6 +158,12 @@ def _with_it_there(
     return None if state is None else EnsureClause((state,), 1)
 
 
+def _upright(things: Things) -> ReorientClause | None:
+    """What is to stand upright; "pen in the cup upright" rather says how the pen stands there."""
+    told = any(np.modifiers for np in things.phrases)
+    return None if told else ReorientClause(things, Nearby.UPRIGHT)
+
+
 LEFT_SO = Rule(
     timed(
         sequence(
@@ -175,6 +184,7 @@ LEFT_SO = Rule(
         UNTOUCHED,
         BOTH_LEFT_SO,
         STATE_NAMED,
+        sequence(ALL_THINGS, optional(_IS), manner.ERECT, build=_upright),
     )
 )
 """How something is to be in the end ("drawer shut")."""
@@ -182,6 +192,7 @@ PLACED = Rule(
     timed(
         VERBLESS,
         sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
+        sequence(VERBLESS, OPTIONAL_COMMA, manner.NOT_STACKED, build=on_one_place),
         sequence(ALL_THINGS, build=taken_out),
         sequence(ALL_THINGS, "down (from|off)", noun_phrase, build=RemoveClause),
         sequence(ALL_THINGS, "out, off", build=RemoveClause),

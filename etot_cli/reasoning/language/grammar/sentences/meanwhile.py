@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    located,
     optional,
     sequence,
     silent,
@@ -31,30 +32,37 @@ def _meanwhile(first: Reading, rest: Reading) -> Reading | None:
     return None if held else (*first, *rest)
 
 
-def _kept_upright(things: Things, rest: Reading) -> Reading | None:
-    """What is kept upright while it is put somewhere."""
+def _kept_upright(kept: tuple[int, Things], rest: Reading) -> Reading | None:
+    """What is kept upright while it, or something else, is put somewhere."""
+    at, things = kept
     put = rest[0].clause
     if not isinstance(put, PutClause) or len(put.groups) != 1:
         return None
     (group,) = put.groups
-    if not all(np.pronoun for np in group.things.phrases):
-        return None
+    moved = group.things.phrases
+    if not all(np.pronoun or np.words == things.phrases[0].words for np in moved):
+        alike = {np.head for np in things.phrases} & {np.head for np in moved}
+        if alike or any(np.pronoun or np.is_elliptic for np in (*moved, *things.phrases)):
+            return None
+        return (Spoken(ReorientClause(things, Nearby.UPRIGHT), at), *rest)
     again = ReorientClause(group.things, Nearby.UPRIGHT, meanwhile=True)
-    put = replace(put, groups=(replace(group, things=things),))
+    if all(np.pronoun for np in moved):
+        put = replace(put, groups=(replace(group, things=things),))
     return (replace(rest[0], clause=put), Spoken(again, rest[0].position), *rest[1:])
 
 
+_KEPT = either(
+    sequence("[always] (keep|hold)", THINGS),
+    sequence(
+        ALL_THINGS,
+        "(must|should|has to|have to|needs to|need to|is to|are to) [always]"
+        " (be kept|be held|stay|remain)",
+    ),
+)
 MEANWHILE = either(
     sequence(small_words.WHILE, LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
     sequence(
-        either(
-            sequence("[always] (keep|hold)", THINGS),
-            sequence(
-                ALL_THINGS,
-                "(must|should|has to|have to|needs to|need to|is to|are to) [always]"
-                " (be kept|be held|stay|remain)",
-            ),
-        ),
+        located(_KEPT, lambda at, things: (at, things)),
         f"{manner.ERECT}, {manner.LEVELED}",
         silent(optional(small_words.ALL_ALONG)),
         OPTIONAL_COMMA,

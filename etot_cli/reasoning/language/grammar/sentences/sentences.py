@@ -26,11 +26,13 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 from etot_cli.reasoning.language.grammar.parsers.input import Input
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.emptying import TO_BE_EMPTY
 from etot_cli.reasoning.language.grammar.sentences.before_requests import WITH_MORE_BEFORE_IT
 from etot_cli.reasoning.language.grammar.sentences.chains import (
     CHAIN,
+    ENDING_WITH,
     GOES_ON,
     JOINED,
     Joined,
@@ -48,6 +50,7 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
     PLACED,
     STARTING,
     lacks_verb,
+    left_so,
 )
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.topics import (
@@ -87,6 +90,7 @@ SENTENCE = either(
     CHAIN,
     sequence(UNORDERED, WITH_MORE_BEFORE_IT),
     plain(SAID),
+    plain(sequence(ENDING_WITH, NP_LIST, OPEN_OR_CLOSED, build=left_so), Order.LAST),
     plain(
         sequence(
             # "Somewhere next to the plate will do"

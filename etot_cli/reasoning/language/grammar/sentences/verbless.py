@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
+    COMMA,
     LIST,
     OPTIONAL_COMMA,
     noun_phrase,
@@ -80,6 +81,15 @@ VERBLESS = either(
         ALL_THINGS,
         sequence(SOURCE, LIST, either(DIRECTED, DESTINATIONS)),
         build=lambda things, moved: PutClause((brought(things, *moved),)),
+    ),
+    sequence(
+        # "Apple, from the desk to the bowl"
+        ALL_THINGS,
+        COMMA,
+        SOURCE,
+        OPTIONAL_COMMA,
+        DIRECTED,
+        build=lambda things, *moved: PutClause((brought(things, *moved),)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=put_down),
     sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),

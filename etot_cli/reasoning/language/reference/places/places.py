@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import bearers, is_open
+from etot_cli.reasoning.builtin.relations import bearers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
@@ -162,6 +162,9 @@ class Places:
                     found = [self._at_end(place, destination.word) for place in found]
                 if destination.beside:
                     found = self._spots.narrowed(found, destination, themes)
+            here = destination.toward is Toward.HERE
+            if here or any(np.pronoun for np in destination.targets):
+                found = [self._as_before(place, themes, here=here) for place in found]
             places.update(dict.fromkeys(found))
         return tuple(places)
 
@@ -186,6 +189,29 @@ class Places:
         self.discourse.notes.append(f"'to {np.text}': next to it")
         beside = (Beside(Nearby.NEXT_TO, (np,), f"next to {np.text}"),)
         return replace(where, toward=Toward.BESIDE, targets=(), beside=beside)
+
+    def _as_before(self, place: Place, themes: Sequence[int], *, here: bool) -> Place:
+        """Behind what is closed things are where they went ("close the door when they are in"):
+        what is ``here`` wherever that was, what is "in it" where it is the door of that.
+        """
+        discourse, things = self.discourse, {*self.discourse.things(*themes)}
+        if place.relation is not Relation.INSIDE or place.where is None or place.beside:
+            return place
+        parts = [(thing.name, thing.part) for thing in discourse.things(place.where)]
+        shut = {item.referent for item in discourse.mentions if item.role is Role.PART}
+        for around in {*discourse.put_into.values()}:
+            put = [i for i, at in discourse.put_into.items() if at == around]
+            there = Place(Relation.INSIDE, around)
+            behind = parts == [
+                (whole.name, part.name)
+                for whole in discourse.things(around)
+                if whole.part is None
+                for part in parts_of(self._scene, whole)
+            ]
+            latest = here and place.where in shut and there in discourse.last_places
+            if (behind or latest) and things <= {*discourse.things(*put)}:
+                return there
+        return place
 
     def _targets(
         self, destination: Destination, phrase: NounPhrase, themes: Sequence[int], *, stays: bool

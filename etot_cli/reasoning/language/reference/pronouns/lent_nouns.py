@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
     SIZES,
     THING_NOUNS,
+    head_of,
     is_descriptive,
     matches_any,
     same_noun,
@@ -72,6 +73,8 @@ class LentNouns(ABC):
         elliptic = phrase.is_elliptic
         noun = self._like_theme(phrase, role, noun) if role is not Role.THEME and noun else noun
         if elliptic and phrase.text in phrase.words:
+            if noun is None and (sole := self._sole_of_color(phrase, role)) is not None:
+                return sole
             self._check_color_alone(phrase, role, noun)
         resolved: Resolved | None = None
         problem: ReferenceProblem | None = None
@@ -166,6 +169,18 @@ class LentNouns(ABC):
                 rival = things_in(self.resolved_as(phrase, role, other).options)
             if (*rival,) in spoken and rival != meant:
                 raise AmbiguousReference(phrase.text, [t.name for t in (*meant, *rival)])
+
+    def _sole_of_color(self, phrase: NounPhrase, role: Role) -> Resolved | None:
+        """The only thing of a colour, where no other is spoken of before; the next ones are told by
+        its noun.
+        """
+        alone = replace(phrase, determiner="the", words=phrase.words[:-1])
+        with suppress(ReferenceProblem):
+            found = self.resolved_as(alone, role, None)
+            info = self.scene.infos.get(found.options[0][0].name)
+            if info is not None and [*map(len, found.options)] == [1]:
+                return replace(found, noun=head_of(info.label.replace(" ", "_")))
+        return None
 
     def _check_color_alone(self, phrase: NounPhrase, role: Role, noun: str | None) -> None:
         """Whether what a colour alone is said of is clear ("the balls and the blocks: red in …").
