@@ -34,20 +34,26 @@ def _named(item: str) -> str:
     return item if re.match(r"(?:the|my|our)\b", item) else f"the {item}"
 
 
-_NTH_OF_TWO = re.compile(
-    r"\b(?:the (first|second)(?: one)?|(first|second) one)"
+_NTH = re.compile(
+    r"\b(?:the (first|second|third|fourth)(?: one)?|(first|second|third|fourth) one)"
     r"(?= (?:in|on|into|onto|to|inside|next|beside|goes|should|must|belongs|has to|is to)\b)"
 )
+_ORDINALS = ("first", "second", "third", "fourth")
+_OF_OTHERS = re.compile(r"\b(?:rest|others?|remaining|last|it|them|both|all)\b")
 
 
 def _by_their_place(said: re.Match[str]) -> str:
-    """Two things, and what is said of either by which of them was named first."""
-    begun, first, second, rest = said.groups()
-    told = [found[1] or found[2] for found in _NTH_OF_TWO.finditer(rest)]
-    if sorted(told) != ["first", "second"] or {first.split()[0], second.split()[0]} & VERB_WORDS:
+    """Several things, and what is said of each by when it was named ("the second one")."""
+    begun, listed, rest = said.groups()
+    items = re.split(r",? and |, ", listed)
+    told = [found[1] or found[2] for found in _NTH.finditer(rest)]
+    nth = dict(zip(_ORDINALS, map(_named, items), strict=False))
+    twice = len({*told}) < len(told) or not {*told} <= {*nth}
+    if twice or (len(told) < len(items) and _OF_OTHERS.search(rest)):
         return said[0]
-    named = {"first": _named(first), "second": _named(second)}
-    return begun + _NTH_OF_TWO.sub(lambda found: named[found[1] or found[2]], rest)
+    if {item.split()[0] for item in items} & VERB_WORDS:
+        return said[0]
+    return begun + _NTH.sub(lambda found: nth[found[1] or found[2]], rest)
 
 
 def _one_by_one(said: re.Match[str]) -> str:
@@ -209,7 +215,8 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
     (_ALL_NAMED, _named_before),
     # "The cup and the pen: first one on the tray, second one in the box"
     (
-        rf"(^|[.;!] )({_ITEM})(?:,| and|, and) ({_ITEM})[:;] ([^.;!]*\bsecond\b[^.;!]*)",
+        rf"(^|[.;!] )({_ITEM}(?:(?:,| and|, and) {_ITEM}){{1,3}})[:;] "
+        r"([^.;!]*\b(?:first|second|third)\b[^.;!]*)",
         _by_their_place,
     ),
     (

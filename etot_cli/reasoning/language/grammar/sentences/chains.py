@@ -43,7 +43,12 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
 from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.requests.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.requests.word_order import PLACE_AHEAD
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.clauses import (
+    LED_CLAUSE,
+    NOT_OF_ONE,
+    Reading,
+    plain,
+)
 from etot_cli.reasoning.language.grammar.sentences.doubles import so_in_turn
 from etot_cli.reasoning.language.grammar.sentences.headlines import (
     HEADLINE,
@@ -249,6 +254,7 @@ JOINED = either(
         OPTIONAL_COMMA,
         after("first", "firstly"),
         small_words.COUNTED_JOINTS,
+        NOT_OF_ONE,
         either(LED_CLAUSE, plain(sequence(THINGS, build=once_more)), HEADLINE),
     ),
     joint(

@@ -268,6 +268,7 @@ def _not_of_one(given: Input, at: int) -> list[Result]:
     return [] if one else [(at, NOTHING)]
 
 
+NOT_OF_ONE = Parser(_not_of_one)
 ORDER_WORDS = sequence(
     one_of(
         {
@@ -277,7 +278,7 @@ ORDER_WORDS = sequence(
             Order.THEN: small_words.LEADING_THEN,
         }
     ),
-    Parser(_not_of_one),
+    NOT_OF_ONE,
 )
 
 
