@@ -50,6 +50,14 @@ class Keepout:
 
 
 @dataclass(frozen=True, slots=True)
+class Coming:
+    """A thing that is still to come to the same surface, and where on it."""
+
+    name: str
+    where: tuple[Whereabouts, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Action:
     """One action.
 
@@ -64,6 +72,8 @@ class Action:
             there. All of it must hold afterwards.
         onward: of a PICK UP, the PUT for which the object is taken: so that it goes there as it is
             held.
+        coming: of a PUT ON, what comes beside it later, in this order: it takes a place at which
+            that has room, and stands beside what it has as its landmark where that will be.
     """
 
     verb: Verb
@@ -73,12 +83,25 @@ class Action:
     keepout: tuple[Keepout, ...] = ()
     where: tuple[Whereabouts, ...] = ()
     onward: Action | None = None
+    coming: tuple[Coming, ...] = ()
+
+    @property
+    def arrivals(self) -> dict[str, tuple[float, float]]:
+        """At which points things will stand that are still to come, where that is told."""
+        return {
+            thing.name: where.point
+            for thing in self.coming
+            for where in thing.where
+            if where.point is not None and not where.denied
+        }
 
     def __str__(self) -> str:
         text = f"[{self.verb.value}, {self.target}]"
         notes = [*([self.pose.value] if self.pose else []), *map(str, self.where)]
         if self.onward is not None:
             notes.append(f"to {self.onward.verb.value.lower()} {self.onward.target}")
+        for thing in self.coming:
+            notes += [f"room for {thing.name} {where}" for where in thing.where]
         return f"{text} ({', '.join(notes)})" if notes else text
 
 
@@ -152,6 +175,7 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
     safe = False
     onward: Action | None = None
     where: list[Whereabouts] = []
+    coming: dict[str, tuple[Whereabouts, ...]] = {}
     for note in (match["note"] or "").split(","):
         plain = " ".join(note.split())
         if plain.lower() in ("horizontal", "horizontally"):
@@ -163,6 +187,13 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
         elif verb is Verb.PICK_UP and (next_put := _ONWARD.fullmatch(plain)) is not None:
             onward = Action(Verb(f"PUT {next_put[1].upper()}"), next_put[2])
             _check_target(onward.target, allowed, f"[{verb.value}, {target}] ({plain})")
+        elif verb is Verb.PUT_ON and (room := _ROOM_FOR.fullmatch(plain)) is not None:
+            spot = read_whereabouts(room[2])
+            if spot is None:
+                raise PlanSyntaxError(f"unknown place ({plain}) after [{verb.value}, {target}]")
+            _check_target(room[1], allowed, f"[{verb.value}, {target}] ({plain})")
+            _check_landmarks(spot, allowed, f"[{verb.value}, {target}] ({plain})")
+            coming[room[1]] = (*coming.get(room[1], ()), spot)
         elif plain:
             place = read_whereabouts(plain)
             if place is None or not _says_where(verb, place):
@@ -174,7 +205,8 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
                 )
             _check_landmarks(place, allowed, f"[{verb.value}, {target}] ({plain})")
             where.append(place)
-    return Action(verb, target, pose, safe, where=tuple(where), onward=onward)
+    later = tuple(Coming(name, spots) for name, spots in coming.items())
+    return Action(verb, target, pose, safe, where=tuple(where), onward=onward, coming=later)
 
 
 def _says_where(verb: Verb, place: Whereabouts) -> bool:
@@ -185,6 +217,7 @@ def _says_where(verb: Verb, place: Whereabouts) -> bool:
 
 _NAME = r"[A-Za-z]\w*(?:\.\w+)?"
 _ONWARD = re.compile(rf"(?i:to put (on|into)) ({_NAME})")
+_ROOM_FOR = re.compile(rf"(?i:room for) ({_NAME}) (.+)")
 _POINT = re.compile(r"at (-?\d+(?:\.\d+)?) (-?\d+(?:\.\d+)?)")
 
 
@@ -207,7 +240,7 @@ def read_whereabouts(text: str) -> Whereabouts | None:
             if relation is not Nearby.AT_POINT and text.lower() == relation.value:
                 return Whereabouts(relation)
             continue
-        names = " and ".join([f"({_NAME})"] * relation.landmarks)
+        names = relation.joint.join([f"({_NAME})"] * relation.landmarks)
         match = re.fullmatch(rf"(?i:{head}) {names}", text)
         if match is not None:
             return Whereabouts(relation, tuple(match.groups()))

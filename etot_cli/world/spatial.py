@@ -57,6 +57,8 @@ class Nearby(StrEnum):
     NEAR = "near"
     AWAY = "away from"
     BETWEEN = "between"
+    BEYOND = "beyond"
+    """On the other side of one thing as seen from another, so that the one is between them."""
     AT_LEFT = "at left"
     AT_RIGHT = "at right"
     AT_FRONT = "at front"
@@ -72,9 +74,14 @@ class Nearby(StrEnum):
     @property
     def landmarks(self) -> int:
         """How many things it relates to."""
-        if self is Nearby.BETWEEN:
+        if self in (Nearby.BETWEEN, Nearby.BEYOND):
             return 2
         return 0 if self.is_stance or self.value.startswith("at") else 1
+
+    @property
+    def joint(self) -> str:
+        """What is written between its landmarks."""
+        return " from " if self is Nearby.BEYOND else " and "
 
     @property
     def is_stance(self) -> bool:
@@ -104,7 +111,7 @@ class Whereabouts:
             return f"{no}at {self.point[0]:.3f} {self.point[1]:.3f}"
         if not self.landmarks:
             return f"{no}{self.relation.value}"
-        return f"{no}{self.relation.value} {' and '.join(self.landmarks)}"
+        return f"{no}{self.relation.value} {self.relation.joint.join(self.landmarks)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,6 +180,8 @@ def fits(
             return np.asarray(landmarks[0].distance(points) - radius >= NEAR)
         case Nearby.BETWEEN:
             return _between(points, landmarks[0], landmarks[1])
+        case Nearby.BEYOND:
+            return _beyond(points, radius, landmarks[0], landmarks[1])
         case Nearby.AT_POINT:
             point = np.array(where.point or area.center)
             return np.asarray(np.linalg.norm(points - point, axis=1) <= AT)
@@ -268,6 +277,22 @@ def _between(points: Vector, first: Outline, second: Outline) -> Mask:
     # Beyond the near side of each: what stands on one of them is not between them.
     inside = (distance >= first.extent(along)) & (distance <= length - second.extent(along))
     return np.asarray(inside & (askew <= BETWEEN_SHARE * length))
+
+
+def _beyond(points: Vector, radius: float, middle: Outline, start: Outline) -> Mask:
+    """Where something is when the middle thing is between it and the one at the start."""
+    origin = np.array(start.center)
+    offset, ahead = points - origin, np.array(middle.center) - origin
+    length = np.linalg.norm(offset, axis=1)
+    along = offset / np.maximum(length, 1e-9)[:, None]
+    distance = along @ ahead
+    askew = np.abs(along[:, 1] * ahead[0] - along[:, 0] * ahead[1])
+    extents = np.array([start.extent(one) for one in along])
+    inside = (distance >= extents) & (distance <= length - radius)
+    # Not in the middle thing itself, and no farther from it than what stands to a side of it.
+    apart = middle.distance(points) - radius
+    near = (apart >= 0.0) & (apart <= BESIDE)
+    return np.asarray(inside & near & (askew <= BETWEEN_SHARE * length))
 
 
 def _in_region(

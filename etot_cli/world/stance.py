@@ -11,6 +11,10 @@ from etot_cli.world.state import ObjectInfo
 TOPPLED_DEG, RIGHTED_DEG = 40.0, 25.0
 """Tilt from which an object counts as toppled, and below which it no longer does; what is this far
 from level at most lies, as what is this far from upright at most stands."""
+LEANS_DEG = 4.0
+"""Tilt from which something that stood leans: what stands on its own face is within half a degree
+of level, on the yielding things of a stack too, and what rests against a drawer, a handle or a
+neighbour was found at five and more."""
 SAME = 0.85
 """Extents that differ by less (a share) make no difference between standing and lying: what is laid
 down becomes lower by as much at least (``places.LOWER``)."""

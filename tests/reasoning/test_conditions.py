@@ -271,6 +271,26 @@ def test_from_drawer_to_drawer_by_way_of_the_desk() -> None:
     ]
 
 
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 2), (2, 1, 0)])
+def test_a_drawer_that_is_to_be_closed_is_not_opened_again(order: tuple[int, ...]) -> None:
+    """The one that the nut comes from is closed on the way; where no word closes it, it is open
+    again in the end.
+    """
+    state = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 0.9, "lower": 0.0}),
+        scenes.ball("nut", (0.5, 0.0), on="chest", inside="chest.upper"),
+    )
+    moved = (
+        "[PICK UP, nut] [PUT ON, desk] [CLOSE, chest.upper] "
+        "[OPEN, chest.lower] [PICK UP, nut] [PUT INTO, chest.lower] [CLOSE, chest.lower]"
+    )
+    asked: list[dict[str, Any]] = [
+        {"inside": ["nut", "chest.lower"]}, {"closed": "chest.upper"}, {"closed": "chest.lower"},
+    ]  # fmt: skip
+    assert plans(state, *(asked[place] for place in order)) == [moved]
+    assert plans(state, asked[0]) == [f"{moved} [OPEN, chest.upper]"]
+
+
 TOWER = [("red", "green"), ("green", "blue"), ("blue", "desk2")]
 
 
@@ -420,3 +440,31 @@ def test_what_is_held_is_beside_nothing() -> None:
     assert plans(state, {"in_hand": "wine"}, {"not": {"left_of": ["wine", "vase"]}}) == [held]
     with pytest.raises(UnsatisfiableError, match="what is held stands nowhere"):
         plans(state, {"in_hand": "wine"}, {"left_of": ["wine", "vase"]})
+
+
+def _post(*extra: scenes.Item, other: float = -0.30) -> SceneState:
+    """A shelf, which stays where it is, and two cones beside it."""
+    shelf = scenes.item("shelf", "shelf", (0.42, 0.0), size=(0.08, 0.08, 0.16))
+    cones = scenes.item("one", at=(0.42, -0.15)), scenes.item("other", at=(0.42, other))
+    return scenes.scene(shelf, *cones, *extra)
+
+
+BETWEEN = {"between": ["shelf", "one", "other"]}
+
+
+def test_of_what_stays_between_others_either_of_these_goes_to_its_other_side() -> None:
+    *first, last = plans(_post(), BETWEEN)
+    assert first == ["[PICK UP, one] [PUT ON, desk] (beyond shelf from other)"]
+    assert last == "[PICK UP, other] [PUT ON, desk] (beyond shelf from one)"
+
+
+@pytest.mark.parametrize("condition", [BETWEEN, {"left_of": ["shelf", "one"]}])
+def test_a_relation_that_holds_of_what_cannot_be_moved_is_no_error(
+    condition: dict[str, Any],
+) -> None:
+    assert plans(_post(other=0.20), condition) == []
+
+
+def test_a_relation_of_what_cannot_be_moved_may_come_about_by_another_condition() -> None:
+    first, *_ = plans(_post(), BETWEEN, {"at": ["other", [0.42, 0.2]]})
+    assert first == "[PICK UP, other] [PUT ON, desk] (at 0.420 0.200)"

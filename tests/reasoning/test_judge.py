@@ -257,6 +257,51 @@ def test_a_toppled_bystander_is_a_failure() -> None:
     assert (verdict.cause.kind, verdict.cause.objects) == (CauseKind.TOPPLED, ("white_holder",))
 
 
+@pytest.mark.parametrize(
+    ("before_deg", "after_deg", "inside", "outcome"),
+    [
+        (0.0, 10.0, None, Outcome.FAILURE),
+        (0.5, 5.0, None, Outcome.FAILURE),
+        (0.0, 2.5, None, Outcome.SUCCESS),
+        (10.0, 15.0, None, Outcome.SUCCESS),
+        (90.0, 80.0, None, Outcome.SUCCESS),
+        (0.0, 10.0, "mug", Outcome.SUCCESS),
+    ],
+    ids=["leans", "leans a little", "stands", "leant before", "lay before", "in a vessel"],
+)
+@pytest.mark.parametrize("action", ["[OPEN, chest]", "[PICK UP, nut]", "[PUT ON, desk]"])
+def test_what_stood_and_is_left_leaning_was_harmed(
+    action: str, before_deg: float, after_deg: float, inside: str | None, outcome: Outcome
+) -> None:
+    before = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"top": 0.0}),
+        scenes.cup("mug", (0.3, 0.0)),
+        scenes.item("can", "cylinder", (0.3, 0.0), on=inside or "desk", inside=inside),
+        scenes.item("nut", at=(0.3, 0.3)),
+    )
+    before = changed(before, can={"tilt_deg": before_deg})
+    if action == "[OPEN, chest]":
+        after = changed(before, chest={"openness": {"top": 1.0}}, can={"tilt_deg": after_deg})
+    elif action == "[PICK UP, nut]":
+        up = {"in_hand": True, "on": (), "position": (0.3, 0.3, 0.4)}
+        after = changed(before, nut=up, can={"tilt_deg": after_deg})
+    else:
+        before = held(before, "nut")
+        after = released(before, can={"tilt_deg": after_deg})
+    verdict = judge(action, record(before, after))
+    assert verdict.outcome is outcome
+    if outcome is Outcome.FAILURE:
+        assert verdict.cause is not None
+        assert verdict.cause.objects == ("can",) and "can was tipped" in verdict.cause.text
+
+
+def test_what_is_put_down_may_lean() -> None:
+    """So may a pen anywhere, which does not stand by itself."""
+    before = held(scenes.scene(scenes.item("book"), scenes.item("pen", "pen")), "book")
+    leaning = released(before, book={"tilt_deg": 20.0}, pen={"tilt_deg": 20.0})
+    assert judge("[PUT ON, desk]", record(before, leaning)).outcome is Outcome.SUCCESS
+
+
 def test_falling_off_a_surface_is_a_failure() -> None:
     before = scenes.pens()
     after = changed(
@@ -382,6 +427,35 @@ def test_what_comes_to_rest_on_what_was_there_has_no_room_and_did_not_rebound() 
     gone = released(start, nut={"position": (0.2, 0.3, 0.165)})
     verdict = judge("[PUT INTO, mug]", record(start, gone, contacts=touch))
     assert verdict.cause is not None and verdict.cause.kind is CauseKind.REBOUND
+
+
+@pytest.mark.parametrize(
+    ("rim_s", "there"), [(1.0, True), (None, True), (1.0, False), (3.0, True)],
+    ids=["fell out", "never got to it", "empty", "struck on the way"],
+)  # fmt: skip
+def test_what_falls_out_of_a_full_vessel_had_no_room_whatever_it_fell_on(
+    rim_s: float | None, there: bool
+) -> None:
+    full = {"on": "mug", "inside": "mug"} if there else {}
+    start = held(
+        scenes.scene(
+            scenes.cup("mug", (0.4, 0.0)), scenes.cup("jar", (0.4, 0.2)),
+            scenes.item("pea", at=(0.4, 0.0), **full), scenes.item("nut", at=(0.2, 0.0)),
+        ),
+        "nut",
+    )  # fmt: skip
+    fallen = released(start, nut={"on": ("jar",)})
+    touches = (contact("nut", "jar", time_s=2.0),)
+    if rim_s is not None:
+        touches = (*touches, contact("nut", "mug", time_s=rim_s))
+    verdict = judge("[PUT INTO, mug]", record(start, fallen, contacts=touches))
+    assert verdict.cause is not None
+    if there and rim_s == 1.0:
+        assert verdict.cause.kind is CauseKind.NO_ROOM
+        assert verdict.cause.objects == ("pea", "nut")
+    else:
+        assert verdict.cause.kind is CauseKind.COLLISION
+        assert verdict.cause.objects == ("jar", "nut")
 
 
 def test_what_lies_on_the_rim_does_not_go_in_and_did_not_rebound() -> None:

@@ -11,7 +11,8 @@ from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.builtin.revision import taken_at_once, without_idle
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb, format_plan, parse_plan
-from etot_cli.world.state import CauseKind, Swept
+from etot_cli.specs.task import Condition
+from etot_cli.world.state import CauseKind, SceneState, Swept
 from tests.reasoning import scenes
 from tests.reasoning.records import (
     cause,
@@ -365,6 +366,26 @@ def test_what_goes_in_through_a_front_is_held_from_the_side() -> None:
     assert revision(step) == plan.format(" (horizontal)")
     asked = failed(start, plan.format(" (vertical)"), 2, reason, before)
     assert revision(asked) is None, "an asked pose is not replaced"
+
+
+@pytest.mark.parametrize("kind", ["box", "cup"])
+def test_what_no_level_hand_takes_may_lie_under_a_roof_at_last(kind: str) -> None:
+    """Vessels are to stand; and so is what is asked to."""
+    tall = (0.06, 0.06, 0.10)
+    start = scenes.scene(
+        scenes.item("rack", "shelf", (0.6, 0.0), size=(0.2, 0.4, 0.5), boards=("low", "high")),
+        scenes.item("tin", kind, size=tall),
+    )
+    plan = "[PICK UP, tin] [PUT ON, rack.low]"
+    reason = cause(CauseKind.UNREACHABLE, "rack", "tin")
+    found = revisions(failed(start, plan, 1, reason, held(start, "tin")))
+    assert found[0] == "[PICK UP, tin] (horizontal) [PUT ON, rack.low]"
+    assert (f"{plan} (lying)" in found) is (kind == "box")
+    upright = revisions(failed(start, f"{plan} (upright)", 1, reason, held(start, "tin")))
+    assert not any("lying" in one for one in upright)
+    level = "[PICK UP, tin] (horizontal) [PUT ON, rack.low]"
+    again = revisions(failed(start, level, 1, reason, held(start, "tin")))
+    assert f"{level} (lying)" not in again
 
 
 @pytest.mark.parametrize("kind", [CauseKind.NO_GRASP, CauseKind.BLOCKED, CauseKind.COLLISION])
@@ -1048,3 +1069,93 @@ def test_what_is_to_keep_away_does_so_from_where_the_other_thing_gets(
     assert format_plan(revised.actions).startswith("[PICK UP, oil] [PUT ON, desk] (")
     discs = [disc for disc in revised.actions[1].keepout if (disc.x, disc.y) == (0.5, 0.1)]
     assert (max((disc.radius for disc in discs), default=0.0) > 0.2) == keeps
+
+
+# -- room beside things ------------------------------------------------------------------------
+
+
+def _row(**more: scenes.Item) -> SceneState:
+    things = {
+        "box": scenes.item("box", at=(0.4, 0.5)),
+        "cup": scenes.cup("cup", (0.4, 0.0)),
+        "tray": scenes.item("tray", at=(0.5, -0.3), size=(0.2, 0.3, 0.01)),
+    }
+    return scenes.scene(*(things | more).values())
+
+
+LEFT_OF_BOX = "[PICK UP, cup] [PUT ON, desk] (left of box)"
+
+
+def test_a_landmark_makes_room_for_what_is_to_be_beside_it() -> None:
+    start = _row()
+    step = failed(start, LEFT_OF_BOX, 1, cause(CauseKind.NO_ROOM, "box", "cup"), held(start, "cup"))
+    first = f"[PICK UP, box] [PUT ON, desk] (room for cup left of box) {LEFT_OF_BOX}"
+    assert revision(step) == first
+
+
+def test_what_else_is_in_the_way_goes_before_a_landmark_does() -> None:
+    start = _row(ball=scenes.ball("ball", (0.4, 0.55)))
+    reason = cause(CauseKind.NO_ROOM, "ball", "cup")
+    first, *others = revisions(failed(start, LEFT_OF_BOX, 1, reason, held(start, "cup")))
+    assert first == f"[PICK UP, ball] [PUT ON, desk] {LEFT_OF_BOX}"
+    assert any("room for cup" in other for other in others)
+
+
+def test_the_first_of_a_row_leaves_room_for_the_rest() -> None:
+    """Where the second has too little room for the third, that goes further off, then the first
+    does.
+    """
+    start = _row()
+    box, cup = "[PICK UP, box] [PUT ON, tray]", "[PICK UP, cup] [PUT ON, tray]"
+    last = "[PICK UP, ball] [PUT ON, tray] (between box and cup)"
+    start = _row(ball=scenes.ball("ball", (0.3, 0.3)))
+    plan = f"{box} {cup} (left of box) {last}"
+    on = {"box": {"on": ("tray",)}, "cup": {"on": ("tray",)}}
+    reason = cause(CauseKind.NO_ROOM, "box", "cup", "ball")
+    found = revisions(failed(start, plan, 5, reason, held(changed(start, **on), "ball")))
+    both = "(room for cup left of box, room for ball between box and cup)"
+    assert f"{box} {both} {cup} (left of box) {last}" in found[:2]
+    room = "(left of box, room for ball between box and cup)"
+    assert f"{box} {cup} {room} {last}" in found[:2]
+
+
+def _asked(start: SceneState, **condition: list[str]) -> BuiltinReasoner:
+    """A reasoner that has been asked for a relation."""
+    reasoner = BuiltinReasoner()
+    assignment = Assignment("whatever", (Condition.model_validate(condition),))
+    assert list(reasoner.propose(assignment, start))
+    return reasoner
+
+
+def test_a_landmark_goes_to_the_other_side_of_what_cannot_be_taken() -> None:
+    start = _row()
+    reason = cause(CauseKind.NO_GRASP, "cup")
+    step = failed(start, LEFT_OF_BOX, 0, reason)
+    revised = first_revision(_asked(start, left_of=["cup", "box"]), step)
+    assert revised is not None
+    assert format_plan(revised.actions) == "[PICK UP, box] [PUT ON, desk] (right of cup)"
+    assert not any("right of cup" in found for found in revisions(step)), "the cup is to be moved"
+
+
+def test_a_landmark_goes_beyond_what_cannot_be_taken_between_two() -> None:
+    start = _row(ball=scenes.ball("ball", (0.3, 0.3)))
+    plan = "[PICK UP, cup] [PUT ON, desk] (between box and ball)"
+    reasoner = _asked(start, between=["cup", "box", "ball"])
+    step = failed(start, plan, 0, cause(CauseKind.NO_GRASP, "cup"))
+    assert [format_plan(found.actions) for found in reasoner.reflect(step)][:2] == [
+        "[PICK UP, box] [PUT ON, desk] (beyond cup from ball)",
+        "[PICK UP, ball] [PUT ON, desk] (beyond cup from box)",
+    ]
+
+
+def test_beside_what_comes_later_is_beside_where_that_will_be() -> None:
+    start = _row()
+    plan = "[PICK UP, cup] [PUT ON, desk] (at 0.400 0.500) [PICK UP, box] [PUT ON, desk]"
+    step = failed(
+        start, f"{plan} (right of cup)", 1, cause(CauseKind.NO_ROOM, "box", "cup"),
+        held(start, "cup"),
+    )  # fmt: skip
+    assert revision(step) == (
+        "[PICK UP, box] [PUT ON, desk] (right of cup, room for cup at 0.400 0.500) "
+        "[PICK UP, cup] [PUT ON, desk] (at 0.400 0.500)"
+    )

@@ -10,6 +10,7 @@ from etot_cli.errors import PlanSyntaxError
 from etot_cli.skills.action import (
     MAX_PLAN_ACTIONS,
     Action,
+    Coming,
     GraspPose,
     Verb,
     format_plan,
@@ -32,10 +33,16 @@ def whereabouts(draw: st.DrawFn) -> Whereabouts:
     return Whereabouts(relation, tuple(draw(names) for _ in range(relation.landmarks)))
 
 
+coming = st.builds(
+    lambda name, where: Coming(name, tuple(where)),
+    names,
+    st.lists(whereabouts(), min_size=1, max_size=2),
+)
 placed = st.builds(
-    lambda name, where: Action(Verb.PUT_ON, name, where=tuple(where)),
+    lambda name, where, later: Action(Verb.PUT_ON, name, where=tuple(where), coming=tuple(later)),
     names,
     st.lists(whereabouts(), max_size=3),
+    st.lists(coming, max_size=2, unique_by=lambda one: one.name),
 )
 actions = st.one_of(plain, placed)
 
@@ -64,7 +71,7 @@ def test_any_text_is_read_or_refused_with_a_sentence(text: str) -> None:
         assert len(str(error)) > 20
     else:
         assert parse_plan(format_plan(plan)) == tuple(
-            Action(a.verb, a.target, a.pose, where=a.where) for a in plan
+            Action(a.verb, a.target, a.pose, where=a.where, coming=a.coming) for a in plan
         )
 
 
@@ -77,11 +84,20 @@ def test_any_text_is_read_or_refused_with_a_sentence(text: str) -> None:
         "[PUT ON, desk] (between a)",
         "[PUT ON, desk] (at 3)",
         "[PUT ON, desk] (leftish)",
+        "[PUT ON, desk] (beyond a and b)",
+        "[PUT INTO, cup] (room for ball next to key)",
     ],
 )
 def test_places_that_make_no_sense_are_refused(text: str) -> None:
     with pytest.raises(PlanSyntaxError, match="unknown note"):
         parse_plan(text)
+
+
+def test_room_is_kept_for_what_exists_at_a_place_that_makes_sense() -> None:
+    with pytest.raises(PlanSyntaxError, match="unknown place"):
+        parse_plan("[PUT ON, desk] (room for cup leftish)")
+    with pytest.raises(PlanSyntaxError, match="no 'ball'"):
+        parse_plan("[PUT ON, desk] (room for ball left of cup)", ["desk", "cup"])
 
 
 def test_landmarks_must_exist() -> None:
@@ -101,6 +117,22 @@ def test_landmarks_must_exist() -> None:
         (
             "[PUT ON, desk] (not near cup)",
             Action(Verb.PUT_ON, "desk", where=(Whereabouts(Nearby.NEAR, ("cup",), denied=True),)),
+        ),
+        (
+            "[PUT ON, desk] (room for cup left of box, room for cup near pen)",
+            Action(
+                Verb.PUT_ON,
+                "desk",
+                coming=(
+                    Coming(
+                        "cup",
+                        (
+                            Whereabouts(Nearby.LEFT, ("box",)),
+                            Whereabouts(Nearby.NEAR, ("pen",)),
+                        ),
+                    ),
+                ),
+            ),
         ),
         (
             "[PUT INTO, bin] (next to cup)",

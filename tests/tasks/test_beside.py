@@ -106,3 +106,93 @@ def test_what_contradicts_itself_is_infeasible(tmp_path: Path) -> None:
     report = plan_task(PlanOptions(task=write(task, tmp_path), jobs=1)).report
     assert report.status == SearchStatus.INFEASIBLE.value
     assert "it cannot be both at" in report.stopped
+
+
+JIG = {"kind": "box", "size": [0.06, 0.06, 0.06], "mass": 0.15}
+CAN = {"kind": "cylinder", "diameter": 0.05, "height": 0.08, "mass": 0.1}
+CUP = {"kind": "cup", "diameter": 0.075, "height": 0.09, "mass": 0.15}
+
+
+def _planned(
+    tmp_path: Path, seed: int, goal: list[dict[str, Any]], **objects: dict[str, Any]
+) -> list[str]:
+    task = {
+        "name": "room", "scene": {"objects": objects, "variation": NOISE | {"position_m": 0.008}},
+        "goal": goal, "success": goal,
+    }  # fmt: skip
+    options = PlanOptions(task=write(task, tmp_path), jobs=1, seed=seed, vary=True)
+    report = plan_task(options).report
+    assert report.status == SearchStatus.FEASIBLE.value, report.stopped
+    assert report.success is not None and report.success.holds
+    return report.plan
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_a_landmark_at_the_edge_comes_to_the_thing(seed: int, tmp_path: Path) -> None:
+    box, cup = JIG | {"at": [0.40, 0.54]}, CUP | {"at": [0.42, 0.05]}
+    plan = _planned(tmp_path, seed, [{"left_of": ["cup", "box"]}], box=box, cup=cup)
+    assert plan == ["[PICK UP, box]", "[PUT ON, desk] (right of cup)"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_a_landmark_at_the_edge_makes_room_where_both_are_to_stand(
+    seed: int, tmp_path: Path
+) -> None:
+    chest = {"kind": "box", "at": [0.45, 0.10], "size": [0.16, 0.28, 0.08], "fixed": True}
+    goal = [{"left_of": ["cup", "box"]}, {"on": ["cup", "chest"]}, {"on": ["box", "chest"]}]
+    box, cup = JIG | {"on": "chest", "at": [0.45, 0.19]}, CUP | {"at": [0.42, -0.25]}
+    plan = _planned(tmp_path, seed, goal, chest=chest, box=box, cup=cup)
+    assert len(plan) == 4, plan
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_one_of_two_landmarks_is_moved_where_that_is_enough(seed: int, tmp_path: Path) -> None:
+    flask = {"kind": "cylinder", "diameter": 0.06, "height": 0.12, "mass": 0.2}
+    one, other = flask | {"at": [0.42, 0.05]}, flask | {"at": [0.42, -0.05]}
+    goal = [{"between": ["cup", "one", "other"]}]
+    cup = CUP | {"at": [0.35, 0.30]}
+    plan = _planned(tmp_path, seed, goal, one=one, other=other, cup=cup)
+    assert len(plan) == 2, plan
+    box = {"kind": "box", "at": [0.60, 0.0], "size": [0.08, 0.30, 0.12], "fixed": True}
+    goal += [{"in_front_of": ["cup", "rack"]}]
+    assert len(_planned(tmp_path, seed, goal, one=one, other=other, cup=cup, rack=box)) == 4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("depth", [0.22, 0.14])
+def test_three_in_a_row_on_a_narrow_mat(depth: float, seed: int, tmp_path: Path) -> None:
+    mat = {"kind": "box", "at": [0.45, 0.05], "size": [depth, 0.40, 0.008], "mass": 0.4}
+    jig, clamp = JIG | {"at": [0.30, -0.25]}, JIG | {"at": [0.30, 0.35]}
+    part = CAN | {"at": [0.50, -0.30], "diameter": 0.04, "height": 0.05}
+    goal: list[dict[str, Any]] = [{"on": [name, "mat"]} for name in ("jig", "clamp", "part")]
+    goal += [{"left_of": ["jig", "clamp"]}, {"between": ["part", "jig", "clamp"]}]
+    assert len(_planned(tmp_path, seed, goal, mat=mat, jig=jig, clamp=clamp, part=part)) == 6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(
+    "post",
+    [{"size": [0.08, 0.08, 0.16], "fixed": True}, {"size": [0.11, 0.11, 0.11], "mass": 1.0}],
+    ids=["fastened", "too wide"],
+)
+def test_what_cannot_be_taken_gets_between_two_others_by_one_of_them(
+    post: dict[str, Any], seed: int, tmp_path: Path
+) -> None:
+    post = {"kind": "box", "at": [0.42, 0.05]} | post
+    one, other = CAN | {"at": [0.42, -0.15]}, CAN | {"at": [0.42, -0.30]}
+    goal = [{"between": ["post", "one", "other"]}]
+    assert len(_planned(tmp_path, seed, goal, post=post, one=one, other=other)) == 2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_of_two_that_change_places_each_is_moved_once(seed: int, tmp_path: Path) -> None:
+    lamp = {"kind": "cylinder", "diameter": 0.07, "height": 0.18, "mass": 0.3, "at": [0.40, -0.25]}
+    goal = [{"at": ["lamp", [0.42, 0.05]]}, {"right_of": ["block", "lamp"]}]
+    plan = _planned(tmp_path, seed, goal, lamp=lamp, block=JIG | {"at": [0.42, 0.05]})
+    assert len(plan) == 4, plan

@@ -51,6 +51,22 @@ def test_beside_one_thing(
     assert not any(check(relation, *point, PLATE) for point in outside)
 
 
+def test_beyond_one_thing_that_is_between_it_and_the_other() -> None:
+    assert check(Nearby.BEYOND, 0.40, 0.30, PLATE, BOX)
+    assert check(Nearby.BEYOND, 0.40, -0.45, BOX, PLATE)
+    for point in ((0.40, -0.10), (0.40, 0.19), (0.40, 0.60), (0.70, 0.15), (0.40, -0.50)):
+        assert not check(Nearby.BEYOND, *point, PLATE, BOX), point
+
+
+@given(st.floats(0.05, 0.75), st.floats(-0.55, 0.55), st.floats(0.05, 0.75), st.floats(-0.55, 0.55))
+def test_what_is_beyond_one_thing_has_that_between_it_and_the_other(
+    x: float, y: float, a: float, b: float
+) -> None:
+    start, thing = Outline((a, b), (0.04, 0.05)), Outline((x, y), (RADIUS / 2, RADIUS / 2))
+    if check(Nearby.BEYOND, x, y, PLATE, start):
+        assert check(Nearby.BETWEEN, *PLATE.center, start, thing)
+
+
 def test_between_is_neither_beyond_nor_off_the_line_nor_on_one_of_them() -> None:
     assert check(Nearby.BETWEEN, 0.40, -0.10, PLATE, BOX)
     assert check(Nearby.BETWEEN, 0.40, -0.10, BOX, PLATE)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import reached
-from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Put, Relation, Step
+from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Put, Referent, Relation, Step
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.builtin.understanding import goals_for
 from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
@@ -55,7 +55,7 @@ def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
         goals = goals_for(assignment, start)
     except InstructionError:
         return lambda scene: ""
-    lasting = [replace(goal, steps=_lasting(goal.steps)) for goal in goals]
+    lasting = [_lasting(goal) for goal in goals]
     given = assignment.given_in(start)
     # Where to is not said of what is only to be taken away: anywhere else will do.
     removed = _removed(goals[0]) if len(goals) == 1 else ()
@@ -101,24 +101,41 @@ def _place(scene: SceneState, name: str) -> object:
     return None if state is None else (state.inside, state.on)
 
 
-def _lasting(steps: Sequence[Step]) -> tuple[Step, ...]:
-    """The steps whose effect is still to be seen at the end.
+def _lasting(goal: Goal) -> Goal:
+    """A goal of the steps whose effect is still to be seen at the end.
 
     What is opened and closed later, or put somewhere and put elsewhere later, leaves no trace of
     the first step; nor does what only had to wait elsewhere, or was to be lifted.
     """
+    referents = [*goal.referents]
+
+    def one_by_one(index: int) -> tuple[int, ...]:
+        """Several things by themselves: some of them may be put elsewhere later."""
+        (things, *more) = referents[index].options
+        if more or len(things) == 1:
+            return (index,)
+        referents.extend(Referent(((thing,),), thing.name) for thing in things)
+        return tuple(range(len(referents) - len(things), len(referents)))
+
     kept: list[Step] = []
     parts: set[int] = set()
-    things: set[int] = set()
-    for step in reversed(steps):
+    things: set[object] = set()
+    for step in reversed(goal.steps):
         if isinstance(step, Put):
-            last = tuple(index for index in step.what if index not in things)
+            said = [one for index in step.what for one in one_by_one(index)]
+            moved = {one: _meant(referents[one], one) for one in said}
+            last = tuple(one for one in said if moved[one] not in things)
             if last and not (step.aside or step.removal):
                 kept.append(replace(step, what=last, lifted=False))
-            things |= set() if step.aside else set(last)
+            things |= set() if step.aside else {moved[one] for one in last}
             continue
         later = parts if isinstance(step, Open | Close) else things
         if step.what not in later:
             later.add(step.what)
             kept.append(step)
-    return tuple(reversed(kept))
+    return replace(goal, referents=tuple(referents), steps=tuple(reversed(kept)))
+
+
+def _meant(referent: Referent, index: int) -> object:
+    """The thing itself where it is clear which; else only the same referent is the same."""
+    return referent.options if len(referent.options) == 1 else index

@@ -94,13 +94,14 @@ def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[
     if resident:
         text = f"{held} rebounded off {_listed(resident)} {joint} {target}"
         return Cause(CauseKind.REBOUND, (*resident, held), text, _first_touch(record, resident[0]))
+    filling = [name for name in record.before.states if _is_at(name, action, record)]
+    if filling and action.verb is Verb.PUT_INTO and not _struck_before(held, owner, struck, record):
+        # What else it struck it fell on.
+        text = f"there is no room for {held} in {target} beside {_listed(filling)}"
+        return Cause(CauseKind.NO_ROOM, (*filling, held), text)
     if struck:
         text = f"{held} struck {_listed(struck)} and did not come to rest {joint} {target}"
         return Cause(CauseKind.COLLISION, (*struck, held), text, _first_touch(record, struck[0]))
-    filling = [name for name in record.before.states if _is_at(name, action, record)]
-    if filling and action.verb is Verb.PUT_INTO:
-        text = f"there is no room for {held} in {target} beside {_listed(filling)}"
-        return Cause(CauseKind.NO_ROOM, (*filling, held), text)
     if record.after.states[held].lost:
         return Cause(CauseKind.LOST, (held,), f"{held} fell off the desk")
     blamed = (owner, held) if owner in record.before.infos else (held,)
@@ -131,6 +132,20 @@ def _is_at(name: str, action: Action, record: RolloutRecord) -> bool:
         return True
     owner = owner_of(action.target)
     return owner in record.before.infos and is_on(record.before, name, owner)
+
+
+def _struck_before(held: str, owner: str, struck: Iterable[str], record: RolloutRecord) -> bool:
+    """Whether what was put down struck something before it got to what it was put into."""
+    there = _first_contact(record, held, owner)
+    first = [_first_contact(record, held, name) for name in struck]
+    times = [time for time in first if time is not None]
+    return bool(times) and (there is None or min(times) < there)
+
+
+def _first_contact(record: RolloutRecord, one: str, other: str) -> float | None:
+    """When two objects first touched [s]; None where they did not."""
+    pair = {one, other}
+    return min((c.time_s for c in record.contacts if {*_owners(c)} == pair), default=None)
 
 
 def _struck_by(

@@ -188,7 +188,11 @@ def _branch(
                 if _is_closed_later(target, steps, index, choice, sketch, puts):
                     kept_open.add(target)
                 lift = step.lifted and not course.was_held(name)
-                sketch.put(name, relation, target, grasp, where, kept_open, again=lift)
+                shut_next = _closed_next(steps[index + 1 :], choice, scene)
+                sketch.put(
+                    name, relation, target, grasp, where, kept_open, stays_closed=shut_next,
+                    again=lift,
+                )  # fmt: skip
                 joint = "into" if relation is Relation.INSIDE else "on"
                 words.append(" ".join([name, joint, target, *map(str, where)]))
             if not puts:
@@ -287,6 +291,12 @@ def _last_words(steps: Iterable[Step], choice: Choice, scene: SceneState) -> dic
         if isinstance(step, Open | Close)
         for part in choice.parts(step, scene)
     }
+
+
+def _closed_next(steps: Sequence[Step], choice: Choice, scene: SceneState) -> frozenset[str]:
+    """Parts, by address, that the first of the steps that is about them closes."""
+    first = _last_words(reversed(steps), choice, scene)
+    return frozenset(address for address, open_ in first.items() if not open_)
 
 
 def _is_closed_later(

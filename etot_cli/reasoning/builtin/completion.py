@@ -90,13 +90,16 @@ def _taken_away(actions: Sequence[Action]) -> dict[str, int]:
 
 def _as_wanted(actions: Actions, put: int, homes: Iterable[_Home]) -> Actions:
     """The branch with an object stood or laid at the safe place of a put as a goal asks for, where
-    that wants it on the same floor anywhere: nothing has to come back from there.
+    that wants it on the same floor anywhere, or it only makes room there for what comes beside it:
+    nothing has to come back from there.
     """
     action = actions[put]
+    coming = {one.name for one in action.coming}
     for relation, target, where in homes:
-        anywhere = all(one.relation.is_stance for one in where)
+        anywhere = action.coming or all(one.relation.is_stance for one in where)
         if (relation, target) == (Relation.ON, action.target) and anywhere:
-            return (*actions[:put], replace(action, where=where), *actions[put + 1 :])
+            kept = tuple(one for one in where if coming.isdisjoint(one.landmarks))
+            return (*actions[:put], replace(action, where=kept), *actions[put + 1 :])
     return actions
 
 

@@ -17,7 +17,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.builtin.surfaces import CONVERSE
+from etot_cli.reasoning.builtin.turning import turned
 from etot_cli.specs.task import BESIDE_KEYS, Condition
 from etot_cli.world.spatial import Whereabouts, whereabouts
 from etot_cli.world.state import DESK, SceneState, owner_of
@@ -179,13 +179,12 @@ def _alternatives(
 def _beside(
     name: str, where: Whereabouts, scene: SceneState, *, denied: bool
 ) -> list[tuple[Atom, ...]]:
-    """Ways to have an object somewhere, or not there: the landmark of what stays is moved."""
+    """Ways to have an object somewhere, or not there: a landmark of what stays is moved."""
     where = replace(where, denied=denied)
     found = [Atom(BESIDE, (name,), where=where)]
     info = scene.infos.get(name)
-    if where.relation in CONVERSE and info is not None and not info.movable:
-        turned = replace(where, relation=CONVERSE[where.relation], landmarks=(name,))
-        found.append(Atom(BESIDE, where.landmarks, where=turned))
+    if info is not None and not info.movable:
+        found += [Atom(BESIDE, (mark,), where=so) for mark, so in turned(name, where)]
     return [(atom,) for atom in found]
 
 

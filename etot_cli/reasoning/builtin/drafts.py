@@ -111,6 +111,8 @@ class Draft:
         """A place beside something; on the surface that another condition names, if one does."""
         name, where = atom.names[0], atom.where
         assert where is not None  # these atoms have one
+        if self._stays_so(name, where):
+            return
         theme = self._refer(name, Role.THEME)
         landmarks = tuple(self._refer(landmark, Role.ANY) for landmark in where.landmarks)
         near = Near(where.relation, landmarks, where.point, where.denied)
@@ -125,6 +127,16 @@ class Draft:
             surface = None if landmarks else self._refer(DESK, Role.SURFACE)
             place = Place(Relation.ON, surface, (near,), if_needed=bool(landmarks))
             self.steps.append(Put((theme,), (place,)))
+
+    def _stays_so(self, name: str, where: Whereabouts) -> bool:
+        """Whether what cannot be moved is where it should be, or may come to be so by what is to be
+        done with its landmarks; the end will tell.
+        """
+        info = self.scene.infos.get(name)
+        if info is None or info.movable or not {*where.landmarks} <= {*self.scene.states}:
+            return False
+        goes = not self.moved.isdisjoint(where.landmarks)
+        return goes or spatial.holds(where, name, self.scene)
 
     def _stance(self, atom: Atom) -> None:
         """Standing, or lying, where it is put; on the desk where it does not yet and is put nowhere

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from etot_cli.reasoning.builtin.relations import (
     container_address,
     is_closed,
@@ -13,7 +15,7 @@ from etot_cli.reasoning.builtin.relations import (
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world import spatial
 from etot_cli.world.carrying import carried_by
-from etot_cli.world.state import RolloutRecord, owner_of
+from etot_cli.world.state import RolloutRecord, SceneState, owner_of
 
 
 def acted_object(action: Action, record: RolloutRecord) -> str | None:
@@ -49,7 +51,8 @@ def effect_holds(action: Action, record: RolloutRecord) -> bool:
             return state.in_hand
         case Verb.PUT_ON:
             stands = not state.in_hand and is_on(after, name, action.target)
-            return stands and all(spatial.holds(where, name, after) for where in action.where)
+            by_then = _with_arrivals(action, after)
+            return stands and all(spatial.holds(where, name, by_then) for where in action.where)
         case Verb.PUT_INTO:
             container = container_address(after, action.target)
             if container is None or state.in_hand or state.lost:
@@ -62,3 +65,13 @@ def effect_holds(action: Action, record: RolloutRecord) -> bool:
             if part is None:
                 return False
             return is_open(after, part) if action.verb is Verb.OPEN else is_closed(after, part)
+
+
+def _with_arrivals(action: Action, scene: SceneState) -> SceneState:
+    """The scene with what is still to come where it is told that it will be."""
+    states = {
+        name: replace(scene.states[name], position=(*point, scene.states[name].position[2]))
+        for name, point in action.arrivals.items()
+        if name in scene.states
+    }
+    return replace(scene, states={**scene.states, **states}) if states else scene

@@ -15,6 +15,7 @@ from etot_cli.reasoning.builtin.relations import can_topple, contents, enclosing
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.carrying import carried_by
 from etot_cli.world.spatial import Nearby
+from etot_cli.world.stance import LEANS_DEG
 from etot_cli.world.state import CLOSED_AT, DESK, CauseKind, ObjectState, RolloutRecord, owner_of
 
 SHOVED = 0.03
@@ -39,8 +40,10 @@ class HarmKind(IntEnum):
     """It left the container or the support that it was in or on."""
     CARRIED = 4
     """It stood on what was picked up, and nobody asked for it to come along."""
-    SHOVED = 5
-    PART_MOVED = 6
+    TIPPED = 5
+    """It stood, and leans against something now."""
+    SHOVED = 6
+    PART_MOVED = 7
     """One of its parts was opened or closed unasked."""
 
     @property
@@ -82,6 +85,7 @@ class Harm:
             HarmKind.TOPPLED: f"{self.name} toppled",
             HarmKind.DISLODGED: f"{self.name} {dislodged}",
             HarmKind.CARRIED: f"{self.name}, which stood on it, was carried along",
+            HarmKind.TIPPED: f"{self.name} was tipped and leans",
             HarmKind.SHOVED: f"{self.name} was pushed {far}",
             HarmKind.PART_MOVED: f"{self.name} was opened or closed unasked",
         }[self.kind]
@@ -130,6 +134,8 @@ def _harm(name: str, action: Action, record: RolloutRecord) -> HarmKind | None:
         return HarmKind.DISLODGED
     if action.verb is Verb.PICK_UP and name in _riders(action, record):
         return HarmKind.CARRIED
+    if not moved and _is_tipped(name, record):
+        return HarmKind.TIPPED
     if _is_shoved(name, action, record):
         return HarmKind.SHOVED
     return HarmKind.PART_MOVED if _is_part_moved(name, action, record) else None
@@ -170,6 +176,16 @@ def _is_dislodged(name: str, record: RolloutRecord) -> bool:
     supports, now = _owners(before), _owners(after)
     elsewhere = bool(supports) and bool(now) and not supports & now
     return elsewhere and before.inside == after.inside and displacement(name, record) > FELL
+
+
+def _is_tipped(name: str, record: RolloutRecord) -> bool:
+    """Whether something that stood by itself leans. In a vessel or drawer things lean as they like,
+    and what moved rightly may have been set down so.
+    """
+    before, after = record.before.states[name], record.after.states[name]
+    stood = before.tilt_deg < LEANS_DEG and before.inside is None
+    leans = after.tilt_deg >= LEANS_DEG and after.inside is None and not after.in_hand
+    return can_topple(record.before.infos[name]) and stood and leans
 
 
 def _is_shoved(name: str, action: Action, record: RolloutRecord) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -46,9 +46,11 @@ def keepouts_of(failed: FailedStep, name: str, room: float = 0.0) -> tuple[Keepo
     return tuple(sorted(set(discs)))
 
 
-def needed_later(failed: FailedStep, name: str) -> tuple[Keepout, ...]:
+def needed_later(
+    failed: FailedStep, name: str, besides: Collection[str] = ()
+) -> tuple[Keepout, ...]:
     """Discs that a safe place for an object had better avoid: what the rest of the branch takes or
-    fills, and the way of a hand to it.
+    fills, some things apart (``besides``), and the way of a hand to it.
     """
     scene = failed.record.before
     needed = dict.fromkeys(
@@ -56,7 +58,7 @@ def needed_later(failed: FailedStep, name: str) -> tuple[Keepout, ...]:
     )
     discs: list[Keepout] = []
     for other in needed:
-        if other in (name, scene.holding) or other not in scene.states:
+        if other in (name, scene.holding, *besides) or other not in scene.states:
             continue
         x, y, _ = scene.states[other].position
         size, away = radius(scene.infos[other]), max(math.hypot(x, y), HAND)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from itertools import chain
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
@@ -16,6 +17,7 @@ from etot_cli.reasoning.builtin.constraints import (
 from etot_cli.reasoning.builtin.goal import Constraint, Goal
 from etot_cli.reasoning.builtin.judging import judge_action
 from etot_cli.reasoning.builtin.reflection import reflect_on
+from etot_cli.reasoning.builtin.turning import is_hopeless, turned_round
 from etot_cli.reasoning.builtin.understanding import goals_for
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.protocol import (
@@ -71,9 +73,12 @@ class BuiltinReasoner:
     def reflect(self, failed: FailedStep) -> Iterator[Branch]:
         """All corrected branches from the root, best first, worked out as they are asked for."""
         revisions = (completed(revised, failed, self._goals) for revised in reflect_on(failed))
+        instead = turned_round(failed, self._goals)
+        # Of what keeps a thing from its place what can be taken away is, before others go for it.
+        first, then = (instead, revisions) if is_hopeless(failed) else (revisions, instead)
         return (
             revised
-            for revised in revisions
+            for revised in chain(first, then)
             if broken_constraint(revised.actions, self._constraints, failed.start) is None
             and not any(spares_none(revised.actions, goal, failed.start) for goal in self._goals)
         )

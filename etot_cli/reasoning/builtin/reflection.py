@@ -11,10 +11,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from etot_cli.reasoning.builtin.company import coming_beside, landmarks, room_beside
 from etot_cli.reasoning.builtin.fetching import fetched_first
 from etot_cli.reasoning.builtin.keepouts import kept_away
 from etot_cli.reasoning.builtin.openings import closed_alike, closed_by_others, reopened_at_once
-from etot_cli.reasoning.builtin.regrasping import grasped_anew, grasped_for, regrasped, set_down_for
+from etot_cli.reasoning.builtin.regrasping import (
+    grasped_anew,
+    grasped_for,
+    laid_down,
+    regrasped,
+    set_down_for,
+)
 from etot_cli.reasoning.builtin.relations import (
     NOT_OBJECTS,
     carriers,
@@ -41,6 +48,7 @@ from etot_cli.reasoning.builtin.relocation import (
 from etot_cli.reasoning.builtin.revision import (
     Actions,
     Purpose,
+    PurposedPut,
     brought_before,
     cycle_of,
     inserted,
@@ -57,6 +65,7 @@ from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sharing import come_since, lowered, side_by_side
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import (
     DESK,
     STAYS_OPEN_AT,
@@ -102,6 +111,14 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
                 yield Branch(actions, f"{change}, because {cause.text}")
 
 
+def _as_aimed(put: PurposedPut, aim: Purpose) -> PurposedPut:
+    """A place of the aim that another one serves as well; that itself where there is none."""
+    name, verb, target, where = put
+    anyhow = tuple(one for one in where if one.relation is not Nearby.LYING)
+    alike = ((name, verb, at, how) for at in (target, owner_of(target)) for how in (where, anyhow))
+    return next((one for one in alike if one in aim.places), put)
+
+
 class _Case:
     """A failed step with what has to be known about it."""
 
@@ -118,7 +135,7 @@ class _Case:
     def serves(self, actions: Actions, aim: Purpose) -> bool:
         """Whether a branch is for the same; a part that was only to stand as at first, and cannot
         be opened again, may stay closed, and one that stood half-open may be opened wide. Any board
-        will do where a shelf was named.
+        will do where a shelf was named, and lying where no word says how.
         """
         new, asked = purpose(actions, self.start), dict(aim.parts)
         opened = (
@@ -131,8 +148,7 @@ class _Case:
         }
         if self.action.verb is Verb.OPEN and self.action.target not in asked:
             means.add((self.action.target, Verb.CLOSE))
-        named = {(*put[:2], owner_of(put[2]), put[3]): put for put in new.places}
-        places = frozenset(name if name in aim.places else put for name, put in named.items())
+        places = frozenset(_as_aimed(put, aim) for put in new.places)
         return replace(new, places=places, parts=new.parts - means) == aim
 
     def corrections(self) -> Iterator[Correction]:
@@ -192,7 +208,8 @@ class _Case:
         actions = moved_before(self.actions, own, failing.start)
         at = failing.start + pick + 1 - own.start
         discs = {*put.keepout, *kept_away(actions[at + 1 :], put, self.scene)}
-        there = replace(put, keepout=tuple(sorted(discs)))
+        coming = coming_beside(actions, at, name)
+        there = replace(put, keepout=tuple(sorted(discs)), coming=coming)
         actions = (*actions[:at], there, *actions[at + 1 :])
         yield Correction(
             reachable_throughout(actions, self.start),
@@ -340,6 +357,10 @@ class _Case:
             yield from other_places(self.failed, index)
             if self.action.target == DESK:
                 return  # what stands on a full desk has nowhere to go but where this could go
+        marks = landmarks(self.action) if self.is_full else []
+        others = {name for name in self._culprits() if self.scene.infos[name].movable}
+        if others <= {owner, *marks}:
+            yield from self._room_beside(marks)
         for name in self._culprits():
             if name == owner:
                 yield from opened_wider(self.failed, owner)
@@ -361,6 +382,8 @@ class _Case:
                 yield from fetched_first(self.failed, name)
                 if owner in self.scene.infos:
                     yield from self._brought_out(name, [owner])
+        if not others <= {owner, *marks}:
+            yield from self._room_beside(marks)
         if self.action.safe and not self.is_full:
             yield from other_places(self.failed, index)
         if pick is not None:
@@ -368,6 +391,13 @@ class _Case:
         yield from grasped_anew(self.failed, pick, self.cause.kind)
         if not self._culprits() or self._is_furniture_alone():
             yield from grasped_for(self.failed, pick, self.cause)
+            yield from laid_down(self.failed, pick, self.cause)
+
+    def _room_beside(self, marks: Iterable[str]) -> Iterator[Correction]:
+        """The branch with one of the landmarks at another place, those to blame first."""
+        blamed = self._culprits()
+        for name in sorted(marks, key=lambda mark: mark not in blamed):
+            yield from room_beside(self.failed, name)
 
     def _is_furniture_alone(self) -> bool:
         """Whether only what cannot be moved is in the way."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.relations import carriers, has_front
+from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction, set_aside
 from etot_cli.reasoning.builtin.revision import Actions, inserted, relocations
 from etot_cli.reasoning.protocol import FailedStep
@@ -97,6 +97,30 @@ def grasped_for(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[
         suited = replace(actions[pick], onward=put)
         posed = (*actions[:pick], suited, *actions[pick + 1 :])
         yield Correction(posed, f"{name} is grasped so that it goes to {put.target}")
+
+
+def laid_down(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[Correction]:
+    """What is held from above and does not stand under a roof as it is held lies there: for what no
+    level hand takes, or gets in with.
+
+    Args:
+        failed: the failed put.
+        pick: place in the branch of the action that grasped the object; None where it was in the
+            hand from the start.
+        cause: of the failure.
+    """
+    actions, name = failed.branch.actions, failed.record.before.holding
+    put = actions[failed.index]
+    level = pick is not None and actions[pick].pose is GraspPose.HORIZONTAL
+    misfit = cause.kind is CauseKind.NO_ROOM and cause.objects[:1] == (name,)
+    if name is None or level or misfit or cause.kind not in _AS_HELD or not _is_roofed(failed):
+        return
+    info, stance = failed.record.before.infos[name], any(w.relation.is_stance for w in put.where)
+    if stance or info.container or info.kind in ROLLING_KINDS or not can_lie(info):
+        return
+    lying = replace(put, where=(*put.where, Whereabouts(Nearby.LYING)))
+    laid = (*actions[: failed.index], lying, *actions[failed.index + 1 :])
+    yield Correction(laid, f"{name} is laid down")
 
 
 def set_down_for(failed: FailedStep) -> Iterator[Correction]:

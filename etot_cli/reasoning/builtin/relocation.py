@@ -76,10 +76,24 @@ def relocated(failed: FailedStep, name: str, acted: str | None, index: int) -> I
 
 
 def _taken_away(failed: FailedStep, name: str, index: int) -> Iterator[Correction]:
-    actions, start = failed.branch.actions, failed.start
-    change = f"{name} goes to a safe place first"
-    place = hand_free_at(actions, index, start)
     _, put = set_aside(failed, name)
+    yield from put_first(failed, index, name, put, f"{name} goes to a safe place first")
+
+
+def put_first(
+    failed: FailedStep, index: int, name: str, put: Action, change: str
+) -> Iterator[Correction]:
+    """The branch with an object put elsewhere before the cycle of ``index``.
+
+    Args:
+        failed: the failed step.
+        index: place of an action in its branch.
+        name: the object.
+        put: where it goes.
+        change: that, in words.
+    """
+    actions, start = failed.branch.actions, failed.start
+    place = hand_free_at(actions, index, start)
     if place is not None:
         yield Correction(
             inserted(actions, place, _fetched(name, put, actions[:place], start)), change
@@ -149,7 +163,8 @@ def other_places(failed: FailedStep, put: int) -> Iterator[Correction]:
     places = safe_places(actions, failed.start, held)
     tried = next((i for i, place in enumerate(places) if place[1] == action.target), -1)
     for verb, target in places[tried + 1 :]:
-        other = replace(action, verb=verb, target=target)
+        # What comes beside it where it should have gone does not come there.
+        other = replace(action, verb=verb, target=target, coming=())
         yield Correction(_replaced(actions, put, other), f"{target} serves as the safe place")
 
 

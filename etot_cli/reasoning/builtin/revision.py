@@ -15,6 +15,8 @@ from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import SceneState
 
 Actions = tuple[Action, ...]
+PurposedPut = tuple[str, Verb, str, tuple[Whereabouts, ...]]
+"""What is put, how, to what, and where there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +44,7 @@ class Purpose:
         held: what is in the hand at the end.
     """
 
-    places: frozenset[tuple[str, Verb, str, tuple[Whereabouts, ...]]]
+    places: frozenset[PurposedPut]
     parts: frozenset[tuple[str, Verb]]
     held: str | None
 
@@ -244,8 +246,19 @@ def _written_anew(actions: Actions, scene: SceneState) -> Actions:
                     action.pose,
                     following.where,
                     left_open(actions, scene),
+                    stays_closed=_closed_next(actions[index:], scene),
                 )
     return tuple(sketch.actions)
+
+
+def _closed_next(actions: Sequence[Action], scene: SceneState) -> frozenset[str]:
+    """Parts, by address, that the first of these actions that turns them closes."""
+    first: dict[str, Verb] = {}
+    for action in actions:
+        part = scene.part(action.target)
+        if part is not None and action.verb in (Verb.OPEN, Verb.CLOSE):
+            first.setdefault(part.address, action.verb)
+    return frozenset(address for address, verb in first.items() if verb is Verb.CLOSE)
 
 
 def hand_free_at(actions: Sequence[Action], index: int, scene: SceneState) -> int | None:

@@ -55,6 +55,7 @@ class Sketch:
         where: tuple[Whereabouts, ...] = (),
         left_open: Collection[str] = (),
         *,
+        stays_closed: Collection[str] = (),
         again: bool = False,
     ) -> None:
         """Brings an object to a place; nothing when it is there, unless it is to go there again.
@@ -62,7 +63,8 @@ class Sketch:
         An insertion into an articulated container is a cycle of its own: open, pick, put, close,
         without the last one for parts that are to be ``left_open``. What comes out of another
         drawer of the same piece is put down in between: of two drawers that stand open, the upper
-        one covers the lower one.
+        one covers the lower one, so that the other is closed, and opened again at the end where it
+        stood open and is not to be closed next (``stays_closed``).
         """
         if self.holds(name, relation, target, where) and not again:
             return
@@ -82,7 +84,11 @@ class Sketch:
             for other in self._parts_around(name)
             if other.owner == part.owner and other.address != part.address
         ]
-        stood_open = [other for other in others if self._open[other.address]]
+        stood_open = [
+            other
+            for other in others
+            if self._open[other.address] and other.address not in stays_closed
+        ]
         for other in others:
             self.pick_up(name, pose)
             self.put_down()

@@ -11,25 +11,15 @@ from etot_cli.reasoning.builtin.goal import Relation
 from etot_cli.reasoning.builtin.ordering import Placement
 from etot_cli.reasoning.builtin.relations import bearers, container_address
 from etot_cli.reasoning.builtin.sketch import Sketch
+from etot_cli.reasoning.builtin.turning import CONVERSE
 from etot_cli.world import spatial
-from etot_cli.world.spatial import Nearby, Whereabouts
+from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import DESK, ObjectState, SceneState, owner_of
 
 Rows = tuple[tuple[Placement, ...], ...]
 """The placements of each step that puts something."""
 _At = tuple[Relation, str]
 """On or in what something is."""
-
-CONVERSE = {
-    Nearby.LEFT: Nearby.RIGHT,
-    Nearby.RIGHT: Nearby.LEFT,
-    Nearby.FRONT: Nearby.BEHIND,
-    Nearby.BEHIND: Nearby.FRONT,
-    Nearby.NEXT_TO: Nearby.NEXT_TO,
-    Nearby.NEAR: Nearby.NEAR,
-    Nearby.AWAY: Nearby.AWAY,
-}
-"""What holds of a landmark and a thing where the key holds of the thing and the landmark."""
 
 
 class Way(NamedTuple):

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from etot_cli.skills.action import Keepout
+from etot_cli.skills.action import Coming, Keepout
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.motion.collision import Attached
 from etot_cli.skills.placements.orientation import discomfort
@@ -31,7 +31,7 @@ from etot_cli.skills.placements.undersides import HAND_MARGIN, Stamps, Underside
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
 from etot_cli.world.relations import SUPPORT_SLOPE
-from etot_cli.world.spatial import Nearby
+from etot_cli.world.spatial import Nearby, Whereabouts
 
 Cells = NDArray[np.int64]
 Preference = Callable[[Vector], Vector]
@@ -103,6 +103,8 @@ class Request:
         rehearsed: where it was let go in a scene much like this one; looked at first.
         stance: it has to stand, or to lie; None where either will do.
         bare: the hand is thought away.
+        where: what of the preference was said in words.
+        coming: what is still to get a place beside it.
     """
 
     attached: Attached
@@ -115,6 +117,8 @@ class Request:
     rehearsed: Pose | None = None
     stance: Nearby | None = None
     bare: bool = False
+    where: tuple[Whereabouts, ...] = ()
+    coming: tuple[Coming, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ import numpy as np
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.placements.judging import Request
+from etot_cli.skills.placements.orientation import points_down
 from etot_cli.skills.placements.placement import Placement, Tally, prepared_at
 from etot_cli.skills.placements.places import PlaceFinder
 from etot_cli.skills.placements.undersides import Stamps
@@ -63,11 +64,14 @@ def placements(
         tries = closely
     done: list[_Mark] = []
     found, upright, passed, far = 0, 0, 0, np.inf
+    lays: bool | None = None
     for place in finder.places(as_held=stamps is not None):
         position, rotation = place.pose.position, place.pose.rotation
         if tally.looked_at >= tries:
             return
-        if place.laid and upright >= BEST_TRIES:
+        if place.laid and lays is None:
+            lays = not (upright and _from_above(belief, request, tally))
+        if place.laid and (upright >= BEST_TRIES or not lays):
             continue  # there is room but for the hand, which may hold it otherwise
         on_others = place.bearers - {request.support.owner}
         if on_others and tally.looked_at + passed >= LEVEL_TRIES:
@@ -95,6 +99,16 @@ def placements(
             done.append(_Mark(position, rotation, UNREACHED_AROUND))
             if radius > belief.arm.comfortable_radius(request.support.center[2]):
                 far = min(far, radius + UNREACHED_STEP)
+
+
+def _from_above(belief: Belief, request: Request, tally: Tally) -> bool:
+    """Whether a hand that points down holds what goes in through a front, and no loose thing is in
+    the way there: a level hand gets further in under a roof.
+    """
+    if not (request.support.from_front and points_down(belief)):
+        return False
+    met = tally.blockers.most(excluding=[request.attached.name])
+    return not any(belief.world.entries[name].info.movable for name in met)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from etot_cli.skills.placements.support import Support
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import LEVEL, UP, cross, quaternion_of, rotation_between, turn_about
 from etot_cli.world.spatial import Nearby
-from etot_cli.world.stance import RIGHTED_DEG, has_top, lies
+from etot_cli.world.stance import RIGHTED_DEG, SAME, TOPPLED_DEG, has_top, lies
 
 HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
@@ -55,6 +55,27 @@ def resting_rotation(belief: Belief, attached: Attached) -> Vector:
     if has_top(entry.info) and -ON_ITS_HEAD < columns[2] < 0.0:
         columns[2] = 0.0  # it hangs in the hand; only what stood on its head may do so again
     return _flat(belief, attached, pose.rotation, int(np.argmax(np.abs(columns))))
+
+
+def flat_side_down(belief: Belief, attached: Attached) -> Vector | None:
+    """The orientation (3, 3) on its flattest side of something that has turned in the hand so far
+    that a narrower one is nearer to the ground; None for all else, and where the hand would have to
+    point up for it.
+
+    A flat thing that a slanted hand takes at its corners turns between them, and would end up
+    standing on its edge.
+    """
+    entry = belief.world.entries[attached.name]
+    turned = belief.scene.states[attached.name].tilt_deg >= TOPPLED_DEG
+    if not (turned and entry.upright_matters) or has_top(entry.info):
+        return None
+    rotation, size = belief.object_pose(attached.name).rotation, entry.info.size
+    nearest, flattest = int(np.argmax(np.abs(rotation[2]))), int(np.argmin(size))
+    if size[flattest] > SAME * size[nearest]:
+        return None
+    up = rotation[:, flattest] * (1.0 if rotation[2, flattest] >= 0.0 else -1.0)
+    flat = rotation_between(up, UP) @ rotation
+    return flat if _approach(attached, flat)[2] <= HIGHEST_APPROACH else None
 
 
 def stood_up(belief: Belief, attached: Attached, support: Support) -> Vector | None:
@@ -121,14 +142,16 @@ def orientations(
     """
     entry = belief.world.entries[attached.name]
     now = belief.object_pose(attached.name).rotation
-    base = resting_rotation(belief, attached)
+    nearest = resting_rotation(belief, attached)
+    flat = flat_side_down(belief, attached)
+    base = nearest if flat is None else flat
     hangs = has_top(entry.info) and abs(now[2, 2]) < LEVEL
     enters_level = support.from_front and hangs and points_down(belief)
     found: list[Orientations] = []
     if entry.upright_matters and stance is Nearby.LYING:
-        ways = [base, *laid_rotations(belief, attached, base)]
-        flat = [way for way in ways if lies(entry.info, (*quaternion_of(way),))]
-        return [one for way in flat for one in _turned(belief, attached, support, way, laid=False)]
+        ways = [base, *laid_rotations(belief, attached, nearest)]
+        lain = [way for way in ways if lies(entry.info, (*quaternion_of(way),))]
+        return [one for way in lain for one in _turned(belief, attached, support, way, laid=False)]
     if entry.upright_matters and (stance is Nearby.UPRIGHT or enters_level):
         standing = rotation_between(now[:, 2], UP) @ now if has_top(entry.info) else base
         found = _turned(belief, attached, support, standing, laid=False)
@@ -150,6 +173,8 @@ def orientations(
         stood = stood_up(belief, attached, support)
         found = [] if stood is None else _turned(belief, attached, support, stood, laid=False)
     found += _turned(belief, attached, support, base, laid=False)
+    if flat is not None:
+        found += _turned(belief, attached, support, nearest, laid=False)
     approach = _approach(attached, base)
     if entry.axis is not None and approach[2] > -DOWN:
         rolled = rolled_down(belief, attached, base)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.placements.company import ROOMS, Company
 from etot_cli.skills.placements.judging import (
     FLAT,
     Cells,
@@ -86,10 +87,28 @@ class PlaceFinder:
     ) -> Iterator[Place]:
         """The places, the best first; worked out as they are asked for.
 
+        Where others are still to come, only those that leave them room; those where it is scarce
+        are the last.
+
         Args:
             as_held: only those where the object is not laid down.
             kinds: only these, in order.
         """
+        found = self._places(kinds, as_held=as_held)
+        if not self._request.coming:
+            yield from found
+            return
+        company = Company(self._belief, self._request, self._judge.grid())
+        scarce: list[Place] = []
+        for place in found:
+            room = company.room_beside(place.pose)
+            if room == max(ROOMS):
+                yield place
+            elif room is not None:
+                scarce.append(place)
+        yield from scarce
+
+    def _places(self, kinds: Iterable[Quality], *, as_held: bool) -> Iterator[Place]:
         rehearsed = self._request.rehearsed
         if rehearsed is not None and not as_held:
             yield from self._again(rehearsed)

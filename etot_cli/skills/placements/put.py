@@ -86,6 +86,8 @@ def request_for(
         at=at,
         rehearsed=rehearsed,
         stance=next((w.relation for w in action.where if w.relation.is_stance), None),
+        where=action.where,
+        coming=action.coming,
     )
 
 

@@ -79,7 +79,8 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             f"there is no room for {name} {_preposition(request)} {address}: "
             f"{_listed(guilty)} in the way",
         )
-    if request.keepout and possible(replace(request, keepout=())) is not None:
+    anywhere = replace(request, keepout=(), coming=())
+    if anywhere != request and possible(anywhere) is not None:
         return failed(
             CauseKind.NO_ROOM,
             [name, *owner],
@@ -99,6 +100,19 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             CauseKind.UNREACHABLE,
             [*owner, name],
             f"the hand has no room {_preposition(request)} {address} as it holds {name}",
+        )
+    marks = [
+        mark
+        for where in request.where
+        for mark in where.landmarks
+        if mark in belief.world.entries and belief.world.entries[mark].info.movable
+    ]
+    if marks and possible(replace(anywhere, preference=None)) is not None:
+        # Beyond an edge, or in a gap too narrow, nothing stands that could be taken away.
+        return failed(
+            CauseKind.NO_ROOM,
+            [*dict.fromkeys(marks), name],
+            f"there is no room for {name} on {address} {' and '.join(map(str, request.where))}",
         )
     return failed(
         CauseKind.NO_ROOM,

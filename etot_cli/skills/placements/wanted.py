@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -36,13 +37,15 @@ def wanted_spots(world: World, data: mujoco.MjData, action: Action, name: str) -
     """
     if not action.where:
         return None
-    area = _outline(world, data, action.target.partition(".")[0])
+    area = outline_in(world, data, action.target.partition(".")[0])
     forward = forward_of(world.scene)
     radius = max(world.entries[name].info.size[:2]) / 2
-    wanted = [
-        (where, [_outline(world, data, landmark) for landmark in where.landmarks])
-        for where in action.where
-    ]
+
+    def landmark(name: str) -> Outline:
+        seen = outline_in(world, data, name)
+        return replace(seen, center=action.arrivals.get(name, seen.center))
+
+    wanted = [(where, [*map(landmark, where.landmarks)]) for where in action.where]
 
     def test(points: NDArray[np.float64]) -> NDArray[np.bool_]:
         mask = np.ones(len(points), dtype=np.bool_)
@@ -54,7 +57,8 @@ def wanted_spots(world: World, data: mujoco.MjData, action: Action, name: str) -
     return test
 
 
-def _outline(world: World, data: mujoco.MjData, name: str) -> Outline:
+def outline_in(world: World, data: mujoco.MjData, name: str) -> Outline:
+    """The outline of an object where it is now, or the desk's."""
     if name == DESK:
         desk = world.scene.desk
         return Outline(desk.center, (desk.size[0] / 2, desk.size[1] / 2))
