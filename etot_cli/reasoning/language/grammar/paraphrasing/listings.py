@@ -15,9 +15,9 @@ _NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
 ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
 """Before what somebody is asked for."""
 _ALL_NAMED = Expression(
-    r"(^|[.;\n]\s*)([^:.;\n]+): "
+    r"(^|[.;\n]\s*)([^:.;\n]+): (?P<do>(?:(?:please|just) )*(?:put|place|move|store|pack) )?"
     r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot"
-    rf"|(?:all )?(?:the )?(?P<number>{'|'.join(NUMBERS)})(?: of (?:them|these))?)"
+    rf"|(?:all (?:the )?|the )(?P<number>{'|'.join(NUMBERS)})(?: of (?:them|these))?)"
     r" (?=(?:in|on|into|onto|to)\b"
     r"|(?P<verb>(?:go|belong)|(?:should|must|have to|need to|are to) (?:go|be|end up)) )"
 )
@@ -68,10 +68,12 @@ def _named_before(said: re.Match[str]) -> str:
     items = re.split(r",? and |, ", said[2])
     if said["number"] and len(items) != int(NUMBERS[said["number"]]):
         return said[0]
-    if not said["number"] and said["verb"]:
+    if not said["number"] and (said["verb"] or said["do"]):
         return said[0]  # they are topics that the verb speaks of
     named = ", and ".join(filter(None, (", ".join(items[:-1]), items[-1])))
-    return f"{said[1]}{named if said['number'] else said[2]} {said['both'] or ''} "
+    if said["number"]:
+        return f"{said[1]}{said['do'] or ''}{named} "
+    return f"{said[1]}{said[2]} {said['both'] or ''} "
 
 
 def _picked_and_placed(said: re.Match[str]) -> str:

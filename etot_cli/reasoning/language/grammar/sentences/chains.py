@@ -131,11 +131,6 @@ def _also(things: Things) -> AgainClause:
     return AgainClause(things, trailing=True)
 
 
-def _unlikely(placed: Reading) -> Reading:
-    """What goes somewhere without a verb: "empty the box and the bag into the bin" empties both."""
-    return (replace(placed[0], far_fetched=placed[0].far_fetched + 2), *placed[1:])
-
-
 def joint(name: str, *parts: Part) -> Parser:
     """What goes on a sentence, with a name for what joins it."""
     return sequence(*parts, build=lambda reading: (name, reading))
@@ -195,8 +190,8 @@ JOINED = either(
     ),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
+    # "Empty the box and the bag into the bin" empties both
     joint("emptied", COMMA, optional(small_words.AND), PLACED),
-    joint("emptied", small_words.AND, sequence(PLACED, build=_unlikely)),
     joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
     joint(
