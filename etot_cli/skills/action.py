@@ -74,6 +74,7 @@ class Action:
             held.
         coming: of a PUT ON, what comes beside it later, in this order: it takes a place at which
             that has room, and stands beside what it has as its landmark where that will be.
+        partly: an OPEN that goes only as far as nothing stands in the part's way.
     """
 
     verb: Verb
@@ -83,6 +84,7 @@ class Action:
     keepout: tuple[Keepout, ...] = ()
     where: tuple[Whereabouts, ...] = ()
     onward: Action | None = None
+    partly: bool = False
     coming: tuple[Coming, ...] = ()
 
     @property
@@ -98,6 +100,8 @@ class Action:
     def __str__(self) -> str:
         text = f"[{self.verb.value}, {self.target}]"
         notes = [*([self.pose.value] if self.pose else []), *map(str, self.where)]
+        if self.partly:
+            notes.append("partly")
         if self.onward is not None:
             notes.append(f"to {self.onward.verb.value.lower()} {self.onward.target}")
         for thing in self.coming:
@@ -173,6 +177,7 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
         )
     pose: GraspPose | None = None
     safe = False
+    partly = False
     onward: Action | None = None
     where: list[Whereabouts] = []
     coming: dict[str, tuple[Whereabouts, ...]] = {}
@@ -184,6 +189,8 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             pose = GraspPose.VERTICAL
         elif plain.lower() == "safe place":
             safe = True
+        elif verb is Verb.OPEN and plain.lower() == "partly":
+            partly = True
         elif verb is Verb.PICK_UP and (next_put := _ONWARD.fullmatch(plain)) is not None:
             onward = Action(Verb(f"PUT {next_put[1].upper()}"), next_put[2])
             _check_target(onward.target, allowed, f"[{verb.value}, {target}] ({plain})")
@@ -199,14 +206,16 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             if place is None or not _says_where(verb, place):
                 raise PlanSyntaxError(
                     f"unknown note ({plain}) after [{verb.value}, {target}]; expected "
-                    "(horizontal), (vertical), (safe place) or, after a PUT, (upright), (lying) or "
-                    "a place such as (left of plate) or (between cup and box), after PUT ON "
-                    "(at edge), too"
+                    "(horizontal), (vertical), (safe place), after OPEN (partly) or, after a PUT, "
+                    "(upright), (lying) or a place such as (left of plate) or (between cup and "
+                    "box), after PUT ON (at edge), too"
                 )
             _check_landmarks(place, allowed, f"[{verb.value}, {target}] ({plain})")
             where.append(place)
     later = tuple(Coming(name, spots) for name, spots in coming.items())
-    return Action(verb, target, pose, safe, where=tuple(where), onward=onward, coming=later)
+    return Action(
+        verb, target, pose, safe, where=tuple(where), onward=onward, coming=later, partly=partly
+    )
 
 
 def _says_where(verb: Verb, place: Whereabouts) -> bool:

@@ -66,12 +66,18 @@ class Blockers:
     def __init__(self, world: World) -> None:
         self._known = world.entries
         self._count: Counter[str] = Counter()
+        self._candidates = 0
 
     def add(self, addresses: Iterable[str]) -> None:
         """Notes the addresses that one candidate came too close to."""
+        self._candidates += 1
         for name in {owner_of(address) for address in addresses}:
             if name in self._known:
                 self._count[name] += 1
+
+    def always(self, name: str) -> bool:
+        """Whether every candidate came too close to this one."""
+        return 0 < self._candidates == self._count[name]
 
     def most(self, excluding: Iterable[str]) -> tuple[str, ...]:
         """Object names, the most frequent blocker first."""

@@ -35,6 +35,29 @@ def test_what_a_door_sweeps_away_goes_first() -> None:
     assert revision(step) == "[PICK UP, tennis_ball] [PUT ON, desk] [OPEN, microwave]"
 
 
+@pytest.mark.parametrize("openness", [1.0, 0.6])
+def test_a_door_that_opened_at_the_expense_of_others_opens_less_far_in_the_end(
+    openness: float,
+) -> None:
+    """After all that takes the other away, and not where it did not even open so."""
+    start = scenes.microwave()
+    after = changed(start, microwave={"openness": {"door": openness}}, tennis_ball={})
+    step = failed(
+        start, "[OPEN, microwave]", 0, cause(CauseKind.COLLISION, "tennis_ball"), after=after
+    )
+    found = revisions(step)
+    assert found[0] == "[PICK UP, tennis_ball] [PUT ON, desk] [OPEN, microwave]"
+    assert ("[OPEN, microwave] (partly)" in found) == (openness == 1.0)
+    less = failed(
+        start,
+        "[OPEN, microwave] (partly)",
+        0,
+        cause(CauseKind.COLLISION, "tennis_ball"),
+        after=after,
+    )
+    assert revisions(less)[-1].endswith("[PUT ON, desk] [OPEN, microwave] (partly)")
+
+
 def test_a_safe_place_keeps_clear_of_what_moved_and_swept() -> None:
     start = scenes.microwave()
     after = changed(start, tennis_ball={"position": (0.15, 0.30, 0.17)})

@@ -44,7 +44,8 @@ placed = st.builds(
     st.lists(whereabouts(), max_size=3),
     st.lists(coming, max_size=2, unique_by=lambda one: one.name),
 )
-actions = st.one_of(plain, placed)
+partly = st.builds(lambda name: Action(Verb.OPEN, name, partly=True), names)
+actions = st.one_of(plain, placed, partly)
 
 
 @given(st.lists(actions, min_size=1, max_size=8))

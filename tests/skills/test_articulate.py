@@ -406,3 +406,55 @@ def test_what_is_in_the_way_of_a_second_hold_is_named(
     cause = locker_before(-0.30, tmp_path, HINGED[0], -95).do("[OPEN, locker]").record.cause
     assert cause is not None and cause.kind is CauseKind.BLOCKED
     assert cause.objects == ("rack", "locker")
+
+
+CLOSET = {"kind": "cabinet", "at": [0.60, 0.0], "yaw_deg": 180, "size": [0.20, 0.28, 0.20],
+          "mass": 3.0, "door": {"hinge": "left", "handle": {"vertical": True}}}  # fmt: skip
+CHEST = {"kind": "drawer_unit", "at": [0.60, 0.0], "yaw_deg": 180, "size": [0.22, 0.24, 0.14],
+         "drawers": [{"name": "top", "travel": 0.18, "handle": {}}]}  # fmt: skip
+PLANTER = {"kind": "cylinder", "diameter": 0.16, "height": 0.12, "mass": 2.0}
+
+
+def _moved(run: Episode, before: tuple[float, float, float]) -> float:
+    return math.dist(run.state.states["planter"].position, before)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("case", "at"), [(CLOSET, [0.26, 0.31]), (CHEST, [0.215, 0.03]), (CHEST, [0.215, -0.04])]
+)
+def test_what_is_opened_partly_stops_before_what_stands_there(
+    case: dict[str, Any], at: list[float], seed: int
+) -> None:
+    run = episode(seed, case=case, planter=PLANTER | {"at": at})
+    before = run.state.states["planter"].position
+    (share,) = run.must("[OPEN, case] (partly)").states["case"].openness.values()
+    assert OPEN_AT < share < 0.98
+    assert _moved(run, before) < 0.002
+    run.must("[CLOSE, case]")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_nobody_is_nudged_at_the_end_of_the_way(seed: int) -> None:
+    """16 mm before a drawer's end. What a door meets sooner it pushes, for it may be moved."""
+    run = episode(seed, case=CHEST, planter=PLANTER | {"diameter": 0.12, "at": [0.23, 0.03]})
+    before = run.state.states["planter"].position
+    assert run.must("[OPEN, case]").states["case"].openness["top"] >= OPEN_AT
+    assert _moved(run, before) < 0.002
+    sooner = episode(seed, case=CLOSET, planter=PLANTER | {"at": [0.30, 0.27]})
+    before = sooner.state.states["planter"].position
+    sooner.do("[OPEN, case]")
+    assert _moved(sooner, before) > 0.02
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(("case", "at"), [(CLOSET, [0.38, 0.20]), (CHEST, [0.26, 0.03])])
+def test_what_leaves_a_part_too_little_of_its_way_is_named(
+    case: dict[str, Any], at: list[float], seed: int
+) -> None:
+    record = (
+        episode(seed, case=case, planter=PLANTER | {"at": at}).do("[OPEN, case] (partly)").record
+    )
+    assert not record.effect and record.cause is not None
+    assert record.cause.kind is CauseKind.BLOCKED
+    assert record.cause.objects == ("planter", "case")

@@ -12,7 +12,7 @@ from tests.world.stances import flat_by
 
 SEEDS = range(4)
 THINGS: dict[str, dict[str, Any]] = {
-    "holder": {"kind": "cup", "diameter": 0.09, "height": 0.10, "wall": 0.004, "mass": 0.15},
+    "holder": {"kind": "cup", "diameter": 0.078, "height": 0.10, "wall": 0.004, "mass": 0.15},
     "glass": {"kind": "cup", "diameter": 0.066, "height": 0.11, "mass": 0.2},
     "bottle": {"kind": "cylinder", "diameter": 0.05, "height": 0.15, "mass": 0.25},
     "toy": {"kind": "box", "size": [0.05, 0.05, 0.12], "mass": 0.1},

@@ -64,6 +64,24 @@ def test_too_wide_slippery_cup_slips_from_the_side(seed: int, diameter: float) -
     assert record.cause.objects[0] == "cup"
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("board", [False, True])
+@pytest.mark.parametrize("diameter", [0.09, 0.095, 0.1])
+def test_what_is_wedged_before_open_fingers_is_not_held(
+    seed: int, board: bool, diameter: float
+) -> None:
+    """On a desk as under a board, and of any friction."""
+    can = {"kind": "cylinder", "diameter": diameter, "height": 0.09, "mass": 0.3}
+    rack = {"kind": "shelf", "at": [0.60, 0.10], "yaw_deg": 180, "size": [0.20, 0.40, 0.22],
+            "boards": ["bottom", "top"]}  # fmt: skip
+    at = {"on": "rack.bottom", "at": [0.56, 0.10]} if board else {"at": [0.45, 0.1]}
+    record = episode(seed, rack=rack, can=can | at).do("[PICK UP, can] (horizontal)").record
+    assert not record.effect
+    assert record.cause is not None
+    assert record.cause.kind is CauseKind.NO_GRASP and record.cause.objects[0] == "can"
+    assert "mm wide where the fingers would close" in record.cause.text
+
+
 def test_a_hand_that_dips_goes_no_further_around_what_is_too_wide() -> None:
     pose = Pose(np.zeros(3), np.diag([1.0, -1.0, -1.0]))
     wide = Grasp(pose, 0.087, 0.085, GraspPose.HORIZONTAL, 0.0)

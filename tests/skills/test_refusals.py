@@ -291,3 +291,11 @@ def test_nobody_is_blamed_where_a_place_is_left_between_those_looked_at(seed: in
     )  # fmt: skip
     after = run.must("[PICK UP, thing] (horizontal)", "[PUT ON, rack.bottom]")
     assert not after.states["thing"].toppled
+
+
+def test_what_is_round_and_too_broad_beside_its_middle_is_itself_in_the_way() -> None:
+    can = {"kind": "cylinder", "diameter": 0.09, "height": 0.09, "mass": 0.3, "at": [0.45, 0.1]}
+    cause = episode(can=can).do("[PICK UP, can] (vertical)").record.cause
+    assert cause is not None
+    assert cause.kind is CauseKind.NO_GRASP and cause.objects == ("can",)
+    assert "the fingers meet can itself" in cause.text

@@ -183,7 +183,8 @@ class Constraint:
 
     def about(self, things: Iterable[Thing]) -> Constraint:
         """The same of what its referent stands for."""
-        names = dict.fromkeys(thing.name for thing in things)
+        turned = self.keep in (Keep.CLOSED, Keep.OPEN)
+        names = dict.fromkeys(thing.address if turned else thing.name for thing in things)
         return replace(self, names=tuple(names), referent=None)
 
 

@@ -68,6 +68,7 @@ from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import (
     DESK,
+    OPEN_AT,
     STAYS_OPEN_AT,
     Cause,
     CauseKind,
@@ -404,6 +405,17 @@ class _Case:
         named = [name for name in self._culprits() if name in self.scene.infos]
         return bool(named) and not any(self.scene.infos[name].movable for name in named)
 
+    def _opened_less_far(self, part: PartInfo) -> Iterator[Correction]:
+        """The branch with a part opened only as far as nothing stands in its way, where it did
+        open, at the expense of others.
+        """
+        opened = self.action.verb is Verb.OPEN and self.failed.record.after.openness(part) > OPEN_AT
+        if not opened or self.action.partly or not self._culprits():
+            return
+        less = replace(self.action, partly=True)
+        actions = (*self.actions[: self.index], less, *self.actions[self.index + 1 :])
+        yield Correction(actions, f"{part.address} is opened less far")
+
     def _of_articulation(self) -> Iterator[Correction]:
         part = self.scene.part(self.action.target)
         if part is None:
@@ -423,4 +435,5 @@ class _Case:
                 yield from self._out_of_the_way(name)
                 yield from shut_meanwhile(self.failed, name)
                 yield from fetched_first(self.failed, name)
+        yield from self._opened_less_far(part)
         yield from shut_meanwhile(self.failed, part.owner)

@@ -260,7 +260,8 @@ def _is_sentence(text: str, vocabulary: Vocabulary) -> bool:
 def _is_name(word: str, vocabulary: Vocabulary) -> bool:
     """Whether something in the scene is called by a word."""
     called = (*DESK_NOUNS, *map(singular, vocabulary.words()))
-    return is_category(word) or singular(word) in called
+    kind = is_category(word) and bool(vocabulary.of_category(word))
+    return kind or singular(word) in called
 
 
 def _read(text: str, scene: SceneState, vocabulary: Vocabulary, *, common: bool = False) -> Goal:

@@ -7,6 +7,7 @@ Every way is prepared kinematically first; how far the arm can follow decides wh
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.articulation.balance import OPEN_SPARE, Balance
 from etot_cli.skills.articulation.part_path import PreparedMove, way_back
 from etot_cli.skills.articulation.search import MAX_SINGLE, PartSearch, belief_after
-from etot_cli.skills.articulation.stops import closable_stop
+from etot_cli.skills.articulation.stops import Met, closable_stop, first_met, stop_before
 from etot_cli.skills.articulation.travel import fraction_open
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import STANDOFF
@@ -63,7 +64,8 @@ def articulation_motions(
         return
     opening = action.verb is Verb.OPEN
     fraction = fraction_open(part, float(belief.data.joint(part.joint).qpos[0]))
-    if (opening and fraction >= ALREADY_OPEN) or (not opening and fraction <= ALREADY_CLOSED):
+    open_from = OPEN_AT if action.partly else ALREADY_OPEN
+    if (opening and fraction >= open_from) or (not opening and fraction <= ALREADY_CLOSED):
         yield Motion(str(action), ())
         return
     balance = Balance(belief, part) if opening else None
@@ -75,6 +77,16 @@ def articulation_motions(
     tool_at = None if rehearsed is None else rehearsed.tool_at
     hinged = part.info.joint_type == "hinge"
     target = closable_stop(belief, part, balance) if balance is not None and hinged else None
+    met = None if balance is None else first_met(belief, part, 0.0 if action.partly else OPEN_AT)
+    if balance is not None and met is not None:
+        short = stop_before(belief, part, met, balance, partly=action.partly)
+        if short is None and action.partly:
+            yield _met_too_early(part, met)
+            return
+        if short is not None:
+            target = (
+                short if target is None else min(short, target, key=partial(fraction_open, part))
+            )
     hold = None if tool_at is None else tool_at.pose
     search = PartSearch(belief, part, opening, hold, target, balance)
     found = False
@@ -124,6 +136,14 @@ def _no_part(belief: Belief, action: Action) -> SkillOutcome:
         else f"{action.target} has no movable part"
     )
     return failed(CauseKind.PRECONDITION, [action.target], text)
+
+
+def _met_too_early(part: Part, met: Met) -> SkillOutcome:
+    """That a part which is to open only as far as it gets does not get far enough."""
+    address, first = part.info.address, met.names[0]
+    text = f"{address} does not open far enough: {first} is in its way at {met.share:.0%}"
+    text += " of its travel"
+    return failed(CauseKind.BLOCKED, [*met.names, part.info.owner], text)
 
 
 def _no_move(search: PartSearch) -> SkillOutcome:

@@ -1,14 +1,17 @@
-"""How far a door is opened: so far that it can be closed again."""
+"""How far a part is opened: so that a door can be closed again, and short of what it would push."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
 from etot_cli.skills.articulation.balance import OPEN_SPARE, Balance
 from etot_cli.skills.articulation.search import PartSearch, belief_after
-from etot_cli.skills.articulation.travel import PartTravel
+from etot_cli.skills.articulation.travel import PartTravel, fraction_open
 from etot_cli.skills.belief import Belief
 from etot_cli.world.index import Part
+from etot_cli.world.state import OPEN_AT
 
 LESS_OPEN = 0.85
 """Share of its travel to which a door is opened at most that cannot be closed from its end: of 240
@@ -20,6 +23,76 @@ BEFORE_BASE = 0.25
 """A door whose middle comes this near to the base's axis may leave the hand no room before it [m]:
 of 90 cabinets the 12 whose doors could not be closed came within 0.20, and all others that did not
 face the base stayed 0.27 away."""
+SHARE_STEP = 0.01
+"""Shares of the travel at which it is looked at whom the part meets: 4 mm at the edge of a wide
+door that opens by 110°, and COASTING is kept from there."""
+NUDGED = 0.03
+"""What would be pushed this far at most is not pushed at all, where the part is open by then [m]:
+as far as it would be no harm."""
+
+
+class Met(NamedTuple):
+    """Who is in a part's way first, and at which share of its travel."""
+
+    names: tuple[str, ...]
+    share: float
+
+
+def first_met(belief: Belief, part: Part, first: float = 0.0) -> Met | None:
+    """Whom a part would push on its way from where it stands to its end; None: nobody. What it
+    touches there already gives way.
+
+    Args:
+        belief: where the part stands.
+        part: door or drawer.
+        first: share of its travel from which on it matters.
+    """
+    checker = belief.checker
+    checker.freeze(belief.data)
+    already = set(checker.part_hits(part.joint))
+    begun = max(fraction_open(part, _value(belief, part)), first)
+    try:
+        for share in np.arange(begun + SHARE_STEP, 1.0 + SHARE_STEP / 2, SHARE_STEP):
+            checker.set_joint(part.joint, part.lower + min(share, 1.0) * (part.upper - part.lower))
+            names = [name for name in checker.part_hits(part.joint) if name not in already]
+            if names:
+                return Met(tuple(names), float(share))
+    finally:
+        checker.freeze(belief.data)
+    return None
+
+
+def stop_before(
+    belief: Belief, part: Part, met: Met, balance: Balance, *, partly: bool
+) -> float | None:
+    """Joint value to open a part to that meets something on its way [m or rad]. None where it is
+    not open by then; or where all of that way is gone all the same, unless it is to open only
+    ``partly``: what would be pushed far is better moved away.
+    """
+    enough = max(OPEN_AT, balance.stays_open_from or 0.0) + OPEN_SPARE
+    if met.share <= enough + SHARE_STEP:
+        return None
+    span = part.upper - part.lower
+    share = max(met.share - COASTING, enough)
+    if share <= fraction_open(part, _value(belief, part)):
+        return None
+    stop = part.lower + share * span
+    return stop if partly or _way_left(belief, part, met.share) <= NUDGED else None
+
+
+def _value(belief: Belief, part: Part) -> float:
+    return float(belief.data.joint(part.joint).qpos[0])
+
+
+def _way_left(belief: Belief, part: Part, share: float) -> float:
+    """Way of the part's farthest corner from a share of its travel to the end [m]."""
+    travel, face = PartTravel(belief, part, part.upper), part.outer
+    if face is None:
+        return np.inf
+    center, u, v = (np.array(side) for side in (face.center, face.half_u, face.half_v))
+    corners = [center + one * u + other * v for one in (-1, 1) for other in (-1, 1)]
+    value = part.lower + share * (part.upper - part.lower)
+    return max(travel.length(at, part.upper) - travel.length(at, value) for at in corners)
 
 
 def closable_stop(belief: Belief, part: Part, balance: Balance) -> float:

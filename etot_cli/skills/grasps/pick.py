@@ -199,9 +199,11 @@ def pick_outcome(
     """What a look at the scene afterwards and the robot's own account say about a grasp."""
     name, before = action.target, belief.object_pose(action.target)
     raised = float(np.linalg.norm(after.states[name].position - before.position))
-    if after.holding == name and raised >= 0.3 * LIFT:
-        return DONE
     width, opening = motion.details["width"], belief.world.robot.spec.gripper.opening
+    if after.holding == name and raised >= 0.3 * LIFT:
+        # What fingers that cannot open any further were pushed against may come along, wedged
+        # before their tips by friction alone. No hand that is a millimetre off would do it again.
+        return DONE if width <= opening else too_wide(name, width, opening, trace.seconds)
     # Where it is wider than the gripper opens, the other grasps of this kind pinch it no better.
     another = width <= opening
     stopped = trace.stopped

@@ -48,10 +48,13 @@ def explain(
             [name],
             f"the arm reaches none of the {unreachable} grasps of {name} that it has room for",
         )
+    text = f"the hand has no room at any grasp of {name}"
+    if blockers.always(name):  # as of what is round and broader than the line that would fit
+        text = f"the fingers meet {name} itself at every grasp that is narrow enough for them"
     return failed(
         CauseKind.NO_GRASP,
         [*suspects, name],
-        f"the hand has no room at any grasp of {name} (opening {opening * 1000:.0f} mm)",
+        f"{text} (opening {opening * 1000:.0f} mm)",
     )
 
 

@@ -196,7 +196,7 @@ def put(
         just_put = (s for s in context.done if clause.stays and isinstance(s, Put))
         if any(s.what == tuple(themes) and s.places == places for s in just_put):
             continue  # "move the cup to the tray and leave it there"
-        if not places:  # "on top", where that is where it was spoken of last
+        if not (places or abreast):  # "on top", where that is where it was spoken of last
             raise ReferenceProblem(group.things.text, "say where it is to go", 2)
         check_contrasted(context, group.things, themes, places)
         so_many = count_of_places(context, group, places) == several > 1

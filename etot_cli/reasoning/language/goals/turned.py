@@ -71,7 +71,11 @@ def in_turn(
             if then == at + 1 and (one.final or other.final):
                 raise _both(part, other, referents)
             sweeping = len([*_parts(other, referents, scene)]) > 1
-            if one.final and sweeping and part not in _filled(steps[at:then], referents, scene):
+            if (
+                one.final
+                and sweeping
+                and part not in filled_parts(steps[at:then], referents, scene)
+            ):
                 raise _both(part, other, referents)
             steps[at] = replace(one, final=False)
             released.add(part)
@@ -80,7 +84,11 @@ def in_turn(
         for at in (at for name in item.names if name not in released for at in turns.get(name, ())):
             if way is not None and not item.needless and not isinstance(steps[at], way):
                 raise _both(item.names[0], steps[at], referents)
-    kept = [item for item in constraints if item.keep not in _WAYS or not {*item.names} <= released]
+    kept = [
+        item
+        for item in constraints
+        if item.keep not in _WAYS or not item.names or not {*item.names} <= released
+    ]
     return steps, kept
 
 
@@ -90,7 +98,7 @@ def _both(part: str, step: Step, referents: Sequence[Referent]) -> ReferenceProb
     return ReferenceProblem(referents[step.what].text, why, 4)
 
 
-def _filled(
+def filled_parts(
     steps: Sequence[Step], referents: Sequence[Referent], scene: SceneState
 ) -> Iterator[str]:
     """The parts that steps put something into."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Goal, Near, Place, Put, Relation, Step, Thing
+from etot_cli.reasoning.builtin.goal import Close, Goal, Near, Place, Put, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.goals.grasps import grasped
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
 from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
+from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
@@ -125,6 +126,9 @@ class Understanding:
                     self.timed[-1] = set_down(self.context, self.timed[-1], steps)
             self.context.last = spoken.clause
             order = Order.THEN if self._comes_next(spoken, steps, asked) else spoken.order
+            said_before = [*self.timed, *timed.values()]
+            if said_before and self._is_out_by_then(spoken, steps, said_before[-1]):
+                order = Order.BEFORE_THAT
             asked.append((spoken.clause, steps))
             item = Timed(steps, order, self.sentence)
             if before is not None and continues(timed[before], item, self.context.discourse):
@@ -159,6 +163,25 @@ class Understanding:
             for found in (put, steps)
         )
         return bool(moved & now)
+
+    def _is_out_by_then(self, spoken: Spoken, steps: Sequence[Step], before: Timed) -> bool:
+        """Whether something is only told not to be in what the clause before closes: it is taken
+        out ahead ("close the drawer; the cup must not be in it").
+        """
+        clause = spoken.clause
+        told = isinstance(clause, AvoidClause | EnsureClause) or is_emptying(clause)
+        if spoken.order is not Order.SAID or not told:
+            return False
+        discourse, states = self.context.discourse, self._scene.states
+        shut = [step.what for step in before.steps if isinstance(step, Close)]
+        closed = {thing.address for thing in discourse.things(*shut)}
+        taken = [s.what if isinstance(s, Put) and s.removal else () for s in steps]
+        around = {states[t.name].inside or "" for at in taken for t in discourse.things(*at)}
+        return (
+            bool(around)
+            and all(taken)
+            and all({name, name.partition(".")[0]} & closed for name in around)
+        )
 
     def _at_its_time(
         self,

@@ -254,8 +254,9 @@ ON_THE_WAY = """
     the (whole|entire) (time|way|while), all the (way|time), throughout, at all times,
     on the way [(there|over|down|up|across)], all along, always, all the while,
     (while|as|when) you (move|carry|lift|put|lower|bring|do|are moving|are carrying)
-    [(it|them|so|that)] [over|down|up|there], during the (move|transport),
-    in (transit|the process)
+    [(it|them|so|that)] [over|down|up|there],
+    (while|when) (moving|carrying|lifting|lowering) (it|them) [over|down|up|there],
+    during the (move|transport), in (transit|the process)
 """
 """Behind how something is kept while it is moved."""
 LEVELED = "level, straight [up], steady, standing [up|upright]"

@@ -68,7 +68,7 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     words_in,
 )
 from etot_cli.reasoning.language.words.known import all_words
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, NUMBERS, word_set
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, JOINT_NOUNS, NUMBERS, word_set
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
@@ -77,6 +77,7 @@ MOST = 4
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
 _LEADING = re.compile(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
+_PARTS = frozenset(noun for nouns in JOINT_NOUNS.values() for noun in nouns)
 _LIKED = [["favourite"], ["favorite"], ["best"]]
 _IS_ONE = re.compile(
     r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like) an? "
@@ -223,6 +224,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     )
     told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
     told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
+    told = told or wants_such_a_thing(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -400,6 +402,8 @@ def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
             while end < len(words) and is_told_apart_by(words[end], is_name):
                 end += 1
                 last = end if is_name(words[end - 1]) else last
+            if at + 1 < last == end < len(words) and words[end] in _PARTS:
+                last += 1  # "the bottom drawer"
             if last > at + 1:
                 owner = "the" if word in ("his", "her", "their") else word
                 if re.match(rf"{PEOPLE}\b", " ".join(words[at:])):

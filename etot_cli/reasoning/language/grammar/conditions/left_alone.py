@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     optional,
     phrase,
     sequence,
+    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
@@ -25,6 +26,14 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
 )
 from etot_cli.reasoning.language.words import manner, verbs
+
+_AWAY_FROM = "[well|far] (away from|clear of)"
+
+
+_ON_THE_WAY = f"""
+    [~comma] (while|when|as) (doing (it|so|that|this)|you do (it|so|that|this)), {manner.ON_THE_WAY}
+"""
+
 
 _EVERYTHING_ELSE = "everything else, anything else, all else, the rest [of it|of them]"
 
@@ -111,9 +120,19 @@ KEEP_STILL = either(
     ),
     sequence(
         "keep[ing], stay[ing]",
-        "[your] (hand|hands|gripper|fingers|arm|), clear",
-        "off, away from, clear of, of",
+        "[your] (hand|hands|gripper|fingers|arm|), [well] clear",
+        "off, [well] (away from|clear of), of",
         THINGS,
+        silent(optional(_ON_THE_WAY)),
+        build=partial(AvoidClause, Avoid.TOUCH),
+    ),
+    sequence("keep[ing], staying", _AWAY_FROM, THINGS, build=partial(AvoidClause, Avoid.TOUCH)),
+    sequence(
+        # "The cup should be on the desk and stay away from the plate" tells where it stands.
+        "keep[ing], stay[ing]",
+        _AWAY_FROM,
+        THINGS,
+        silent(phrase(_ON_THE_WAY)),
         build=partial(AvoidClause, Avoid.TOUCH),
     ),
 )

@@ -416,6 +416,44 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (rf"\b(over|down|up) (?:here|there) (?={WHERE})", r"\1 "),
     (r"\bback down (?=(?:on|onto)\b)", "down "),
     (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
+    # A thing that "should stay away from the cup" stands so; the robot keeps away.
+    (
+        r"(^|[.;!?] )((?:but |and |also |please )*)stay "
+        r"(?=(?:well |far )?(?:away from|clear of)\b)",
+        r"\1\2keep ",
+    ),
+    # "Open the drawer, but not with the cup inside": it is not in there by then
+    (
+        r",? (?:but )?not with ((?:the|my|our) (?:\w+ ){0,2}?\w+) "
+        r"(?:(?:still |left )*(?:inside|in there|in it))(?=[.,;!?]|$)",
+        r", but first make sure \1 is not in it",
+    ),
+    (
+        r"(?<=\w)(?<!together)(?<!apart)(?<!separately), "
+        r"(?=either (?:in|on|into|onto|inside|next to|beside|at) )",
+        " ",
+    ),
+    # "…, and the right way up"
+    (
+        r"(?<=\w), and (?=(?:standing )?(?:upright|(?:the )?(?:right (?:way|side) up)"
+        r"|lying (?:down|flat)|on (?:its|their) sides?)(?:[.,;!?]|$))",
+        ", ",
+    ),
+    # By then it "is safely on the tray", or "has finally been put there".
+    (
+        r"(\b(?:once|when|after|before|until|as soon as) [^.,;]*? (?:is|are|has been|have been"
+        r"|has|have)) (?:safely|finally|properly|securely|neatly|nicely|firmly|duly)"
+        r" (?!(?:closed|shut|open|done|dry|cool)\b)",
+        r"\1 ",
+    ),
+    # "In either bowl as long as it is empty": in one that is
+    (
+        r"\b((?:either|any|one)(?: of (?:the|my|those|these))?(?: \w+){0,2}? (\w+?)s?),? "
+        r"(?:as|so) long as (?:(?:(?:the|that) \2|it|that one) is (?:still )?(?:empty|free)"
+        r"|(?:there is )?nothing (?:else )?(?:is )?(?:already )?in (?:it|there)(?: yet| already)?)"
+        r"(?=[.,;!?]|$)",
+        r"\1 that is empty",
+    ),
     (r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", ""),
     (r"\b(there (?:is|are) [\w ]+? lying) (?:around|about) (?=(?:on|in|inside)\b)", r"\1 "),
     (rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose"),

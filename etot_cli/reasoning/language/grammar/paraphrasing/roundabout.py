@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.asides.remarks import PEOPLE
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.expressions import Expression
@@ -20,6 +21,15 @@ _FREE = (
     r"where (?:nothing else (?:is|stands|lies)(?: (?:yet|already))?|there is nothing(?: else)?"
     r"|there is (?:still )?(?:room|space)|it is (?:free|empty))"
 )
+_THAT = "(?:that one|that|it|this)"
+_SOMETHING = (
+    rf"{PEOPLE} (?:(?:just|also|really|only) )?(?:(?:will )?needs?|wants?|would like"
+    r"|(?:have|has|needs?|wants?|would like|(?:am|is|are) (?:going|trying)) to"
+    r" (?:get|take|fetch|grab|reach)|(?:am|is|are) looking for)"
+    r" (?:something|some (?:things?|stuff)|a thing(?: or two)?|a (?:few|couple of) things)"
+    r"(?: else)?"
+)
+"""What somebody wants who tells why something is to be opened."""
 
 
 def _of_one_sort(said: re.Match[str]) -> str:
@@ -69,6 +79,20 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?:kept|stored) in ({_NOUN}),? so,? ((?:please |just )*(?:open|close|shut)) "
         rf"(?:that one|that|it|this one){_END}",
         r"\1\3 \2",
+    ),
+    # "I need something from the top drawer, so open it": what is in there is not asked for
+    (
+        rf"(^|[.;!?] ){_SOMETHING} (?:from|out of|in|inside)(?: (?:inside|within))? "
+        rf"({_NOUN}(?: of {_NOUN})?)(?:[,.;!]| and)*(?: so)?,? "
+        r"((?:please |just |(?:can|could|would|will) you )*)"
+        rf"(?:(?:open(?: up)?|unlock) {_THAT}|(?:pull|swing|slide) {_THAT} open)\b",
+        r"\1\3open \2",
+    ),
+    (
+        rf"\b((?:open(?: up)?|pull open|unlock) {_NOUN}(?: of {_NOUN})?(?: for me)?)"
+        rf"(?:[,.;:!?]+| because| since| as| for)* {_SOMETHING} "
+        rf"(?:from|out of|in|inside|from inside)(?: (?:it|there|in there))?{_END}",
+        r"\1",
     ),
     # "To the chest's top", "in the desk's far right corner"
     (rf"\b(on|onto|to) ({_NOUN}) ?'s top(?: surface)?{_END}", r"\1 the top of \2"),

@@ -107,6 +107,8 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
     color = basic_color(word)
     if word.isdigit():
         sifted.graded = []  # a number before the noun that is no count
+    elif word == "one":
+        return  # "the one drawer that is open" is the only one
     elif word in LEVELS and any(_has_levels(entry) for entry, _ in graded):
         sifted.graded = _at_level(graded, LEVELS[word])
     elif color is not None:

@@ -121,7 +121,7 @@ class Places:
                 raise ReferenceProblem(destination.word or "back", REASONS["where"], 3)
             if destination.word == LEVEL_OF_ALL:
                 raise ReferenceProblem(destination.targets[0].text, "say of what", 3)
-            destination = self._beside_what_has_no_top(destination)
+            destination = self._beside_what_has_no_top(destination, themes)
             if destination.toward is Toward.BESIDE:
                 destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:
@@ -168,8 +168,10 @@ class Places:
             places.update(dict.fromkeys(found))
         return tuple(places)
 
-    def _beside_what_has_no_top(self, where: Destination) -> Destination:
-        """Next to what things are brought to that takes nothing in and nothing is put on."""
+    def _beside_what_has_no_top(self, where: Destination, themes: Sequence[int]) -> Destination:
+        """Next to what things are brought to that takes nothing in and nothing is put on; over
+        to what they would roll off.
+        """
         (np, *more) = where.targets or (NounPhrase(),)
         plain = where.word in ("", ACROSS) and not (where.beside or more)
         if where.toward is not Toward.TO or not plain or {*np.words} <= {*SIDES}:
@@ -178,11 +180,17 @@ class Places:
         with suppress(ReferenceProblem):
             things = {*things_in(self._phrases.meaning(np, Role.ANY).options)}
         infos = self._scene.infos
+        moved = self.discourse.things(*themes)
+        kinds = {infos[thing.name].kind if thing.name in infos else "" for thing in moved}
+        rolls = where.word == ACROSS and kinds == {"sphere"}
         if not things or any(
             thing.name not in infos
             or self._scene.states[thing.name].inside is not None  # rather where that is
             or can_be(thing, Role.CONTAINER, self._scene)
-            or not has_no_top(infos[thing.name].label)
+            or not (
+                has_no_top(infos[thing.name].label)
+                or (rolls and not space.is_support(thing, self._scene))
+            )
             for thing in things
         ):
             return where
