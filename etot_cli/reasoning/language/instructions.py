@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.goals.plausibility import plans_of
 from etot_cli.reasoning.language.grammar.asides.asides import without_asides
 from etot_cli.reasoning.language.grammar.asides.remarks import BEFORE_NAMES
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.grammar.text.corrections import mark_in, taken_back
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION, sentences_of, words_in
@@ -42,6 +43,7 @@ from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import OPEN_AT, SceneState
 
 _HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
+_POLITE = re.compile(rf"^(?:kindly )?{ASKED}(?:kindly )?")
 _TABLE_SET = re.compile(
     r"((?:please )?(?:set|lay) the table(?: for [^,.:;!?\n]+)?)[,.]\s+(\S.*)",
     re.IGNORECASE | re.DOTALL,
@@ -49,7 +51,7 @@ _TABLE_SET = re.compile(
 """Says nothing of what is to stand where, which comes next."""
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
-    "neither nor only instead first last then do t "
+    "neither nor only instead first last end then do t "
     "forbidden prohibited banned unwanted undesired avoid wrong bad current currently initial "
     "initially starting present previous old so far example optional maybe perhaps alternatively "
     "go goes belong belongs stay stays remain remains"
@@ -184,7 +186,7 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
     """
     said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
-    words = words_in(normalized(said[1])) if said else ()
+    words = words_in(_POLITE.sub("", normalized(said[1]))) if said else ()
     # "A stack of three: …", "the tower on the tray: …", "make a pile: …"
     counted = {*spellings(STACK)} & {*words} and (_BUILT | {*NUMBERS}) & {*words}
     if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:

@@ -181,8 +181,8 @@ class Context:
         return referent.options[0]
 
     def home(self, thing: Thing, *, exact: bool = False) -> Place:
-        """Where a thing is at the start; the very spot on the desk, or (``exact``) beside others on
-        something that stays where it is.
+        """Where a thing is at the start; the very spot on the desk, or (``exact``) on furniture, or
+        beside others on something that stays where it is.
         """
         state = self.scene.states.get(thing.name)
         if state is None:
@@ -195,7 +195,8 @@ class Context:
         owner, _, board = state.on[0].partition(".")
         info = self.scene.infos.get(owner)
         surface = Thing(owner, board=board if info is not None and board in info.boards else None)
-        shared = any(
+        fixed = info is not None and not info.movable
+        shared = fixed or any(
             other != thing.name and state.on[0] in self.scene.states[other].on
             for other in self.scene.states
         )

@@ -51,6 +51,7 @@ _BARELY = "[even|so much as|as much as]"
 TOUCH = f"""
     {_BARELY} touch[ing], (com(e|ing)|go|going|get|getting) [anywhere] near [to],
     contact[ing], {_BARELY} (graz(e|ing)|brush[ing]) [against|past], lay[ing] [a] (hand|finger) on,
+    (make|making|come into|coming into) [any] contact with,
     mess[ing] with, fiddl(e|ing) with, meddl(e|ing) with, interfer(e|ing) with
 """
 HIT = f"""
@@ -63,6 +64,9 @@ HIT = f"""
 MEETS = f"{TOUCH}, {HIT}"
 """What a door does to what stands in its way."""
 MET = "hit, touched, struck, bumped [into], knocked [into|over], pushed [over|away|aside]"
+NO_TOUCH = "[any|all] [physical] contact with, touching of"
+NO_HIT = "[any|all] (collision|collisions) with, (hitting|bumping|nudging) of"
+"""The same as nouns, behind "no", "avoid" and "without"."""
 HARM = "damag(e|ing), harm[ing], crush[ing], squash[ing], break[ing], spill[ing]"
 """What no plan may do to anything."""
 TO_THE_FLOOR = """

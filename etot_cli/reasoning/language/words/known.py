@@ -40,7 +40,7 @@ VERB_WORDS = words_of(
     "back", "free", "places", "positions", "position", "us", "him", "her", "them", "a",
     # Things are called so, too, though none may be in the scene.
     "jam", "plant", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff",
-    "whisk", "dish", "mess",
+    "whisk", "dish", "mess", "shelving",
     "finger", "so", "much", "as", "even", "past", "anywhere", "brush", "watch", "look",
     "out", "careful", "mindful", "go", "going", "ask", "can", "could",
     *words_of((verbs.THE_ROBOT,))}  # fmt: skip

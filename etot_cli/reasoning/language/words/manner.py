@@ -133,14 +133,16 @@ THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, gripper, the robot, 
 HELD = "held"
 """The state of what is there."""
 AS_IT_IS = """
-    [standing|lying|sitting] [exactly|right|just] where (it|they|he|she) (is|are|was|were),
-    [exactly|just] as (it|they) (is|are) [right] [now],
-    [exactly|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched, unchanged,
+    [standing|lying|sitting] [exactly|precisely|right|just] where
+    (it|they|he|she) (is|are|was|were),
+    [exactly|precisely|just] as (it|they) (is|are) [right] [now],
+    [exactly|precisely|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched,
+    unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
 UNTOUCHED = """
     [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
-    [left|kept|staying|remaining] [standing|lying|sitting]
+    [left|kept|staying|remaining] [standing|lying|sitting] [exactly|precisely|just|right]
     (as|where|like) (it|they) (is|are) [now], (staying|remaining) (put|in place|there),
     [left|kept] as is, left alone
 """

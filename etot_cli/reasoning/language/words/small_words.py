@@ -118,7 +118,10 @@ DOES_NOT_MATTER = """
 """
 """Before or behind what is left open."""
 ALL_ALONG = """
-    at all times, (all|the (whole|entire)) [the] (time|while), throughout, all along
+    at all times, at any (time|point|moment|stage),
+    (during|throughout) the [whole|entire]
+    (run|task|trial|episode|execution|process|motion|move|experiment|test|procedure|operation),
+    (all|the (whole|entire)) [the] (time|while), throughout, all along
 """
 """Behind what is to be so not only in the end."""
 ANY_ONE = "(either|any) [one] [of (them|these|those)]"
@@ -323,7 +326,8 @@ LEADING_FIRST = f"""
     [as (a|the|your)|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
 LEADING_BEFORE = """
-    [but] before [doing|you do] (that|this), [but] before (doing|you do) (so|it), [but] beforehand
+    [but] before [doing|you do] (that|this), [but] before (doing|you do) (so|it), [but] beforehand,
+    [but] prior to (that|this|doing so)
 """
 LEADING_LAST = f"""
     finally, lastly, last, last of all, last but not least, {_AT_END},
@@ -343,8 +347,9 @@ LEADING_THEN = f"""
     {_THAT_DONE}, {_WHEN_DONE}, and then, subsequently, later
 """
 TRAILING_FIRST = f"""
-    first, before, beforehand, before that, {BEFORE_ALL}, as [the|your|a] first (thing|step|action),
-    before you do [so|that|this], before doing (so|that|this)
+    first, before, beforehand, before that, prior to (that|this|doing so), {BEFORE_ALL},
+    as [the|your|a] first (thing|step|action), before you do [so|that|this],
+    before doing (so|that|this)
 """
 TRAILING_LAST = f"""
     last, as [the|your|a] (last|final) (thing|step|action), {BY_THE_END}, finally, at last,
@@ -381,7 +386,7 @@ COMES = "comes, come, goes, go"
 """Between a thing and its turn."""
 ONWARD = "[and] then [finally], [and] after that, and finally"
 """Before the next place of what was put somewhere."""
-EXACTLY = "exactly, right, directly, immediately, just, straight, off, over"
+EXACTLY = "exactly, precisely, right, directly, immediately, just, straight, off, over"
 """Before where something is or goes: it stands as near as can be anyway."""
 BEFORE = "before [you], prior to, by the time [you]"
 _ONCE = "[only|right|straight|just|directly|immediately] (once|after|when|as soon as)"

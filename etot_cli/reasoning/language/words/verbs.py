@@ -40,7 +40,7 @@ SET = """
     seat[ing], station[ing], situat(e|ing), post[ing], tot(e|ing), send[ing], consign[ing],
     relegat(e|ing), banish[ing], spirit[ing] [away], shuttl(e|ing), cart[ing], heav(e|ing),
     reposition[ing], reinstat(e|ing), tuck[ing] away, dish[ing] up,
-    (set|setting|lay|laying) out, drop[ping] off, stuff[ing], (pass[ing]|hand[ing]) on
+    (set|setting|lay|laying) out, drop[ping] off, stuff[ing], shelv(e|ing), (pass[ing]|hand[ing]) on
 """
 PERFORM = """
     do, doing, perform[ing], execut(e|ing), mak(e|ing), attempt[ing], (carry|carrying) out,

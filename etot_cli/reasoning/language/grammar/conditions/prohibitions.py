@@ -231,9 +231,22 @@ _FORBIDDEN = either(
         build=lambda avoid: AvoidClause(avoid, None),
     ),
 )
-_AVOIDED = sequence("avoid, [while] avoiding", THINGS, build=partial(AvoidClause, Avoid.TOUCH))
+_NO_CONTACT = sequence(
+    one_of({Avoid.TOUCH: forbidden.NO_TOUCH, Avoid.HIT: forbidden.NO_HIT}), THINGS, build=_avoid
+)
+_AVOIDED = sequence(
+    "avoid, [while] avoiding",
+    either(_NO_CONTACT, sequence(THINGS, build=partial(AvoidClause, Avoid.TOUCH))),
+)
 AVOID = either(
     _AVOIDED,
+    sequence(
+        # "No contact with the vase", "there must be no collision with the vase"
+        "[there (must|should|shall|may|is to|has to) be] no",
+        _NO_CONTACT,
+        silent(optional(small_words.ALL_ALONG)),
+        build=lambda clause: replace(clause, negated=True),
+    ),
     sequence(
         # "Nothing may be put on the desk"
         either(verbs.NOTHING_GOES, sequence(phrase(verbs.SET), "nothing")),
@@ -253,7 +266,12 @@ AVOID = either(
         "(is|are|remains|remain|stays|stay) (off limits|out of bounds|taboo|untouchable|tabu)",
         build=partial(AvoidClause, Avoid.TOUCH),
     ),
-    sequence(forbidden.DO_NOT, _FORBIDDEN, build=lambda clause: replace(clause, negated=True)),
+    sequence(
+        forbidden.DO_NOT,
+        _FORBIDDEN,
+        silent(optional(small_words.ALL_ALONG)),
+        build=lambda clause: replace(clause, negated=True),
+    ),
     sequence(
         forbidden.NEED_NOT,
         _FORBIDDEN,
@@ -415,7 +433,7 @@ WITHOUT = sequence(
             ),
             build=unharmed,
         ),
-        sequence(forbidden.WITHOUT, MEETING),
+        sequence(forbidden.WITHOUT, either(MEETING, _NO_CONTACT)),
         sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
         HELD_MEANWHILE,
         sequence(

@@ -55,10 +55,11 @@ _NTH = re.compile(
     r"(?= (?:in|on|into|onto|to|inside|goes|should|belongs|next)\b)"
 )
 
+_RIDER = r"((?!and\b|the\b)\w+(?: \w+)?) (?:included|and all)"
 _INCLUDED = Expression(
     rf"^({ASKED}(?:put|place|move|get|take|bring|set) (?:the|my) ((?:\w+ ){{0,2}}?\w+)"
-    rf"(?= (?:and|{WHERE})[^,;:]*)[^.;:]*?), (?:the |my )?"
-    r"((?!and\b|the\b)\w+(?: \w+)?) (?:included|and all)(?=[.;!?]|$)"
+    rf"(?= (?:and|with|{WHERE})[^,;:]*)[^.;:]*?), (?:the |my )?"
+    rf"{_RIDER}(?=[.;!?]|$)"
 )
 
 
@@ -334,6 +335,11 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"^({NAMED} [^.,;:]*? and [^.,;:]*?) (?:should|must|shall) not (?:both )?"
         r"(?:be(?: put)?|go|end up|stand|lie) (?:in|on|into|onto) the same \w+[:;,.] (?=one\b)",
         r"put \1 separately: ",
+    ),
+    # "The box, ball and all, onto the shelf"
+    (
+        rf", (?P<along>(?:the |my )?{_RIDER}), (?P<to>{WHERE}[^.;:,]*)",
+        lambda said: f" {said['to']}, {said['along']}",
     ),
     (_INCLUDED, _goes_along),
     # What stays in or comes out asks for nothing.

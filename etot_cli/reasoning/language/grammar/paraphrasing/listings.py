@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
@@ -14,9 +15,11 @@ _NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
 ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
 """Before what somebody is asked for."""
 _ALL_NAMED = Expression(
-    r"(^|[.;\n]\s*)([^:.;\n]+): "
-    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot)"
-    r" (?=(?:in|on|into|onto|to)\b)"
+    r"(^|[.;\n]\s*)([^:.;\n]+): (?P<do>(?:(?:please|just) )*(?:put|place|move|store|pack) )?"
+    r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot"
+    rf"|(?:all (?:the )?|the )(?P<number>{'|'.join(NUMBERS)})(?: of (?:them|these))?)"
+    r" (?=(?:in|on|into|onto|to)\b"
+    r"|(?P<verb>(?:go|belong)|(?:should|must|have to|need to|are to) (?:go|be|end up)) )"
 )
 """What a list before a colon names, all of it."""
 _BOARDS = {"below": "lower", "above": "upper"}
@@ -31,6 +34,28 @@ def _named(item: str) -> str:
     return item if re.match(r"(?:the|my|our)\b", item) else f"the {item}"
 
 
+_NTH = re.compile(
+    r"\b(?:the (first|second|third|fourth)(?: one)?|(first|second|third|fourth) one)"
+    r"(?= (?:in|on|into|onto|to|inside|next|beside|goes|should|must|belongs|has to|is to)\b)"
+)
+_ORDINALS = ("first", "second", "third", "fourth")
+_OF_OTHERS = re.compile(r"\b(?:rest|others?|remaining|last|it|them|both|all)\b")
+
+
+def _by_their_place(said: re.Match[str]) -> str:
+    """Several things, and what is said of each by when it was named ("the second one")."""
+    begun, listed, rest = said.groups()
+    items = re.split(r",? and |, ", listed)
+    told = [found[1] or found[2] for found in _NTH.finditer(rest)]
+    nth = dict(zip(_ORDINALS, map(_named, items), strict=False))
+    twice = len({*told}) < len(told) or not {*told} <= {*nth}
+    if twice or (len(told) < len(items) and _OF_OTHERS.search(rest)):
+        return said[0]
+    if {item.split()[0] for item in items} & VERB_WORDS:
+        return said[0]
+    return begun + _NTH.sub(lambda found: nth[found[1] or found[2]], rest)
+
+
 def _one_by_one(said: re.Match[str]) -> str:
     """A list whose order was announced ("these in this order: the cup, the plate")."""
     asked, where, items = said.groups()
@@ -38,10 +63,42 @@ def _one_by_one(said: re.Match[str]) -> str:
     return f"{asked} these{where}: {', then '.join(parts)}"
 
 
+def _named_before(said: re.Match[str]) -> str:
+    """What a list names, where that are as many things as it is said to name."""
+    items = re.split(r",? and |, ", said[2])
+    if said["number"] and len(items) != int(NUMBERS[said["number"]]):
+        return said[0]
+    if not said["number"] and (said["verb"] or said["do"]):
+        return said[0]  # they are topics that the verb speaks of
+    named = ", and ".join(filter(None, (", ".join(items[:-1]), items[-1])))
+    if said["number"]:
+        return f"{said[1]}{said['do'] or ''}{named} "
+    return f"{said[1]}{said[2]} {said['both'] or ''} "
+
+
 def _picked_and_placed(said: re.Match[str]) -> str:
     """What goes where, told as two entries of a form ("pick: pen. place: cup")."""
     thing, place = said["thing"].strip(), said["place"].strip()
     return said["before"] + (f"{thing} {place}" if re.match(WHERE, place) else f"{place}: {thing}")
+
+
+_FOR_LAST = (
+    r"(?:leav|sav|keep)(?:e|ing)? (?P<what>(?:the|my|our|that) (?:\w+ ){0,2}?\w+) "
+    r"(?:for|until|till) (?:last|the (?:very )?end)"
+)
+_LAST_TURN = re.compile(r"\b(?:then|finally|lastly|last)\b,? (?!.*\b(?:then|finally|lastly)\b)(.*)")
+
+
+def _left_for_last(said: re.Match[str]) -> str:
+    """What is left for last, said ahead of what is done: as the last of what is told in turn, else
+    behind it.
+    """
+    begun, what, rest = said["begun"], said["what"], said["rest"]
+    if last := _LAST_TURN.search(rest):
+        words = what.split()[1:]
+        named = re.match(r"(?:the |my |our |that )?(\w+)", last[1])
+        return f"{begun}{rest}" if named and named[1] in words else said[0]
+    return f"{begun}{rest}, {what} last"
 
 
 LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
@@ -71,6 +128,17 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"(?:them|these|those)(?: all)? "
         r"(?=(?:in|on|into|onto|to)\b)",
         r"\1\2 go ",
+    ),
+    # "Leave the cup for last: first the pen, …", "put all in the box, but leave the cup for last"
+    (
+        rf"(?P<begun>(?:^|[.;!] ){ASKED}){_FOR_LAST}[:;,.] (?P<rest>[^.;!]*)",
+        _left_for_last,
+    ),
+    (
+        r"\b((?:put|place|move|bring|stack|take) [^.;:]*?)(?:[,;.]|(?= but\b| and\b))"
+        rf"(?: but| and)?(?: please)? (?:{_FOR_LAST}|(?P<it>(?:the|my) (?:\w+ )??\w+) "
+        r"(?:goes|comes|(?:should|must|has to) (?:go|come|be)) last)(?=[.;!]|$)",
+        lambda said: f"{said[1]}, {said['what'] or said['it']} last",
     ),
     # "One thing after another" is in turn
     (
@@ -146,7 +214,13 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         rf"|({_ONE}(?: and {_ONE})*))[:,] (?=(?:either )?(?:in|into|inside|on|onto) )",
         lambda said: f"{said[1]}{said[2] or said[3]}: ",
     ),
-    (_ALL_NAMED, lambda said: f"{said[1]}{said[2]} {said['both'] or ''} "),
+    (_ALL_NAMED, _named_before),
+    # "The cup and the pen: first one on the tray, second one in the box"
+    (
+        rf"(^|[.;!] )({_ITEM}(?:(?:,| and|, and) {_ITEM}){{1,3}})[:;] "
+        r"([^.;!]*\b(?:first|second|third)\b[^.;!]*)",
+        _by_their_place,
+    ),
     (
         rf"^({ASKED}(?:sort|arrange|organi[sz]e) (?:the|my) [^.,;:]*?) by (?=\w+ing\b)",
         r"\1: ",

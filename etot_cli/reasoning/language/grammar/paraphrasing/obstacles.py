@@ -54,7 +54,8 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"(?=(?: first| beforehand| before\b[^.;!?]*)?(?:[.;!?,]| (?:and|then)\b|$))",
         r"\1 out of the way",
     ),
-    (rf"\bout of ({_WHAT})(?:'s| 's) {_WAY}\b", r"out of the way of \1"),
+    (rf"\b(out of|in) ({_WHAT})(?:'s| 's) {_WAY}\b", r"\1 the way of \2"),
+    (rf"\bin its {_WAY}{_ENDS}", "in the way of it"),
     (rf"\b(?:out of|from) (?:the|its) {_WAY} of (?={_WHAT})", "out of the way of "),
     (
         rf"\b(?:clear|take|get|bring) ({_WHAT}|it|them) (?=out of the way of\b)",
@@ -70,7 +71,6 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"({_WHAT}) {_NOT_TO_BE} in the way(?= of (?:{_WHAT}|it)|{_ENDS})",
         r"move \1 out of the way",
     ),
-    (rf"({_WHAT}) {_NOT_TO_BE} in ({_WHAT})(?:'s| 's) way{_ENDS}", r"move \1 out of the way of \2"),
     # What is asked for next says how
     (
         rf"({_HINDERS}[^.;!?]*)(?:[.;!?]+|,) (?:so |and |please )*{_FIX}"

@@ -39,6 +39,8 @@ _STACKED = (
     r"(?:may|must|should|can|shall|is to|are to) (?:be|lie|stand|sit|rest|end up)"
     r"(?: stacked| placed| put| standing| lying| sitting| resting)? on(?: top of)?"
 )
+_PUT = r"(?:put|bring|move|place|transfer|drop|tip)"
+_GO = r"(?:(?:should|must|can|have to|need to|are to) )?(?:go|goes|belong|move|come)"
 _ENDS = r"(?=[.,;!?]|$)"
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
@@ -58,6 +60,13 @@ def _to_do(told: re.Match[str]) -> str:
 
 PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (_ONCE_DONE, _to_do),
+    # "Empty the box and the bag; their contents go in the bin"
+    (
+        rf"\b((?:empty|unload) (?:(?!\band (?!{NAMED}))[^.;,:])*?)[.;,:] "
+        rf"(?:and )?(?:(?:please |then )*{_PUT} )?(?:all )?"
+        rf"(?:(?:the|its|their) )?contents (?:(?:{_GO} ))?(?=(?:in|into|on|onto|to) {NAMED})",
+        r"\1 ",
+    ),
     (
         rf"(^|[.;:,] |\b(?:and|but) )((?:the|my) (?:\w+ ){{0,2}}?\w+|it|\w+) "
         r"(?:can|may|might|could|must|should|has to|have to) "

@@ -111,6 +111,13 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?=(?:the|that) \w+ one{_END})",
         r", but not \1 ",
     ),
+    # Who opens something again to see that what was put in is there asks for no more than that
+    (
+        rf"\b(open (?:it|{NAMED} \w+(?: \w+)??)(?: (?:up|again))*),? (?:in order )?to "
+        r"(?:verify|check|confirm|see|show|make sure) (?:that|if|whether) (?:it|they) "
+        rf"(?:is|are) (?:really |still )?(?:in there|there|inside|in it){_END}",
+        r"\1",
+    ),
     (rf"\btake (it|them) (?=there{_END}|there (?:and|then)\b)", r"bring \1 "),
     (
         rf"\bha(?:s its|ve its|ve their) (?:home|place|spot)s? (?=(?:in|on|inside) {NAMED})",

@@ -155,14 +155,19 @@ def _besides(first: tuple[Beside, ...], more: Any) -> tuple[Beside, ...]:
     found = list(first)
     for behind_comma, also in more:
         (near, *others), (item, *further) = found, also
-        side = _SIDES_OF_IT.get(item.relation)
-        bare = not (item.phrases or further or _OF_THE_DESK & {*item.text.split()})
-        known = near.relation in (Nearby.NEXT_TO, Nearby.NEAR) and near.phrases[1:] == ()
-        of_it = side and bare and behind_comma and known and not others
-        if of_it and side and EACH_OTHER not in near.phrases:
-            item = replace(item, relation=side, phrases=near.phrases)
-        found += (item, *further)
+        of_it = behind_comma and not (others or further)
+        found += (_side_of(near, item) if of_it else item, *further)
     return tuple(found)
+
+
+def _side_of(near: Beside, item: Beside) -> Beside:
+    """A bare side behind "next to the cup" as a side of the cup."""
+    side = _SIDES_OF_IT.get(item.relation)
+    bare = not (item.phrases or _OF_THE_DESK & {*item.text.split()})
+    known = near.relation in (Nearby.NEXT_TO, Nearby.NEAR) and near.phrases[1:] == ()
+    if side is None or not (bare and known) or EACH_OTHER in near.phrases:
+        return item
+    return replace(item, relation=side, phrases=near.phrases)
 
 
 BESIDES = sequence(
@@ -337,6 +342,21 @@ def denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
     return tuple(replace(item, denied=True) for item in out)
 
 
+def _but_not(
+    where: tuple[Destination, ...], out: tuple[Destination, ...]
+) -> tuple[Destination, ...]:
+    """Where things go and where not; "next to the cup, not on the right" is not on its right."""
+    if len(where) == 1 and len(where[0].beside) == 1:
+        (near,) = where[0].beside
+        out = tuple(
+            replace(item, beside=tuple(_side_of(near, side) for side in item.beside))
+            if not item.targets
+            else item
+            for item in out
+        )
+    return (*where, *denied(out))
+
+
 def rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
     """A place in place of others ("not in the red box but in the blue one", which is a box)."""
     (*_, noun) = ("", *(np.head for item in out for np in item.targets))
@@ -385,7 +405,7 @@ WHERE = Rule(
             ),
             optional(verbs.BEING),
             separated(destination, "or, nor", most=3),
-            build=lambda where, out: (*where, *denied(out)),
+            build=_but_not,
         ),
         sequence(
             # "On top of the box instead of under it"

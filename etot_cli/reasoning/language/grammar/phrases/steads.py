@@ -33,7 +33,7 @@ WITH = spanned(
             build=lambda text: NounPhrase(pronoun=text, text=text),
         ),
         sequence(
-            "[to] where",
+            "[exactly|precisely] [to] where",
             noun_phrase,
             places.IS_THERE,
             build=lambda np: None if np.pronoun else np,

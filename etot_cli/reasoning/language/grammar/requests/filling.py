@@ -109,7 +109,13 @@ FILL = quiet(
         sequence(
             "use",
             noun_phrase,
-            one_of({Toward.INSIDE: "to (hold|keep|store)", Toward.TO: "for"}),
+            one_of(
+                {
+                    Toward.INSIDE: f"to (hold|keep|store), {places.TO_HOLD}",
+                    Toward.ON: places.TO_BEAR,
+                    Toward.TO: "for",
+                }
+            ),
             ALL_THINGS,
             some(sequence(LIST, noun_phrase, "for", ALL_THINGS, build=lambda *pair: pair), most=4),
             optional(sequence(OPTIONAL_COMMA, "[and|but] not", noun_phrase), None),

@@ -10,7 +10,12 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATION
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, in_a_stance
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Things,
+    in_a_stance,
+    stance_in,
+)
 from etot_cli.world.spatial import Nearby
 
 
@@ -33,4 +38,16 @@ def rather_laid_down(text: str, clause: PutClause) -> PutClause:
     """Putting that is said so: who lays a thing down somewhere wants it to lie, if it can."""
     verb, *words = text.split()
     laid = verb in ("lay", "laying") and {"down", "down,"} & {*words}
-    return replace(clause, far_fetched=clause.far_fetched + 1) if laid else clause
+    rather = laid or (verb not in ("lay", "laying") and lies_flat(clause.groups))
+    return replace(clause, far_fetched=clause.far_fetched + 1) if rather else clause
+
+
+def lies_flat(groups: tuple[PutGroup, ...]) -> bool:
+    """Whether "everything flat" is to lie somewhere, which may as well be all that is flat."""
+    return any(
+        np.words == ("everything",)
+        and not np.modifiers
+        and stance_in(group.destinations) is Nearby.LYING
+        for group in groups
+        for np in group.things.phrases
+    )

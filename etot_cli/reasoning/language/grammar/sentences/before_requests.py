@@ -182,6 +182,15 @@ def _taken_first(wanted: Reading) -> Reading | None:
     return wanted if away else None
 
 
+def _all_so(wanted: Reading) -> Reading | None:
+    """How several things are to be, the first of which with something in it; alone, it may be
+    wanted itself.
+    """
+    so = all(isinstance(said.clause, EnsureClause | AvoidClause | RemoveClause) for said in wanted)
+    first = wanted[0].clause
+    return wanted if so and wanted[1:] and isinstance(first, EnsureClause) else None
+
+
 def _of_one_thing(denied: Reading) -> Reading | None:
     """What is not to be done with one thing while others go somewhere ("do not touch the cup: pen
     in the box"); of several things it may rather be told where they are.
@@ -290,6 +299,11 @@ WITH_MORE_BEFORE_IT = either(
         verbs.WANTED,
         sequence(BARE_CHAIN, build=_taken_first),
     ),
+    sequence(
+        # "I want the box with the pen in it and the tray empty"
+        verbs.WANTED,
+        sequence(BARE_CHAIN, build=_all_so),
+    ),
     sequence(plain(either(PUT, ENSURE)), COLON, PLACED, build=in_detail),
     sequence(plain(PARTED), COMMA, either(BARE_CHAIN, CHAIN), build=parted),
     sequence(ONE_FOR_EACH, COLON, BARE_CHAIN, build=one_for_each),
@@ -344,6 +358,15 @@ WITH_MORE_BEFORE_IT = either(
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),
     sequence(verbs.STACK, NAMED, COMMA, PLACED, build=each_sorted),
     sequence("[let us] (start|begin) with", NAMED, _AND, CHAIN, build=about),
+    sequence(
+        # "Use the box as a base: the cup goes on it"
+        verbs.USE,
+        NAMED,
+        places.AS_A_BASE,
+        "~comma, ~colon, [~comma] and",
+        CHAIN,
+        build=for_a_reason,
+    ),
     sequence(f"{verbs.THROW_AWAY}, get[ting] rid of", NAMED, COMMA, PLACED, build=for_a_reason),
     sequence(
         verbs.TIDY,

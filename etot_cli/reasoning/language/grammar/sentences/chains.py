@@ -43,7 +43,12 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
 from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.requests.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.requests.word_order import PLACE_AHEAD
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.clauses import (
+    LED_CLAUSE,
+    NOT_OF_ONE,
+    Reading,
+    plain,
+)
 from etot_cli.reasoning.language.grammar.sentences.doubles import so_in_turn
 from etot_cli.reasoning.language.grammar.sentences.headlines import (
     HEADLINE,
@@ -185,7 +190,8 @@ JOINED = either(
     ),
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
-    joint("emptied", LIST, PLACED),
+    # "Empty the box and the bag into the bin" empties both
+    joint("emptied", COMMA, optional(small_words.AND), PLACED),
     joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
     joint(
@@ -243,6 +249,7 @@ JOINED = either(
         OPTIONAL_COMMA,
         after("first", "firstly"),
         small_words.COUNTED_JOINTS,
+        NOT_OF_ONE,
         either(LED_CLAUSE, plain(sequence(THINGS, build=once_more)), HEADLINE),
     ),
     joint(

@@ -34,7 +34,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     exceptions,
 )
-from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
+from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD, Input, Result
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.exclusions import (
     but_some,
@@ -259,13 +259,26 @@ CLAUSE = located(
 )
 
 
-ORDER_WORDS = one_of(
-    {
-        Order.FIRST: small_words.LEADING_FIRST,
-        Order.BEFORE_THAT: small_words.LEADING_BEFORE,
-        Order.LAST: small_words.LEADING_LAST,
-        Order.THEN: small_words.LEADING_THEN,
-    }
+_AFTER_ONE = ("in", "on", "into", "onto", "to", "goes", "should", "must", "belongs", NO_WORD)
+
+
+def _not_of_one(given: Input, at: int) -> list[Result]:
+    """Nothing, where "one" is the thing that comes first or next ("first one in the box")."""
+    one = given.ahead[at] == "one" and given.ahead[at + 1] in _AFTER_ONE
+    return [] if one else [(at, NOTHING)]
+
+
+NOT_OF_ONE = Parser(_not_of_one)
+ORDER_WORDS = sequence(
+    one_of(
+        {
+            Order.FIRST: small_words.LEADING_FIRST,
+            Order.BEFORE_THAT: small_words.LEADING_BEFORE,
+            Order.LAST: small_words.LEADING_LAST,
+            Order.THEN: small_words.LEADING_THEN,
+        }
+    ),
+    NOT_OF_ONE,
 )
 
 

@@ -29,7 +29,14 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     CONTRASTED,
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import NONE, OPEN_OR_CLOSED, SHUT, state_of
+from etot_cli.reasoning.language.grammar.phrases.states import (
+    IN_OR_ON_IT,
+    NONE,
+    OPEN_OR_CLOSED,
+    SHUT,
+    holding,
+    state_of,
+)
 from etot_cli.reasoning.language.grammar.requests.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.requests.emptying import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.requests.towers import STACKED
@@ -143,6 +150,14 @@ def _none_there(nps: tuple[NounPhrase, ...], where: tuple[Destination, ...]) -> 
     return None if state is None else EnsureClause((state,), 1)
 
 
+def _with_it_there(
+    np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward
+) -> EnsureClause | None:
+    """What is wanted "with the pen in it", beside other things that are wanted so."""
+    state = None if np.pronoun else holding(np, held, toward)
+    return None if state is None else EnsureClause((state,), 1)
+
+
 def _upright(things: Things) -> ReorientClause | None:
     """What is to stand upright; "pen in the cup upright" rather says how the pen stands there."""
     told = any(np.modifiers for np in things.phrases)
@@ -151,6 +166,14 @@ def _upright(things: Things) -> ReorientClause | None:
 
 LEFT_SO = Rule(
     timed(
+        sequence(
+            after("want", "need", "like", "have"),
+            noun_phrase,
+            "with",
+            NP_LIST,
+            IN_OR_ON_IT,
+            build=_with_it_there,
+        ),
         sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so),
         sequence(NP_LIST, _IS, OPEN_OR_CLOSED, build=_tabled),
         sequence(NP_LIST, "still", DESTINATIONS, build=_still_there),

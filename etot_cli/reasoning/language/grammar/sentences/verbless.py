@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.requests.additions import (
     EXTRAS,
     put_of,
 )
+from etot_cli.reasoning.language.grammar.requests.laying import lies_flat
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.requests.putting import brought
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
@@ -53,7 +54,8 @@ def put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     for np in (np for group in groups for np in group.things.phrases[:-1]):
         if {"off", "out"} & {*np.text.split()[1:]}:
             return None
-    return put_of(groups, extras)
+    put = put_of(groups, extras)
+    return replace(put, far_fetched=put.far_fetched + 1) if put and lies_flat(groups) else put
 
 
 def _listed(place: NounPhrase, things: Things) -> PutClause | None:

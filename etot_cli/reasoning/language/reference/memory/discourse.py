@@ -257,14 +257,21 @@ class Discourse:
 
     def last_noun(self, role: Role) -> str | None:
         """The noun that "one" or "the other" stands for in a role; never the desk, which is one."""
-        said = [mention for mention in self.mentions if not self.is_desk(mention.referent)]
+        said = [mention for mention in self.mentions if self._lends_noun(mention)]
         mentions = [mention for mention in said if _alike(mention.role, role)] or said
         return mentions[-1].noun if mentions else None
 
     def nouns(self) -> tuple[str, ...]:
         """All nouns that "one" may stand for."""
-        said = (item.noun for item in self.mentions if not self.is_desk(item.referent))
+        said = (item.noun for item in self.mentions if self._lends_noun(item))
         return tuple(dict.fromkeys(said))
+
+    def _lends_noun(self, mention: Mention) -> bool:
+        """Whether "one" may stand for a noun: not for the desk, nor for what a thing is but told
+        by ("the drawer is occupied": by an object).
+        """
+        telling = mention.role is Role.ANY and matches_any(mention.noun, THING_NOUNS)
+        return not (telling or self.is_desk(mention.referent))
 
     def is_desk(self, referent: int) -> bool:
         """Whether a referent is the desk."""

@@ -40,7 +40,8 @@ def in_state(
         balls = [thing for thing in found if scene.infos[thing.name].kind == "sphere"]
         vessels = [] if left_out else [t for t in found if scene.infos[t.name].container]
         solid = [thing for thing in found if thing not in vessels]
-        if every and balls and balls != solid:
+        mixed = balls != solid if balls else bool(vessels and solid)
+        if every and mixed:
             raise ReferenceProblem(word, "say what they are", 3, word=word)
         return balls or found
     wide = [
