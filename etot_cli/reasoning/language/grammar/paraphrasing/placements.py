@@ -265,12 +265,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?:(?:an)?other(?: one)?|the others?|each other|any other(?: one)?){_ENDS}",
         ", none on another",
     ),
-    (
-        r"[.;,]? (?:but |and )?(?:without stacking (?:them|any of them)|do not stack "
-        r"(?:them|any of them)|no stacking)(?: up| on (?:top of )?(?:each other|one another))?"
-        rf"{_ENDS}",
-        ", none on another",
-    ),
     *TURNS_OF_PHRASE,
 )  # fmt: skip
 """In order."""

@@ -80,6 +80,8 @@ def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhras
     for before, said in pairwise(words):
         if said in _NEAREST and not (is_descriptive(before) or before in ORDINALS):
             return None  # "cup nearest shelf"
+    if words[0] == "one" and len(words) > 1 and determiner == "any":
+        return None  # "any one pen" is one of them, "the one pen" the only one
     number = words[-1] == "one" and not (determiner and len(words) == 1)
     plain = number and not (len(words) > 1 and singular(words[-2]) == words[-2])
     return None if plain else NounPhrase(determiner, words, modifiers)
