@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.known import all_words
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular, word_set
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 
@@ -21,6 +21,8 @@ _WANTS = re.compile(
     r"(?:the|my|his|her|both|all|an?)\b)"
 )
 """Who asks for things that are not for "me"."""
+_NO_NAMES = word_set("nobody none neither nothing few everybody everyone anybody anyone most many")
+"""They may stand where somebody's name does, and some of them deny what is wanted."""
 
 
 def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
@@ -33,7 +35,8 @@ def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
     """
 
     def is_stranger(who: str) -> bool:
-        return not (is_name(who) or who in all_words() or is_descriptive(who))
+        known = is_name(who) or who in all_words() or is_descriptive(who)
+        return not (known or who in _NO_NAMES)
 
     def told(found: re.Match[str]) -> str:
         who, first, second = ((found[part] or "").casefold() for part in ("who", "first", "second"))
