@@ -120,10 +120,16 @@ def _check_not_torn(group: PutGroup) -> None:
 
 
 def put(
-    context: Context, clause: PutClause, *, wherever: bool = False, going: bool = False
+    context: Context,
+    clause: PutClause,
+    *,
+    wherever: bool = False,
+    going: bool = False,
+    alone: bool = False,
 ) -> None:
     """Adds the steps of a clause that says what goes where; ``wherever``: what is there already
-    may be meant as well; ``going``: it is said what goes there, not how it is in the end.
+    may be meant as well; ``going``: it is said what goes there, not how it is in the end;
+    ``alone``: that nothing else is to be there.
     """
     if clause.turns != Turns() and len(clause.groups) > 1:
         text = clause.groups[-1].things.text
@@ -213,6 +219,7 @@ def put(
             places,
             chosen=chosen_from or going,
             in_the_end=not chosen_from,
+            nothing_else=alone,
         )
         check_taken(context, group, themes, places)
         note_described(context, group, places, told=wherever)
@@ -322,7 +329,7 @@ def ensure(context: Context, state: State) -> None:
     away = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
     before, done = context.discourse.put - away, len(context.steps)
     said = replace(put_to(Things(state.subjects), state.destinations), stays=state.kept)
-    put(context, said, wherever=True, going=state.going)
+    put(context, said, wherever=True, going=state.going, alone=state.alone)
     if state.always:
         rest_all_along(context, said.groups[0].things, done)
     for step in (step for step in context.steps[done:] if isinstance(step, Put)):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import (
     Grouping,
@@ -51,6 +52,9 @@ def remove(context: Context, clause: RemoveClause) -> None:
         under = [thing for item in below for thing in things_in(item.options)]
         if all(any(touches(up, at, context.scene) for at in under) for up in things_in(above)):
             return  # the cake is put away without the plate that it stands on
+    there = clause.source is not None and clause.source.pronoun == "it"
+    if there and not context.discourse.mentions:
+        clause = replace(clause, source=None)  # out of what it is in, as nothing else was named
     things = clause.things.taken_from(clause.source)
     if is_emptying(clause):
         if _is_left_over(context, clause):

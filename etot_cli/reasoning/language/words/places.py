@@ -154,7 +154,8 @@ NEARBY: dict[Nearby, str] = {
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",
     Nearby.NEAR: "near [to], close to, nearby, in the vicinity of",
     Nearby.AWAY: (
-        "[far|well|a safe distance] away from, far from, [well] clear of, out of the way of, "
+        "[[a (bit|little)] (further|farther)|far|well|a safe distance] away from, "
+        "far from, [a (bit|little)] (further|farther) from, [well] clear of, out of the way of, "
         "[away] from (in front of|beside|next to|behind), "
         "away from the ([left|right] side|front|back|rear|left|right) of"
     ),

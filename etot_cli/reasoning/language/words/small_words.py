@@ -134,6 +134,12 @@ LIKE_THIS = "(set|lay|arrange|prepare|organise|organize) [up], i (want|would lik
 """Before what is to be as the words behind a colon say."""
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
 """Before what is to go where."""
+FROM_HERE = """
+    (starting|beginning|start|begin) (from|with|in)
+    (the (given|current|present|initial|shown|existing|start|starting)
+    (scene|state|situation|configuration|arrangement|setup|layout)|here|the scene as it is)
+"""
+"""Before what is to be done; nobody starts from anything else."""
 TASK = f"""
     {ANNOUNCED} ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
@@ -141,9 +147,12 @@ TASK = f"""
     (desired|final|goal|target|end|wanted|required|termination|success)
     (state|configuration|arrangement|result|situation|setup|condition|conditions|layout|
     picture) ~comma,
+    [{FROM_HERE} ~comma]
+    (achieve|reach|accomplish|obtain|realize|realise|establish|produce)
+    (this|the following [state|configuration|result|goal|arrangement|situation|conditions]) ~comma,
     [the] (goal|target|(desired|final|goal|target|end) (state|configuration))
     to (reach|achieve|attain|be (reached|achieved|attained)) ~comma,
-    (achieve|reach) [this|the following] [state|configuration|result] ~comma,
+    (achieve|reach) [state|configuration|result] ~comma,
     what ((has|needs|is) to|should|must) (hold|be (achieved|reached|attained|so|true))
     [(in|at|by) the end] ~comma,
     [my|our|the|a] [small|little|simple|one] (request|wish|instruction) ~comma,
@@ -155,6 +164,12 @@ GOAL_IS = """
     (state|configuration|result|situation)|result) (is|should be|must be)
 """
 """Before what is to be so in the end."""
+_TRY = "demo|demonstration|trial|experiment|test|benchmark|presentation|recording|video"
+FOR_A_TRY = f"""
+    (for|in) (the|this|our|today 's) [(first|next|last|current|upcoming)] ({_TRY}|run|task|episode),
+    in the next (trial|task|test|run|experiment|episode)
+"""
+"""With what is done then, which is the same at any time."""
 GREETINGS = f"""
     [hey|hi|hello|oh|dear|my dear] (mummy|mommy|mum|mom|mama|daddy|dad|papa|grandma|grandpa|granny|
     grandad|nan|nana|auntie|uncle|darling|love|honey|sweetheart|sweetie|boss|mate|buddy|pal|sir|
@@ -166,6 +181,7 @@ GREETINGS = f"""
     sorry to (bother|trouble|disturb|interrupt) you [again],
     sorry to be (a|such a) (pain|nuisance|bother|pest), [be] careful ~comma,
     (watch|mind) out ~comma,
+    {FROM_HERE} [~comma], {FOR_A_TRY} [~comma],
     for (safety|hygiene|security) reasons, for (heaven|pete|goodness|god) 's sake,
     believe it or not, you will not believe (it|this),
     thanks for (your|the) help [(yesterday|today|earlier|last time)],
@@ -173,7 +189,6 @@ GREETINGS = f"""
     great, um, [my] dear ~comma, now then, come on,
     (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP},
-    (for|in) (this|the (first|next)) (trial|task|test|run|experiment|episode) [~comma],
     [just] as a [first|quick|simple|little|short] (warm up|test|exercise|try) [~comma]
 """
 WOULD_BE_NICE = """
@@ -238,10 +253,11 @@ _AT_END = """
     experiment|exercise|game|lesson|test|demo|process))], in the end,
     in the (final|end|target|goal) (state|configuration|arrangement)
 """
-_WHEN_DONE = """
+_WHEN_DONE = f"""
     (when|once|after|by the time)
     (you are [all] (done|finished|through)|you (finish|have finished|finished|stop|have stopped)|
-    (everything|all) is (said and done|done|finished)),
+    (everything|all) is (said and done|done|finished)|
+    ({THE_ROBOT}) ((is|has) [all] (done|finished|stopped)|finishes|stops)),
     (when|once) (done|finished)
 """
 """Only then; as what is asked for comes to an end then, it is asked for of the end."""

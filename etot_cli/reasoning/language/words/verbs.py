@@ -287,7 +287,12 @@ OTHERS_WANT = f"""
     they (want|need|would like [to have])
 """
 """Said of other people, who are not there to be handed anything."""
-WANTED = f"{WANT}, {OTHERS_WANT}"
+_END_HAS = """
+    [the|our|your] [desired|required|intended] (final|end|goal|target|desired|resulting)
+    (state|configuration|result|situation|arrangement|scene)
+    (should|must|shall|has to|needs to|is to) (have|show), the (result|outcome) should (have|show)
+"""
+WANTED = f"{WANT}, {OTHERS_WANT}, {_END_HAS}"
 BE = """
     is, are, be, (is|are|be) (left|put|placed|stored|stowed|housed|kept|again|properly),
     end[s] up, get[s],

@@ -86,6 +86,11 @@ _IN_THE_END = Expression(
     r"\bends? up\b|^(?:neither|none|nothing|no \w+) [^~]*\b(?:stays?|remains?|is left)\b"
 )
 """Of what is to be so when all is done, and was not before."""
+_STANDING = Expression(
+    r"(?:it|they|(?:the|my|our) (?:\w+ ){1,3})\s?(?:do|does|will) not "
+    r"(?:(?:fall|tip|topple)(?: over)?|get knocked over)$"
+)
+"""Of what is to stand when all is done."""
 _LASTING = (["keep"], ["hold"], ["leave"], ["wait"])
 """What is done for a time rather than in a case."""
 
@@ -176,6 +181,6 @@ def _asked_for(clauses: Sequence[Clause], at: int) -> Clause:
         return replace(clause, kind="", joint=GRANTED[1], said=denied["one"])
     lasting = clauses[0].said.split()[:1] in _LASTING
     granted = leaves_choice(clauses[at - 1].whole) or (
-        bool(_IN_THE_END.search(clause.said)) and not lasting
+        bool(_IN_THE_END.search(clause.said) or _STANDING.match(clause.said)) and not lasting
     )
-    return replace(clause, kind="", joint=GRANTED[0]) if granted else clause
+    return replace(clause, comma=True, kind="", joint=GRANTED[0]) if granted else clause

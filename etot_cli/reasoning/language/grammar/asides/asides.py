@@ -285,6 +285,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         trailing = clauses[at + 1].comma and clauses[at + 1].said.startswith(_PLACES)
     if clause.is_polite and len(clauses) > 1:
         return not clause.said or clause.kind != "polite"
+    if clause.joint in GRANTED:
+        return False
     if clause.kind == "anyway" or is_left_open(clause.whole):
         return True
     match clause.kind, clause.joint:

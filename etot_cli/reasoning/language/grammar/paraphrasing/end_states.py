@@ -232,6 +232,12 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1\3 should be \2",
     ),
     (rf"\bit is ({_SOME}) (?:that |which )?({_WISHED})(?=[.;!]|$)", r"\2 \1"),
+    # "The ball alone goes into the box"
+    (
+        r"(^|[.;!,] |\band )(the|my|our) ((?:\w+ ){1,3})alone "
+        r"(?=(?:goes|belongs|should|must|has to|is to|needs to|stays|remains|ends up)\b)",
+        r"\1only \2 \3",
+    ),
     # Of two there are no more to be told.
     (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),
     # Which one it is not, said behind it

@@ -289,7 +289,13 @@ STATE = either(
 )
 
 
-states = Rule(separated(STATE, sequence(LIST, optional("that")), most=6))
+_BY_THEN = silent(optional(small_words.BY_THE_END))
+states = Rule(
+    sequence(
+        silent(optional(small_words.END_STATE)),
+        separated(STATE, sequence(_BY_THEN, LIST, optional("that")), most=6),
+    )
+)
 
 
 def ensured(*said_states: State | None) -> EnsureClause | None:

@@ -369,7 +369,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
         before = done[-1].clause
         if said == "purpose" and isinstance(before, PickClause) and before.wanted:
             return None  # "I want the box to have the cup in it" does not ask for the box
-        if said == "while" and not isinstance(done[-1].clause, EnsureClause | AvoidClause):
+        if said == "while" and not any(
+            isinstance(item, EnsureClause | AvoidClause) for item in (before, clause[0].clause)
+        ):
             return None  # "keep it open while you …"; else the hand would do two things
         if _is_told_of(done[-1].clause, said, clause[0].clause):
             return None

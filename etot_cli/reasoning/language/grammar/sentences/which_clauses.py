@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.parsers.input import Input
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
+from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -151,12 +152,19 @@ _NEEDLESS = sequence(
     optional(_AFTERWARDS),
     build=lambda np, avoid: AvoidClause(avoid, Things((np,)), negated=True, needless=True),
 )
+_ENDS_UP_SO = sequence(
+    # "which should end up closed": be it so by then or not
+    "which",
+    "(has to|needs to|must|should|ought to|shall|is to) (end|finish|wind) up [being], ends up",
+    OPEN_OR_CLOSED,
+    build=lambda word: EnsureClause((State((WHICH,), word=word),)),
+)
 WHICH_IS_MOVED = either(
     located(
         _OPENED_OR_CLOSED,
         lambda at, spoken: (replace(spoken, position=at),),
     ),
-    plain(_NEEDLESS),
+    plain(either(_NEEDLESS, _ENDS_UP_SO)),
 )
 """What is opened before, or closed afterwards, or need not be."""
 _PUT_THERE = Things((WHICH,))
