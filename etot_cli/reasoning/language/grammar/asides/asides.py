@@ -45,6 +45,7 @@ from etot_cli.reasoning.language.grammar.asides.remarks import (
     is_of_people,
     is_purpose,
     is_reason,
+    is_of_relative,
     is_remark,
     is_told_apart_by,
     is_turning,
@@ -230,7 +231,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or wants_such_a_thing(aside.said, is_name)
     told = told or is_in_passing(aside.said)
     somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
-    told = told or (aside.joint == "before" and somebody)
+    told = told or (aside.joint == "before" and somebody) or is_of_relative(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told

@@ -19,10 +19,10 @@ BEFALLS = (
     rf"(?:(?:{_DOES})(?:e?s)?(?: (?:off|over|down|away|up|out)"
     r"(?: (?:of )?(?:the|my|our) (?:\w+ )?\w+)?| (?:on|onto|to) the (?:floor|ground|rug|carpet))?"
     rf"|(?:gets?|goes|go|turns?|becomes?) (?:too )?(?:{_GETS}|missing)"
-    r"|(?:falls?|goes|go) to (?:waste|pieces))(?: again| everywhere| in (?:the (?:sun|heat)|here))?"
+    r"|(?:falls?|goes|go) to (?:waste|pieces)|catch(?:es)? fire|goe?s? up in flames)(?: again| everywhere| in (?:the (?:sun|heat)|here))?"
 )
 """As a regular expression, behind what it happens to."""
-_THING = r"(?:it|they|(?:the|my|our) (?:\w+ )?\w+)"
+_THING = r"(?:it|they|something|anything|(?:the|my|our) (?:\w+ )?\w+)"
 THING_WILL = rf"{_THING} (?:will|might|may|could|is going to|are going to) (?:{BEFALLS})"
 """What is only told of things: nobody asks for that, nor for the contrary alone."""
 BEFORE_IT_DOES = rf"{_THING} (?:{BEFALLS})"
