@@ -69,7 +69,8 @@ _VERY = (
 I_SAY = r"(?:i|we) (?:think|believe|find|feel|fear|notice|noticed|see|guess)(?: that)?"
 _NEAR = r"(?:close to|near(?: to)?|by|at|on)"
 _MISPLACED = Expression(
-    rf"(?:(?:{I_SAY}) )?(?!.*\b(?:not|never|must|should|may|can|that)\b){_thing('k')} {_STANDING}{_VERY} "
+    rf"(?:(?:{I_SAY}) )?(?!.*\b(?:not|never|must|should|may|can|that)\b){_thing('k')} "
+    rf"{_STANDING}{_VERY} "
     r"(?:too (?:close|near|far)(?: \w+)*"
     rf"|(?:right|almost|nearly|dangerously|precariously|very|too) {_NEAR} the (?:very )?"
     r"(?:edge|rim|border|brink)(?: of (?:the|my|our) \w+)?)(?P<l>)"

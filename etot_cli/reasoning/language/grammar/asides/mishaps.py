@@ -19,7 +19,8 @@ BEFALLS = (
     rf"(?:(?:{_DOES})(?:e?s)?(?: (?:off|over|down|away|up|out)"
     r"(?: (?:of )?(?:the|my|our) (?:\w+ )?\w+)?| (?:on|onto|to) the (?:floor|ground|rug|carpet))?"
     rf"|(?:gets?|goes|go|turns?|becomes?) (?:too )?(?:{_GETS}|missing)"
-    r"|(?:falls?|goes|go) to (?:waste|pieces)|catch(?:es)? fire|goe?s? up in flames)(?: again| everywhere| in (?:the (?:sun|heat)|here))?"
+    r"|(?:falls?|goes|go) to (?:waste|pieces)"
+    r"|catch(?:es)? fire|(?:goes|go) up in flames)(?: again| everywhere| in (?:the (?:sun|heat)|here))?"
 )
 """As a regular expression, behind what it happens to."""
 _THING = r"(?:it|they|something|anything|(?:the|my|our) (?:\w+ )?\w+)"

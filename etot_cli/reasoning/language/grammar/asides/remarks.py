@@ -282,7 +282,7 @@ _RELATIVE = Expression(rf"^(?:the|my|our|your|his|her) (?:\w+ )?(?:{_RELATIONS})
 
 
 def is_of_relative(said: str, is_name: IsName) -> bool:
-    """Whether a clause is about somebody who is no thing of the scene ("the boss is on his way")."""
+    """Whether a clause is about somebody and no thing of the scene ("the boss is on his way")."""
     return bool(_RELATIVE.match(said)) and not any(map(is_name, said.split()))
 
 
