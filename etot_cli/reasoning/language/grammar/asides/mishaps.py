@@ -20,7 +20,8 @@ BEFALLS = (
     r"(?: (?:of )?(?:the|my|our) (?:\w+ )?\w+)?| (?:on|onto|to) the (?:floor|ground|rug|carpet))?"
     rf"|(?:gets?|goes|go|turns?|becomes?) (?:too )?(?:{_GETS}|missing)"
     r"|(?:falls?|goes|go) to (?:waste|pieces)"
-    r"|catch(?:es)? fire|(?:goes|go) up in flames)(?: again| everywhere| in (?:the (?:sun|heat)|here))?"
+    r"|catch(?:es)? fire|(?:goes|go) up in flames)"
+    r"(?: again| everywhere| in (?:the (?:sun|heat)|here))?"
 )
 """As a regular expression, behind what it happens to."""
 _THING = r"(?:it|they|something|anything|(?:the|my|our) (?:\w+ )?\w+)"

@@ -203,6 +203,17 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:top|bottom|upper|lower|middle))(?: one)?(?=[.,;!?]|$| and\b)",
         r"\1 \2",
     ),
+    # "The pens are everywhere, aren't they? The cup should …"
+    (
+        r"(\b(?:is|are|has|have)\b[^.;?!]*), (?:is|are|has|have) not (?:it|they|there)\? (?=\w)",
+        r"\1. ",
+    ),
+    # "They should at least be side by side"
+    (
+        rf"\b({_MUST}) at least (?=(?:{_BE})\b"
+        r"(?![^.;!?]*(?:\d|\b(?:two|three|four|five|six)\b)))",
+        r"\1 ",
+    ),
     # "One walnut in the bowl is enough"
     (
         r"(^|[.;!] )(?:just )?((?:one|two|three|four) (?:\w+ ){1,3}?(?:in|on) "
