@@ -43,6 +43,7 @@ from etot_cli.reasoning.language.grammar.asides.remarks import (
     is_made_possible,
     is_not_to_stay,
     is_of_people,
+    is_of_relative,
     is_purpose,
     is_reason,
     is_remark,
@@ -71,7 +72,13 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     words_in,
 )
 from etot_cli.reasoning.language.words.known import all_words
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, JOINT_NOUNS, NUMBERS, word_set
+from etot_cli.reasoning.language.words.lexicon import (
+    DESK_NOUNS,
+    JOINT_NOUNS,
+    NUMBERS,
+    singular,
+    word_set,
+)
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
@@ -94,6 +101,10 @@ _CONFIRMED = re.compile(
 _WHICH_ONE = re.compile(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
+_OF_A_KIND = re.compile(
+    r" (?:(?:allergic|partial|addicted) to|(?:afraid|scared|fond|sick|tired) of|likes?|loves?|hates?"
+    r"|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"
+)
 _PRONOUNS = word_set("it they them that this those these he him she her")
 
 
@@ -230,7 +241,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or wants_such_a_thing(aside.said, is_name)
     told = told or is_in_passing(aside.said)
     somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
-    told = told or (aside.joint == "before" and somebody)
+    told = told or (aside.joint == "before" and somebody) or is_of_relative(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
     told = (
         told
@@ -396,12 +407,23 @@ def _named(asides: Iterable[str], is_name: IsName) -> str:
     """
     phrases, alone = list[str](), list[str]()
     for aside in asides:
-        said = f"the {aside}" if _is_bare(aside, is_name) else aside
+        said = f"the {aside}" if _is_bare(aside, is_name) else _with_kind(aside, is_name)
         found = [in_state(said, phrase) for phrase in _phrases(said.split(), is_name)]
         alone += found[:1] if is_misplaced(said) else []
         phrases += found[1:] if is_misplaced(said) else found
     remarks = (" and ".join(dict.fromkeys(named)) for named in (phrases, alone))
     return ". ".join(f"{named} {ASIDE}" for named in remarks if named)
+
+
+def _with_kind(said: str, is_name: IsName) -> str:
+    """What is said of somebody, with an article for the kind of thing that he likes or cannot
+    stand, of which the next sentence may mean the one that is there ("is allergic to lemons").
+    """
+    found = _OF_A_KIND.search(said) if is_of_people(said) else None
+    known = found and found["kind"] != singular(found["kind"]) and is_name(found["kind"])
+    return (
+        f"{said[: found.start('kind')]}the {singular(found['kind'])}" if found and known else said
+    )
 
 
 def _is_bare(said: str, is_name: IsName) -> bool:

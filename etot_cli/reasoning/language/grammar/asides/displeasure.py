@@ -66,9 +66,11 @@ _STANDING = (
 _VERY = (
     r"(?: (?:a (?:bit|little)|far|much|way|rather|really|quite|very|so|dangerously|precariously))*"
 )
+I_SAY = r"(?:i|we) (?:think|believe|find|feel|fear|notice|noticed|see|guess)(?: that)?"
 _NEAR = r"(?:close to|near(?: to)?|by|at|on)"
 _MISPLACED = Expression(
-    rf"(?!.*\b(?:not|never|must|should|may|can|that)\b){_thing('k')} {_STANDING}{_VERY} "
+    rf"(?:(?:{I_SAY}) )?(?!.*\b(?:not|never|must|should|may|can|that)\b){_thing('k')} "
+    rf"{_STANDING}{_VERY} "
     r"(?:too (?:close|near|far)(?: \w+)*"
     rf"|(?:right|almost|nearly|dangerously|precariously|very|too) {_NEAR} the (?:very )?"
     r"(?:edge|rim|border|brink)(?: of (?:the|my|our) \w+)?)(?P<l>)"

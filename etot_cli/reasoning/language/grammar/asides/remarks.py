@@ -278,6 +278,14 @@ def is_of_people(said: str) -> bool:
     return bool(_PERSON.match(said))
 
 
+_RELATIVE = Expression(rf"^(?:the|my|our|your|his|her) (?:\w+ )?(?:{_RELATIONS}) ")
+
+
+def is_of_relative(said: str, is_name: IsName) -> bool:
+    """Whether a clause is about somebody and no thing of the scene ("the boss is on his way")."""
+    return bool(_RELATIVE.match(said)) and not any(map(is_name, said.split()))
+
+
 def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
     """Whether this tells what is to be gained, behind "so" ("I can see it") or ``where``."""
     named = any(map(is_name, said.split()))

@@ -30,6 +30,7 @@ _NOTHING_ELSE = (
     r"(?: (?:in|on) it)?)"
     r"(?=[.;!]|$)"
 )
+_LEFT = "(?:,? and|, then)(?: then)? (?:left|kept|(?:to )?(?:stay|remain))"
 _KEPT = {"out of": "in", "off": "on"}
 _IMPERATIVE = {
     "moving": "move", "putting": "put", "setting": "set", "placing": "place",
@@ -202,12 +203,55 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:top|bottom|upper|lower|middle))(?: one)?(?=[.,;!?]|$| and\b)",
         r"\1 \2",
     ),
+    # "The pens are everywhere, aren't they? The cup should …"
+    (
+        r"(\b(?:is|are|has|have)\b[^.;?!]*), (?:is|are|has|have) not (?:it|they|there)\? (?=\w)",
+        r"\1. ",
+    ),
+    # "They should at least be side by side"
+    (
+        rf"\b({_MUST}) at least (?=(?:{_BE})\b"
+        r"(?![^.;!?]*(?:\d|\b(?:two|three|four|five|six)\b)))",
+        r"\1 ",
+    ),
     # "One walnut in the bowl is enough"
     (
         r"(^|[.;!] )(?:just )?((?:one|two|three|four) (?:\w+ ){1,3}?(?:in|on) "
         r"(?:the|my|our) (?:\w+ ){0,2}?\w+) (?:is|are|would be|will be|should be) "
         r"(?:enough|sufficient|plenty)(?: for (?:me|us|now|today))?(?=[.,;!]|$)",
         r"\1there should be exactly \2",
+    ),
+    # "One walnut is enough in the bowl"
+    (
+        r"(^|[.;!] )(?:just )?((?:one|two|three|four) (?:\w+ ){0,2}?\w+) (?:(?:is|are|would be"
+        r"|will be|should be) (?:enough|sufficient|plenty)|will do) ((?:in|on) (?:the|my|our) "
+        r"(?:\w+ ){0,2}?\w+)(?=[.,;!]|$)",
+        lambda said: f"{said[1]}there should be exactly {said[2]} {said[3]}",
+    ),
+    # "The box has nothing in it but pens"
+    (
+        r"\b((?:the|my|our) (?:\w+ ){0,2}?\w+) (?:(has|contains)"
+        r"|(?:should|must|shall|is to) (?:have|contain)) nothing (in|on) it (?:only|but) ",
+        lambda said: f"there {'is' if said[2] else 'should be'} nothing {said[3]} {said[1]} but ",
+    ),
+    # "The door is to be opened and left open"
+    (
+        rf"\b((?:is|are|has|have|needs?) to be|(?:should|must|can|may) be) (?:(opened){_LEFT} open"
+        rf"|(closed|shut){_LEFT} (?:closed|shut))\b",
+        r"\1 \2\3",
+    ),
+    # "In the same place as the cup"
+    (
+        r"\b(?:in|on|to|at) the (?:very )?same (?:place|spot) (?:as|that|where) "
+        r"((?:the|my|our) (?:\w+ ){0,3}?\w+)(?: is| are)?(?=[.,;!?]|$)",
+        r"where \1 is",
+    ),
+    # "A cup on every tray would be nice"
+    (
+        r"(^|[.;!] |, (?:and )?so )((?:an?|one|two|three|some) [^.;,!]*? "
+        r"(?:in|on|to the|next to|beside|behind|between|under|by) [^.;,!]*?) would be "
+        r"(?:(?:very|really|so) )?(?:nice|lovely|good|great|perfect|ideal|wonderful)(?=[.!]|$)",
+        r"\1there should be \2",
     ),
     # "Put the egg in the bowl; nothing else should be in there"
     (
