@@ -123,6 +123,26 @@ def check_contrasted(
                 raise ReferenceProblem(text, why, 3)
 
 
+def check_not_there(context: Context, group: PutGroup, places: Sequence[Place]) -> None:
+    """Whether "the cup not in the box next to the can" comes into the box, which may be what is
+    denied: the can is in there.
+
+    Raises:
+        ReferenceProblem: it does.
+    """
+    if any(where.toward is not Toward.BESIDE for where in group.destinations):
+        return  # "the cup not in the box" goes where that is said
+    discourse = context.discourse
+    there = {t for at in places if at.where is not None for t in discourse.things(at.where)}
+    for np in group.things.phrases:
+        for told in (
+            item for item in np.modifiers if item.denied and item.prep in (Prep.IN, Prep.ON)
+        ):
+            for phrase in told.phrases:
+                if there & {*things_in(context.phrases.meaning(phrase, Role.ANY).options)}:
+                    raise ReferenceProblem(np.text, "it would come to where it is not to be", 2)
+
+
 def check_describes(
     context: Context,
     condition: State,

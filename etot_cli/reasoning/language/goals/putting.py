@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.goals.alone import check_alone, check_counted, 
 from etot_cli.reasoning.language.goals.choosing import (
     check_contrasted,
     check_describes,
+    check_not_there,
     check_poured,
     check_swept,
     check_taken,
@@ -205,6 +206,7 @@ def put(
         if not (places or abreast):  # "on top", where that is where it was spoken of last
             raise ReferenceProblem(group.things.text, "say where it is to go", 2)
         check_contrasted(context, group.things, themes, places)
+        check_not_there(context, group, places)
         so_many = count_of_places(context, group, places) == several > 1
         if grouping is Grouping.ANY and so_many:
             grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
