@@ -15,7 +15,7 @@ from etot_cli.reasoning.language.goals.arrangements import tower
 from etot_cli.reasoning.language.goals.closer import closer_said
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.grasps import grasp
-from etot_cli.reasoning.language.goals.placing import cover, reorient
+from etot_cli.reasoning.language.goals.placing import cover
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.putting import ensure, put
 from etot_cli.reasoning.language.goals.removing import remove
@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.goals.so_in_the_end import (
     put_on_closed,
     told_by_contents,
 )
+from etot_cli.reasoning.language.goals.stance import reorient
 from etot_cli.reasoning.language.goals.swapping import swap
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Put
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.placing import can_stand, reorient
+from etot_cli.reasoning.language.goals.stance import can_stand, reorient
 from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause, ReorientClause
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.world.spatial import Nearby

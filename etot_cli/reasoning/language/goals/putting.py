@@ -19,6 +19,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side, told_sides
 from etot_cli.reasoning.language.goals.alone import check_alone, check_counted, so_many_turned
 from etot_cli.reasoning.language.goals.choosing import (
     check_contrasted,
@@ -52,16 +53,7 @@ from etot_cli.reasoning.language.goals.pairing import (
     elsewhere,
     is_different,
 )
-from etot_cli.reasoning.language.goals.placing import (
-    add_put,
-    add_puts,
-    check_no_side,
-    put_side_by_side,
-    side_by_side,
-    spread,
-    told_sides,
-    with_stance,
-)
+from etot_cli.reasoning.language.goals.placing import add_put, add_puts, check_no_side, spread
 from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is, leave_out
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.ruled_out import not_beside, rule_out
@@ -73,6 +65,7 @@ from etot_cli.reasoning.language.goals.sharing import (
     shared,
 )
 from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along
+from etot_cli.reasoning.language.goals.stance import with_stance
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_emptying

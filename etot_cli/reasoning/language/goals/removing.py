@@ -17,9 +17,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     is_off_desk,
 )
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.placing import (
-    add_put,
-)
+from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, RemoveClause

@@ -31,6 +31,10 @@ CLOSE = 0.04
 FLAT = 0.5
 """What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
 
+OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
+OPPOSITE |= {other: side for side, other in OPPOSITE.items()}
+"""The other side of each side."""
+
 Test = Callable[[Thing], bool]
 Cost = Callable[[Thing], float]
 

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.reference.choosing.modified import names_of_thi
 from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.geometry.areas import side_across
 from etot_cli.reasoning.language.reference.geometry.rows import is_column
+from etot_cli.reasoning.language.reference.geometry.space import OPPOSITE
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
@@ -34,8 +35,6 @@ from etot_cli.reasoning.language.words.places import ACROSS, Prep
 from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
 from etot_cli.world.state import DESK, SceneState, owner_of
 
-_OPPOSITE = {Nearby.LEFT: Nearby.RIGHT, Nearby.FRONT: Nearby.BEHIND}
-_OPPOSITE |= {other: one for one, other in _OPPOSITE.items()}
 _STACKS = frozenset(spellings(STACK))
 _PARTS = word_set("edge end border rim half part corner quarter area")
 """Words for parts of a flat top."""
@@ -103,7 +102,7 @@ class Surroundings:
         marks = {
             thing: item.text
             for item, ways in found
-            if item.relation in _OPPOSITE and item.text.startswith(("on ", "at "))
+            if item.relation in OPPOSITE and item.text.startswith(("on ", "at "))
             for near in ways
             for thing in self._discourse.things(*near.landmarks)
         }
@@ -240,13 +239,13 @@ class Surroundings:
         if " ".join(beside.text.split()[:5]) in spellings(ACROSS):
             beside = replace(beside, relation=self._across(beside.text, themes, landmarks))
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
-        if near_both or (beside.relation in (*_OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
+        if near_both or (beside.relation in (*OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
             return [Near(beside.relation, (landmark,)) for landmark in landmarks]
         if len(landmarks) != beside.relation.landmarks:
             text = " and ".join(phrase.text for phrase in beside.phrases)
             why = "say between which two things" if beside.relation.landmarks == 2 else "say which"
             raise ReferenceProblem(text, why, 2)
-        if beside.relation in _OPPOSITE:
+        if beside.relation in OPPOSITE:
             self._check_side(beside, self._discourse.things(*landmarks))
         return [Near(beside.relation, tuple(landmarks))]
 
@@ -286,11 +285,11 @@ class Surroundings:
         else:
             found = {
                 side
-                for side in _OPPOSITE
+                for side in OPPOSITE
                 for name in (thing.name for thing in discourse.things(*themes))
                 if holds(Whereabouts(side, tuple(t.name for t in marks)), name, self._scene)
             }
-        sides = [_OPPOSITE[side] for side in found if side in _OPPOSITE]
+        sides = [OPPOSITE[side] for side in found if side in OPPOSITE]
         if len(marks) != 1 or len(sides) != len(found) or len(sides) != 1:
             raise ReferenceProblem(text, "say 'left of', 'in front of' and so on", 3)
         discourse.notes.append(f"{text!r} is {sides[0]} it")
@@ -398,7 +397,7 @@ class Surroundings:
         if clause == discourse.clause:
             same = (item for item in discourse.mentions if item.clause == clause)
             moved = {item.referent for item in same if item.role is Role.THEME} - {*themes}
-            if moved and _OPPOSITE.get(how) is not relation:
+            if moved and OPPOSITE.get(how) is not relation:
                 named = [discourse.referents[item].text for item in (*sorted(moved), mark)]
                 raise AmbiguousReference(phrase.text, named)
             discourse.mention_again(mark, Role.ANY)
