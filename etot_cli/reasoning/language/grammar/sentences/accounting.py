@@ -103,7 +103,7 @@ _FIXED = """
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     left (open|opened|closed|shut|ajar|empty|alone|untouched),
     left [standing|lying|sitting] [exactly|precisely|just|right] (as|where|like) (it|they),
-    closer together, contents and all, 's (top|surface), in any order, (no|any) longer, any more,
+    closer together, a (bit|little) (further|farther), contents and all, 's (top|surface), in any order, (no|any) longer, any more,
     only (then|once|after|when), any [one] but, any (color|colour), not (before|until),
     (before|after) all [of] (that|this), there (should|must|may|can) not be anything [left],
     there (is not|is no longer) anything [left],
