@@ -50,8 +50,9 @@ def remove(context: Context, clause: RemoveClause) -> None:
         under = [thing for item in below for thing in things_in(item.options)]
         if all(any(touches(up, at, context.scene) for at in under) for up in things_in(above)):
             return  # the cake is put away without the plate that it stands on
-    there = clause.source is not None and clause.source.pronoun == "it"
-    if there and not context.discourse.mentions:
+    it = clause.source if clause.source is not None and clause.source.pronoun == "it" else None
+    unnamed = it if not context.discourse.mentions else None
+    if unnamed is not None:
         clause = replace(clause, source=None)  # out of what it is in, as nothing else was named
     things = clause.things.taken_from(clause.source)
     if is_emptying(clause):
@@ -99,6 +100,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
         own = (m.referent for m in discourse.mentions if m.clause == discourse.clause)
         discourse.is_about({*own})
     discourse.last_places = context.source(themes)
+    if unnamed is not None and not discourse.last_places:
+        raise ReferenceProblem(unnamed.text, "say out of what")
     for place in discourse.last_places:
         context.mention_part(place)
     known = {*discourse.things(*themes)} <= {*discourse.things(*discourse.put)}

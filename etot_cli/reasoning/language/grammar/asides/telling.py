@@ -76,7 +76,8 @@ _PLACED_THERE = Expression(
 
 
 _HOW_LONG = Expression(
-    r" (?:all (?:day|night|week|morning|the time)(?: long)?|every (?:day|night))"
+    r" (?:all (?:day|night|week|morning|the time)(?: long)?|every (?:day|night)"
+    r"|this (?:morning|afternoon|evening|week))"
 )
 _THERE_IS = Expression(
     r"there (?:is|are|was|were) (?:(?:still|already|also|even) )?"

@@ -276,6 +276,16 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1\3 should be \2",
     ),
     (rf"\bit is ({_SOME}) (?:that |which )?({_WISHED})(?=[.;!]|$)", r"\2 \1"),
+    # "The cup next to the mug, both of them on the tray"
+    (
+        rf"\b({_SOME}) ((?:(?:should|must) (?:be|stand|go)|goes|belongs) )?"
+        rf"(?:next to|beside) ({_SOME}),? (?:and )?both"
+        rf"(?: of them)?(?: standing| lying)? (?=on {NAMED})([^.,;]*)",
+        lambda said: (
+            f"{said[1]} and {said[3]} {'should be ' if said[2] else ''}{said[4]}, "
+            "next to each other"
+        ),
+    ),
     # "The ball alone goes into the box"
     (
         r"(^|[.;!,] |\band )(the|my|our) ((?:\w+ ){1,3})alone "

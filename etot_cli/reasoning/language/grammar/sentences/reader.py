@@ -39,6 +39,8 @@ _TOLD = sorted(
     reverse=True,
 )
 """Before what it does, the longest first."""
+_MOST_BEFORE = 5
+"""Words before it ("for the next trial, …")."""
 _DOING = words_of((verbs.OPEN, verbs.CLOSE, LOOK_FOR)) | known.VERB_WORDS
 _JOINTS = (COMMA, "and", "then", "first")
 SHOWN_WORDS = 4
@@ -142,15 +144,19 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
 
 
 def _asked(words: tuple[str, ...], vocabulary: frozenset[str]) -> tuple[str, ...]:
-    """What is told of the robot as what it is to do ("the robot picks the cup up and lifts it")."""
-    told = next((said for said in _TOLD if words[: len(said)] == said), ())
-    ahead = words[len(told) :]
+    """What is told of the robot as what it is to do ("the robot picks the cup up and lifts it"),
+    perhaps when ("in this trial the robot …").
+    """
+    starts = range(_MOST_BEFORE + 1 if words[:1] in (("in",), ("for",)) else 1)
+    found = ((at, said) for at in starts for said in _TOLD if words[at : at + len(said)] == said)
+    start, told = next(found, (0, ()))
+    ahead = words[start + len(told) :]
     said = [
         singular(word) if before in _JOINTS and singular(word) in _DOING else word
         for word, before in zip(ahead, (COMMA, *ahead), strict=False)
     ]
     narrated = told and not {*told} & vocabulary and [*ahead] != said
-    return tuple(said) if narrated and ahead[0] not in {*_DOING, "needs"} else words
+    return (*words[:start], *said) if narrated and ahead[0] not in {*_DOING, "needs"} else words
 
 
 def is_known(word: str, vocabulary: Iterable[str]) -> bool:
