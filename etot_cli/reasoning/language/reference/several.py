@@ -39,7 +39,13 @@ class Phrases(Referents):
             if phrase.determiner == "both" and not phrase.words:
                 raise ReferenceProblem(phrase.text, "say which two", 2)
         if not things.either:
-            found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
+            alike = len({phrase.modifiers for phrase in things.phrases}) == 1
+            alike = alike and bool(things.phrases[0].modifiers)
+            self.shared = {} if alike and things.phrases[1:] else None
+            try:
+                found = [self.refer(phrase, role, excluded) for phrase in things.phrases]
+            finally:
+                self.shared = None
             self._check_apart(things, found)
             self._of_the_whole(things, role, found)
             return list(dict.fromkeys(index for indices in found for index in indices))

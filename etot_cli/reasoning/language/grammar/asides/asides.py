@@ -102,8 +102,8 @@ _WHICH_ONE = re.compile(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
 _OF_A_KIND = re.compile(
-    r" (?:(?:allergic|partial|addicted) to|(?:afraid|scared|fond|sick|tired) of|likes?|loves?"
-    r"|hates?|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"
+    r" (?:(?:allergic|partial|addicted) to|(?:afraid|scared|fond|sick|tired) of"
+    r"|likes?|loves?|hates?|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"
 )
 _PRONOUNS = word_set("it they them that this those these he him she her")
 

@@ -208,6 +208,19 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(\b(?:is|are|has|have)\b[^.;?!]*), (?:is|are|has|have) not (?:it|they|there)\? (?=\w)",
         r"\1. ",
     ),
+    # "What is in the box may stay there, just add the pen"
+    (
+        rf"(^|[.;!] )(?:(?:whatever|what|everything|all)(?: that)? is|everything|all) (in|on) "
+        rf"({NAMED}(?: \w+){{1,3}}?) (?:(?:{_MUST}) )?(?:stays?|remains?) (?:there|(?:in|on) it)"
+        rf"[,;.]?(?: (?:but|and|so|you|can|just|simply|please))* add ({_SOME})(?=[.;!]|$)",
+        r"\1leave everything that is \2 \3 there and add \4 to \3",
+    ),
+    # "All of it except the cup goes on the tray", before anything was spoken of
+    (
+        rf"^({ASKED}(?:(?:put|move|bring|place|set) )?)all of it,? "
+        r"(?=(?:except|apart|aside|other than|but)\b)",
+        r"\1everything ",
+    ),
     # "They should at least be side by side"
     (
         rf"\b({_MUST}) at least (?=(?:{_BE})\b"

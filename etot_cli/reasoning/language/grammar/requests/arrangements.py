@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import of_each
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.requests.unstacking import is_stack
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -273,6 +274,17 @@ def _replaced(old: NounPhrase, new: NounPhrase) -> PutClause:
     return put_to(Things((new,)), (Destination(Toward.STEAD, (old,), "replace"),))
 
 
+def _exchanged(
+    old: NounPhrase, new: NounPhrase, where: tuple[Destination, ...]
+) -> PutClause | None:
+    """What goes where something else is by now, which makes room for it."""
+    (around, *more) = where
+    if more or around.toward not in (Toward.ON, Toward.INSIDE) or old.pronoun:
+        return None
+    stead = Destination(Toward.STEAD, (old,), "instead of", around=(around,))
+    return put_to(Things((new,)), (stead,))
+
+
 def _swapped(things: Things) -> SwapClause:
     """Things that swap places; "the blocks in the red bowl and the blue bowl" are those in both
     bowls.
@@ -326,6 +338,15 @@ SWAP = either(
         noun_phrase,
         optional(verbs.SWAPPED_ROUND),
         build=lambda one, two: SwapClause(Things((one, two))),
+    ),
+    sequence(
+        # "Exchange the cup for the bottle on the tray", where the cup is on it
+        "swap[ping], exchang(e|ing), switch[ing]",
+        noun_phrase,
+        "for",
+        noun_phrase,
+        DESTINATIONS,
+        build=_exchanged,
     ),
     sequence("replac(e|ing)", noun_phrase, "with, for, by", noun_phrase, build=_replaced),
 )

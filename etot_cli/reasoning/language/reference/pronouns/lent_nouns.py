@@ -58,6 +58,10 @@ class LentNouns(ABC):
         self.scene = scene
         self.resolver = resolver
         self.discourse = discourse
+        self.shared: dict[NounPhrase, list[tuple[Thing, ...]]] | None = None
+        """What pronouns mean that are said of several things at once ("the nut and the bolt out of
+        it"), of which the first is no more likely meant than before.
+        """
 
     @abstractmethod
     def meaning(self, phrase: NounPhrase, role: Role) -> Resolved:
@@ -300,7 +304,17 @@ class LentNouns(ABC):
         return None
 
     def pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
-        """All that a pronoun in a modifier may mean, or "the other brush" there."""
+        """All that a pronoun in a modifier may mean, or "the other brush" there; of what is said of
+        several things the same for all.
+        """
+        if self.shared is None:
+            return self._pronoun_things(phrase)
+        if phrase not in self.shared:
+            self.shared[phrase] = self._pronoun_things(phrase)
+        return self.shared[phrase]
+
+    def _pronoun_things(self, phrase: NounPhrase) -> list[tuple[Thing, ...]]:
+        """The same for one thing."""
         if not phrase.pronoun:
             return list(self.meaning(phrase, Role.ANY).options)
         if phrase.pronoun not in PLURAL_PRONOUNS:
