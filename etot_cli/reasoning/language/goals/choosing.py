@@ -125,22 +125,23 @@ def check_contrasted(
 
 def check_not_there(context: Context, group: PutGroup, places: Sequence[Place]) -> None:
     """Whether "the cup not in the box next to the can" comes into the box, which may be what is
-    denied: the can is in there.
+    denied: the can is in there; or "everything in the jar" into "the bottom one", which is no jar.
 
     Raises:
         ReferenceProblem: it does.
     """
-    if any(where.toward is not Toward.BESIDE for where in group.destinations):
+    beside = all(where.toward is Toward.BESIDE for where in group.destinations)
+    elliptic = any(np.is_elliptic for where in group.destinations for np in where.targets)
+    if not (beside or elliptic):
         return  # "the cup not in the box" goes where that is said
     discourse = context.discourse
     there = {t for at in places if at.where is not None for t in discourse.things(at.where)}
     for np in group.things.phrases:
-        for told in (
-            item for item in np.modifiers if item.denied and item.prep in (Prep.IN, Prep.ON)
-        ):
-            for phrase in told.phrases:
-                if there & {*things_in(context.phrases.meaning(phrase, Role.ANY).options)}:
-                    raise ReferenceProblem(np.text, "it would come to where it is not to be", 2)
+        told = (item for item in np.modifiers if item.prep in (Prep.IN, Prep.ON))
+        for phrase in (phrase for item in told if item.denied is beside for phrase in item.phrases):
+            if there & {*things_in(context.phrases.meaning(phrase, Role.ANY).options)}:
+                why = "where it is not to be" if beside else "where it is"
+                raise ReferenceProblem(np.text, f"it would come to {why}", 2)
 
 
 def check_describes(

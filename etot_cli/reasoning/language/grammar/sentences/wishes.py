@@ -52,13 +52,17 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import nouns, small_words, verbs
+from etot_cli.reasoning.language.words.lexicon import word_set
+
+_MOVED = word_set("off out gone farther further closer nearer")
+"""Of what is wanted they tell where it is to be."""
 
 
 def _wanted_in_hand(things: Things) -> PickClause | None:
-    """Who wants something off the tray does not say that it is to be held, nor who wants all, or
-    one in each of several.
+    """Who wants something off the tray, or farther from it, does not say that it is to be held, nor
+    who wants all, or one in each of several.
     """
-    away = any({"off", "out", "gone"} & {*np.text.split()} for np in things.phrases)
+    away = any(_MOVED & {*np.text.split()} for np in things.phrases)
     said = {word for np in nodes(things) if isinstance(np, NounPhrase)
             for word in np.determiner.split()}  # fmt: skip
     every = {"all", "both", "each", "every"} & said
