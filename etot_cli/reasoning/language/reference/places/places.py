@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import bearers, is_open, parts_of
+from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
@@ -19,19 +19,24 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.geometry import rows, space
-from etot_cli.reasoning.language.reference.geometry.vessels import bears, lies_on
-from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.geometry.vessels import lies_on
 from etot_cli.reasoning.language.reference.memory.by_now import is_off
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import usual_form
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
+from etot_cli.reasoning.language.reference.places.spoken_places import (
+    around_them,
+    as_before,
+    places_here,
+    upon_it,
+    where_they_are,
+)
 from etot_cli.reasoning.language.reference.places.spots import Spots
 from etot_cli.reasoning.language.reference.places.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.pronouns.coreference import (
     antecedents,
-    latest_place,
     meant_by_it,
 )
 from etot_cli.reasoning.language.reference.several import Phrases
@@ -45,7 +50,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.places import AT_END, ON_IT, OVER, THEREIN, Prep
+from etot_cli.reasoning.language.words.places import AT_END, OVER, THEREIN, Prep
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
@@ -126,7 +131,7 @@ class Places:
                 destination = self._surroundings.across_the_desk(destination, themes)
             if destination.toward is Toward.HERE:
                 therein = stays and destination.word in spellings(THEREIN)
-                there = self._where_they_are(Relation.INSIDE, themes) if therein else ()
+                there = where_they_are(self.discourse, Relation.INSIDE, themes) if therein else ()
                 found = list(there or self._here(destination.word, themes))
             elif destination.toward is Toward.BESIDE and (
                 around := self._spots.around(destination.beside, themes)
@@ -138,7 +143,7 @@ class Places:
                     surface = self.on_the_desk().where
                 near = self._surroundings.near(destination.beside, themes)
                 found = [Place(Relation.ON, surface, near)]
-            elif stays and (there := self._around_them(destination, themes)):
+            elif stays and (there := around_them(self.discourse, destination, themes)):
                 found = list(there)
             else:
                 role = _ROLES.get(destination.toward, Role.PLACE)
@@ -164,7 +169,7 @@ class Places:
                     found = self._spots.narrowed(found, destination, themes)
             here = destination.toward is Toward.HERE
             if here or any(np.pronoun for np in destination.targets):
-                found = [self._as_before(place, themes, here=here) for place in found]
+                found = [as_before(self.discourse, place, themes, here=here) for place in found]
             places.update(dict.fromkeys(found))
         return tuple(places)
 
@@ -199,29 +204,6 @@ class Places:
         beside = (Beside(Nearby.NEXT_TO, (np,), f"next to {np.text}"),)
         return replace(where, toward=Toward.BESIDE, targets=(), beside=beside)
 
-    def _as_before(self, place: Place, themes: Sequence[int], *, here: bool) -> Place:
-        """Behind what is closed things are where they went ("close the door when they are in"):
-        what is ``here`` wherever that was, what is "in it" where it is the door of that.
-        """
-        discourse, things = self.discourse, {*self.discourse.things(*themes)}
-        if place.relation is not Relation.INSIDE or place.where is None or place.beside:
-            return place
-        parts = [(thing.name, thing.part) for thing in discourse.things(place.where)]
-        shut = {item.referent for item in discourse.mentions if item.role is Role.PART}
-        for around in {*discourse.put_into.values()}:
-            put = [i for i, at in discourse.put_into.items() if at == around]
-            there = Place(Relation.INSIDE, around)
-            behind = parts == [
-                (whole.name, part.name)
-                for whole in discourse.things(around)
-                if whole.part is None
-                for part in parts_of(self._scene, whole)
-            ]
-            latest = here and place.where in shut and there in discourse.last_places
-            if (behind or latest) and things <= {*discourse.things(*put)}:
-                return there
-        return place
-
     def _targets(
         self, destination: Destination, phrase: NounPhrase, themes: Sequence[int], *, stays: bool
     ) -> list[Place]:
@@ -249,7 +231,7 @@ class Places:
             if index in themes:
                 raise ReferenceProblem(phrase.text, "nothing can be put into or on itself", 2)
             if phrase.pronoun and toward is Toward.ON:
-                index = self._upon_it(phrase.text, index, themes)
+                index = upon_it(self.discourse, phrase.text, index, themes)
             self._check_carried(phrase, index, themes)
             drawer = phrase.head == "drawer" and phrase.determiner in THE_WORDS
             if drawer and role is Role.CONTAINER and not self.discourse.is_spoken(index):
@@ -337,135 +319,7 @@ class Places:
             if under and all(thing.name in names for names in under):
                 raise ReferenceProblem(phrase.text, f"it is on or in {thing.name} itself", 2)
 
-    def _upon_it(self, text: str, index: int, themes: Sequence[int]) -> int:
-        """What "on it" is where something went into that: the tray that carries, or the vessel that
-        is covered, in a piece of furniture; else either, where either could be.
-        """
-        discourse = self.discourse
-        laid = discourse.things(*themes)
-        put_there = (i for i, around in discourse.put_into.items() if around == index)
-        inner = [i for i in put_there if i not in themes]
-        around = [self._scene.infos.get(thing.name) for thing in discourse.things(index)]
-        closed = all(info is not None and info.parts for info in around)
-        upon = [i for i in inner if closed and bears(discourse.things(i), laid, self._scene)]
-        if len(upon) == 1:
-            return upon[0]
-        sinks = not any(lies_on(laid, thing, self._scene) for thing in discourse.things(index))
-        role = Role.PLACE if closed else Role.SURFACE
-        rivals = [
-            i
-            for i in inner
-            if all(can_be(thing, role, self._scene) for thing in discourse.things(i))
-        ]
-        if index in discourse.put:  # it stands where it was put, where there may be room, too
-            below = {place.where for place in discourse.last_places if not place.beside}
-            rivals += [i for i in below if i is not None and not discourse.is_desk(i)]
-        if (sinks or closed) and rivals:
-            named = [discourse.referents[i].text for i in (*rivals, index)]
-            raise AmbiguousReference(text, named, "say whether on")
-        if sinks and inner:  # "one in it and one on it"
-            raise ReferenceProblem(text, "what goes on it would be in it, too; say 'in'", 3)
-        return index
-
-    def _where_they_are(self, relation: Relation, themes: Sequence[int]) -> tuple[Place, ...]:
-        """In or on the one thing spoken of that holds them ("keep the bowl in there")."""
-        spoken = dict.fromkeys(item.referent for item in self.discourse.mentions)
-        states = [self._scene.states.get(t.name) for t in self.discourse.things(*themes)]
-        around = {
-            at
-            for state in states
-            for at in (
-                (None,)
-                if state is None
-                else (state.inside,)
-                if relation is Relation.INSIDE
-                else state.on or (None,)
-            )
-        }
-        held = [i for i in spoken if {t.name for t in self.discourse.things(i)} == around]
-        return (Place(relation, held[-1]),) if len(around) == 1 and held else ()
-
-    def _around_them(self, destination: Destination, themes: Sequence[int]) -> tuple[Place, ...]:
-        """After "put the mug in the box" the brush that is left "in it" stays in the mug."""
-        relations = {Toward.INSIDE: Relation.INSIDE, Toward.ON: Relation.ON}
-        relation = relations.get(destination.toward)
-        (np, *more) = destination.targets
-        it = np.pronoun == "it" and not (more or np.modifiers or destination.beside)
-        if relation is None or not it or {*themes} & self.discourse.put:
-            return ()
-        found = self._where_they_are(relation, themes)
-        for place in found:
-            if place.where is not None:
-                self.discourse.mention_again(place.where, _ROLES[destination.toward])
-        return found
-
-    def _told_apart_from(self, themes: Sequence[int]) -> list[int]:
-        """Containers that a clause has told its things by, which are in none of them."""
-        discourse, things = self.discourse, self.discourse.things(*themes)
-        marks = dict.fromkeys(
-            item.referent
-            for item in discourse.mentions
-            if item.clause == discourse.clause and item.referent not in themes
-        )
-        return [
-            mark
-            for mark in marks
-            if all(can_be(at, Role.CONTAINER, self._scene) for at in discourse.things(mark))
-            and not any(
-                space.touches(thing, at, self._scene)
-                for thing in things
-                for at in discourse.things(mark)
-            )
-        ]
-
     def _here(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
-        discourse = self.discourse
         if word == "down":
             return (self.on_the_desk(),)
-        clause, toward, mark = discourse.told_at
-        if word == "there" and clause == discourse.clause - 1:
-            if toward is None:
-                raise ReferenceProblem(word, UNCLEAR, 2)
-            return tuple(in_or_on(discourse, toward, mark, themes))
-        if word == "there" and discourse.roomy is not None:
-            return tuple(in_or_on(discourse, Toward.TO, discourse.roomy, themes))
-        if word in ("there", "the same place") and discourse.last_places:
-            return discourse.last_places
-        if word == "the same place":
-            raise ReferenceProblem(word, UNCLEAR, 3)
-        if word in (ON_IT, "on top") and discourse.put_into:
-            # On what the last thing was put into, not on the thing in it.
-            inner, index = next(reversed(discourse.put_into.items()))
-            if all(can_be(t, Role.CONTAINER, self._scene) for t in discourse.things(inner)):
-                named = [discourse.referents[item].text for item in (inner, index)]
-                raise AmbiguousReference(word, named)
-            return tuple(in_or_on(self.discourse, Toward.ON, index, themes))
-        if word == ON_IT and not discourse.put_into:
-            raise ReferenceProblem(word, UNCLEAR, 2)
-        put = set(discourse.things(*discourse.put))
-        if word == "on top" and put & set(discourse.things(*themes)):
-            raise ReferenceProblem(word, "say on top of what", 2)
-        relation = Relation.ON if word in ("on there", "on top") else Relation.INSIDE
-        before = discourse.last_places
-        try:
-            place = latest_place(discourse, relation, themes, word)
-        except AmbiguousReference:
-            raise
-        except ReferenceProblem:
-            beside = self._told_apart_from(themes) if word in spellings(THEREIN) else ()
-            if len(beside) == 1:  # "the ball that is not in the bag should go in there"
-                return (Place(Relation.INSIDE, beside[0]),)
-            if word not in spellings(THEREIN) or len(before) != 1:
-                raise
-            place = before[0]  # "take the milk out, put the juice in"
-            if place.relation is not Relation.INSIDE or place.beside:
-                raise
-        if word == "on top" and place in discourse.last_places:
-            raise ReferenceProblem(word, "say on top of what", 2)  # of that, or of what is there
-        if relation is Relation.INSIDE or place.where is None:
-            out = {thing for index in themes for thing in discourse.left_out.get(index, ())}
-            if place.where is not None and out.issuperset(discourse.things(place.where)):
-                raise ReferenceProblem(word, UNCLEAR, 2)
-            return (place,)
-        upon = self._upon_it(word, place.where, themes)
-        return tuple(in_or_on(self.discourse, Toward.ON, upon, themes))
+        return places_here(self.discourse, word, themes)
