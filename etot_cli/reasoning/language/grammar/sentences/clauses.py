@@ -8,13 +8,9 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.conditions.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.conditions.left_alone import KEEP_STILL
+from etot_cli.reasoning.language.grammar.conditions.permitted import ONLY_THESE_MAY
 from etot_cli.reasoning.language.grammar.conditions.predicates import BOTH_SO
-from etot_cli.reasoning.language.grammar.conditions.prohibitions import (
-    AVOID,
-    KEEP_OUT,
-    ONLY_THESE_MAY,
-    WITHOUT,
-)
+from etot_cli.reasoning.language.grammar.conditions.prohibitions import AVOID, KEEP_OUT, WITHOUT
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,
     Parser,
