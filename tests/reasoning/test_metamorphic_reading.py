@@ -96,7 +96,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
         r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
     )
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
-    framed += r"which |end with |as for |"
+    framed += r"which |end with |as for |with |now |"
     framed += r"(\w+ )?\w+: |right, |\w+, \w+\. |for each |whatever )"
     if re.match(framed, text):
         return  # it has a frame of its own
@@ -138,7 +138,7 @@ SIDED = [
     and not re.search(
         r"(?i)right (next|away|behind|then|above|below|way up)|^right,|"
         r"(is|be|been|were|someone|somebody|has|i|thing) left\b"
-        r"|left (open|closed|shut|untouched|alone|where|standing|lying|sitting)"
+        r"|left (open|closed|shut|untouched|alone|exactly|where|standing|lying|sitting)"
         r"|\bwant .* left (in|on) |\byour (left|right) of",  # the robot's, whoever looks
         text,
     )
