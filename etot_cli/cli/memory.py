@@ -16,13 +16,14 @@ NEEDED_MIB = 350
 """Address space in which a task can be planned: 320 to 340 MiB for libraries and models, most of it
 numpy and MuJoCo. Pictures (OpenCV) take 170 MiB more and are loaded where there are some."""
 MIB = 1 << 20
-COLLECT_EVERY = 200_000
-"""New objects after which reference cycles are looked for: as many as loading and a search leave in
-use, which is what a look takes its time for. In a plan of 1.4 s looking after every 700, as Python
-does, takes 130 ms, after every 20,000 takes 90, after so many 3, with 1 MiB more in use."""
-COLLECT_OLDER_EVERY = 50
-"""Such looks after which older objects are looked at, too, which takes 50 ms; Python's ten come up
-while a task is read."""
+COLLECT_EVERY = 50_000
+"""New objects after which reference cycles are looked for. Loading and a search make some 200,000
+that nearly all stay; looking after every 700, as Python does, takes 130 ms of a plan's 1.5 s, and
+after so many 40. A search leaves 5,000 in cycles, with 4 MiB of models: rarer looks let a process
+with many searches grow (25 of them: 214 MiB, as with Python's own, and 300 at four times as many).
+"""
+COLLECT_OLDER_EVERY = 6
+"""Such looks after which older objects are looked at, too, for 30 ms: not within one plan."""
 _LACK = re.compile(
     r"(?i)(could not|cannot|unable to|failed to) (allocate|map segment)|out of memory|"
     r"can't start new thread|memory allocation (still )?failed"

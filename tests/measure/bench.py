@@ -21,6 +21,7 @@ from unittest import mock
 
 import mujoco
 
+from etot_cli.cli.memory import collect_seldom
 from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.control import physics_world
 from etot_cli.planning.result import SearchObserver
@@ -325,6 +326,7 @@ def main() -> int:
     options = parser.parse_args()
     tasks = options.tasks.split(",")
     good = True
+    collect_seldom()  # as the program does at its start
     print(f"{platform.processor() or platform.machine()}, Python {platform.python_version()}, "
           f"MuJoCo {mujoco.__version__}")  # fmt: skip
     sections: tuple[tuple[str, Callable[[], tuple[str, bool]]], ...] = (
