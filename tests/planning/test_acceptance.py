@@ -48,6 +48,22 @@ OPENED = {"openness": {"top": 1.0}, "opened": {"top": True}}
         ("Put the spoon into the red cup.", {"spoon": {"inside": "blue_cup", "on": ()}}, False),
         ("Pick up the ball.", {"ball": {"in_hand": True, "on": ()}}, True),
         ("Pick up the ball.", {"spoon": {"in_hand": True, "on": ()}}, False),
+        # What is put somewhere and taken from there again leaves no trace.
+        (
+            "Put the ball in the red cup, then pick it up.",
+            {"ball": {"in_hand": True, "on": ()}},
+            True,
+        ),
+        (
+            "Put the ball and the spoon in the red cup. Then put the spoon in the blue cup.",
+            {"ball": {"inside": "red_cup", "on": ()}, "spoon": {"inside": "blue_cup", "on": ()}},
+            True,
+        ),
+        (
+            "Put the ball and the spoon in the red cup. Then put the spoon in the blue cup.",
+            {"spoon": {"inside": "blue_cup", "on": ()}},
+            False,
+        ),
         # Beyond what is read here, nothing can be said.
         ("Make the kitchen look inviting.", {}, True),
     ],

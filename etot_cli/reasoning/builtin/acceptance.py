@@ -118,7 +118,7 @@ def _lasting(goal: Goal) -> Goal:
         return tuple(range(len(referents) - len(things), len(referents)))
 
     kept: list[Step] = []
-    parts: set[int] = set()
+    parts: set[object] = set()
     things: set[object] = set()
     for step in reversed(goal.steps):
         if isinstance(step, Put):
@@ -130,8 +130,9 @@ def _lasting(goal: Goal) -> Goal:
             things |= set() if step.aside else {moved[one] for one in last}
             continue
         later = parts if isinstance(step, Open | Close) else things
-        if step.what not in later:
-            later.add(step.what)
+        meant = _meant(referents[step.what], step.what)
+        if meant not in later:
+            later.add(meant)
             kept.append(step)
     return replace(goal, referents=tuple(referents), steps=tuple(reversed(kept)))
 

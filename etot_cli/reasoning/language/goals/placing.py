@@ -78,9 +78,11 @@ def _elsewhere(
         ReferenceProblem: it is open which thing is meant.
     """
     discourse, states = context.discourse, context.scene.states
-    (place, *more), texts = places, [discourse.referents[theme].text for theme in themes]
-    on_desk = place.where is not None and discourse.is_desk(place.where) and not place.beside
-    if more or not on_desk or place.relation is not Relation.ON:
+    texts = [discourse.referents[theme].text for theme in themes]
+    place = places[0] if len(places) == 1 else None
+    if place is None or place.where is None or place.beside or place.relation is not Relation.ON:
+        return {}
+    if not discourse.is_desk(place.where):
         return {}
     named = "|".join(map(re.escape, texts))
     named = rf"\b(?:{named}|it|them|both)\b"
