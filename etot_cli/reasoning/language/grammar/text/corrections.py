@@ -45,7 +45,7 @@ _OH = "(?:oh|ah|actually|well|hm+),? "
 _MARK = Expression(
     r"[\s,.!?;]{0,4}(?:"
     rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
-    r"|\b(?:i mean|i meant|or (?:rather|better|no)|scratch that|on second thoughts?)\b"
+    r"|\b(?:i mean|i meant|or rather|or better|or no|scratch that|on second thoughts?)\b"
     rf"|(?<=[,.!?;\n] )(?:{_OH})?(?:{_ALONE})(?=\s*[,.!?;\n])"
     r"|(?<=, )no(?= (?:the|my|your|in|on|into|onto|to) )"
     rf"|(?<=, )(?:sorry|actually|{_AGAIN})\b"
