@@ -186,10 +186,10 @@ _BROUGHT = """
 """ + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
 BROUGHT = _BROUGHT
 """What was taken from one place is then, to another one."""
-NOTHING_GOES = """
+NOTHING_GOES = f"""
     (nothing|no (thing|object|item)) (should|must|may|can|shall|is to|has to)
-    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move),
-    (nothing|no (thing|object|item)) (goes|belongs)
+    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move|end up|land|get),
+    [{ENSURE}] (nothing|no (thing|object|item)) (goes|belongs|ends up|lands|gets)
 """
 """Before where nothing more is to go."""
 _BEING = "standing|lying|sitting|located|resting"

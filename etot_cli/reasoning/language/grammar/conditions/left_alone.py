@@ -104,7 +104,7 @@ KEEP_STILL = either(
             sequence("leav(e|ing), keep[ing]", THINGS),
             sequence(optional("let"), THINGS, verbs.LEFT_THERE),
         ),
-        "[exactly|just|right] where (it is|they are)",
+        manner.WHERE_IT_IS,
         some(MODIFIER, least=1, most=2),
         build=left_where_it_is,
     ),
