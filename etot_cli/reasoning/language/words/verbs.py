@@ -83,7 +83,7 @@ DISTRIBUTE = """
 """
 SEPARATE = "separat(e|ing), split[ting] [up], divid(e|ing) [up]"
 """Before things of which it is told next where each of them goes."""
-TIDIED = "(put|tidied|stored|stowed|packed|cleared) away, tidied up"
+TIDIED = "(put|tidied|stored|packed|cleared) away, stowed [away], tidied up"
 PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go of"
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
 TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
@@ -180,7 +180,7 @@ NOTHING_MAY_BE = """
     there (may|can) (not|no longer) be anything [left]
 """
 _BROUGHT = """
-    put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
+    put|placed|moved|brought|taken|took|set|stored|stowed|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|
     set out|laid out|lowered|collected|gathered
 """ + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
