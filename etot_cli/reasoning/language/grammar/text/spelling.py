@@ -53,16 +53,19 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     """
     if len(word) < 4 or not word.isalpha():
         return None
-    from rapidfuzz.distance import OSA  # needed where a word is strange, and not before (20 ms)
-
     allowed = 2 if len(word) >= 8 else 1
-    near = {
-        item: OSA.distance(word, item)
+    alike = [
+        item
         for item in known
         if item[:1] == word[:1] and len(item) >= 3 and abs(len(item) - len(word)) <= allowed
         if word.endswith("s") or singular(item) == item
-    }
-    least = min(near.values(), default=allowed + 1)
+    ]
+    if not alike:
+        return None
+    from rapidfuzz.distance import OSA  # needed where a word is strange, and not before (20 ms)
+
+    near = {item: OSA.distance(word, item) for item in alike}
+    least = min(near.values())
     close = [item for item, count in near.items() if count == least]
     only = close[0] if len(close) == 1 and least <= allowed else ""
     return only if len(only) >= 4 and not is_english(word) else None
