@@ -134,11 +134,12 @@ HELD = "held"
 """The state of what is there."""
 WHERE_IT_IS = """
     [standing|lying|sitting] [exactly|precisely|right|just] where (it|they|he|she)
-    ((is|are|was|were) [standing|lying|sitting] [right] [now]|stand[s] [now]|lie[s] [now]|
+    ((is|are) [standing|lying|sitting] [right] [now]|stand[s] [now]|lie[s] [now]|
     sit[s] [now])
 """
 AS_IT_IS = f"""
     {WHERE_IT_IS},
+    [standing|lying|sitting] [exactly|precisely|right|just] where (it|they|he|she) (was|were),
     [exactly|precisely|just] as (it|they) (is|are) [right] [now],
     [exactly|precisely|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched,
     unchanged,
