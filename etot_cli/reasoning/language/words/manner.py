@@ -135,18 +135,24 @@ THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, gripper, the robot, 
 """What holds it."""
 HELD = "held"
 """The state of what is there."""
-AS_IT_IS = """
-    [standing|lying|sitting] [exactly|precisely|right|just] where
-    (it|they|he|she) (is|are|was|were),
+WHERE_IT_IS = """
+    [standing|lying|sitting] [exactly|precisely|right|just] where (it|they|he|she)
+    ((is|are) [standing|lying|sitting] [right] [now]|stand[s] [now]|lie[s] [now]|
+    sit[s] [now])
+"""
+AS_IT_IS = f"""
+    {WHERE_IT_IS},
+    [standing|lying|sitting] [exactly|precisely|right|just] where (it|they|he|she) (was|were),
     [exactly|precisely|just] as (it|they) (is|are) [right] [now],
     [exactly|precisely|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched,
     unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
-UNTOUCHED = """
+UNTOUCHED = f"""
     [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
-    [left|kept|staying|remaining] [standing|lying|sitting] [exactly|precisely|just|right]
-    (as|where|like) (it|they) (is|are) [now], (staying|remaining) (put|in place|there),
+    [left|kept|staying|remaining] ({WHERE_IT_IS}),
+    [left|kept|staying|remaining] [exactly|precisely|just|right] (as|like) (it|they) (is|are) [now],
+    (staying|remaining) (put|in place|there),
     [left|kept] as is, left alone
 """
 """Behind what is to stay so, in a headline."""

@@ -53,7 +53,8 @@ WITHOUT_MEANING = f"""
     (whichever|whatever) [one|of (them|these|the two)]
     you (like|want|prefer|choose|fancy|can reach) [best], [it is] your choice,
     [it is|that is] up to you, you (choose|decide|pick) [which [one]], the choice is yours,
-    wherever (you (like|want)|there is [some] (room|space)|it fits),
+    wherever (you (like|want)|there is [some] (room|space)|it fits), (it fits|they fit) (in|into),
+    (can|will) (take|hold|accommodate) (it|them), has [enough] (room|space) for (it|them),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,

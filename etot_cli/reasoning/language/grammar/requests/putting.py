@@ -116,7 +116,7 @@ BACK = (Destination(Toward.HOME),)
 
 _SO_THAT_IT_IS = sequence(
     OPTIONAL_COMMA,
-    small_words.SO_THAT,
+    f"{small_words.SO_THAT}, until, till",
     either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
 )
 
