@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     MoveClause,
     PickClause,
     PutClause,
+    PutGroup,
     RemoveClause,
     put_to,
 )
@@ -58,7 +59,9 @@ SO = sequence(
     OPEN_OR_CLOSED,
     build=lambda things, word: MoveClause(things, word == "open"),
 )
-_TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)"
+_TAKEN_BY_THEN = (
+    f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted|gone)"
+)
 _TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
 _NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
 """Not before what has been done with it next ("taken out and put on the tray")."""
@@ -116,7 +119,7 @@ _SO_BY_THEN = either(
     sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
     sequence(
         ALL_THINGS,
-        f"(is|are) (out|off), (is|are|has been|have been) ({_TAKEN_AWAY})",
+        f"(is|are) (out|off|gone), (is|are|has been|have been) ({_TAKEN_AWAY})",
         _NO_MORE,
         build=RemoveClause,
     ),
@@ -234,10 +237,32 @@ def once_done(earlier: Reading, later: Reading) -> Reading:
     return (*earlier, *then_done(later))
 
 
+def _is_of_anything(reading: Reading) -> bool:
+    """Whether this is done with whatever it may be ("before you put anything in the box")."""
+    clause = reading[0].clause
+    put = clause.groups if isinstance(clause, PutClause) else (clause,)
+    return any(
+        np.determiner == "any" or np.words[-1:] in (("anything",), ("something",))
+        for item in put
+        if isinstance(item, PutGroup | MoveClause | PickClause | RemoveClause)
+        for np in item.things.phrases
+    )
+
+
+def ahead_of(later: Reading, done: Reading) -> Reading | None:
+    """What is done ahead of ``later``, which asks for nothing itself; None where it does."""
+    (first, *more) = done
+    if not _is_of_anything(later):
+        return None
+    return (replace(first, order=Order.FIRST) if first.order is Order.SAID else first, *more)
+
+
 def done_later(later: Reading, rest: Reading) -> Reading:
     """What is said ahead to come later, and the rest: after all of it, but for what needs open what
     is opened then ("before opening it, clear the tray, then put the pen in it").
     """
+    if done := ahead_of(later, rest):
+        return done
     opened = later[0].clause
     if isinstance(opened, MoveClause) and opened.opens:
         named = [{*np.words} for np in opened.things.phrases]
