@@ -142,7 +142,7 @@ def _has_nothing(*said: Any) -> Parser:
     """The same, said of the thing ("the tray has nothing on it")."""
     return sequence(
         *said,
-        "[left|lying|standing|sitting]",
+        silent(optional("left, lying, standing, sitting")),
         one_of(_IN_OR_ON),
         "it, them",
         silent(optional(small_words.ANY_MORE)),

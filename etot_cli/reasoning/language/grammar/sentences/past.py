@@ -36,8 +36,8 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     MoveClause,
     PickClause,
     PutClause,
-    PutGroup,
     RemoveClause,
+    ReorientClause,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -237,24 +237,35 @@ def once_done(earlier: Reading, later: Reading) -> Reading:
     return (*earlier, *then_done(later))
 
 
-def _is_of_anything(reading: Reading) -> bool:
-    """Whether this is done with whatever it may be ("before you put anything in the box")."""
-    clause = reading[0].clause
-    put = clause.groups if isinstance(clause, PutClause) else (clause,)
-    return any(
-        np.determiner == "any" or np.words[-1:] in (("anything",), ("something",))
-        for item in put
-        if isinstance(item, PutGroup | MoveClause | PickClause | RemoveClause)
-        for np in item.things.phrases
-    )
+def _done_with(clause: Clause) -> list[tuple[tuple[NounPhrase, ...], tuple[Destination, ...]]]:
+    """What something is done with, and where that goes."""
+    match clause:
+        case PutClause(groups=groups):
+            return [(group.things.phrases, group.destinations) for group in groups]
+        case EnsureClause(states=states):
+            return [(state.subjects, state.destinations) for state in states]
+        case MoveClause(things=things) | PickClause(things=things) | RemoveClause(things=things):
+            return [(things.phrases, ())]
+    return []
 
 
 def ahead_of(later: Reading, done: Reading) -> Reading | None:
-    """What is done ahead of ``later``, which asks for nothing itself; None where it does."""
-    (first, *more) = done
-    if not _is_of_anything(later):
+    """What is done before anything is done with whatever it may be, which itself asks for nothing
+    ("before you put anything in the box, open the drawer"); None where ``later`` asks for more.
+    """
+    (first, *more), (said, *_) = done, later
+    found = _done_with(said.clause)
+    if not any(
+        np.determiner == "any" or np.words[-1:] in (("anything",), ("something",))
+        for nps, _ in found
+        for np in nps
+    ):
         return None
-    return (replace(first, order=Order.FIRST) if first.order is Order.SAID else first, *more)
+    if first.order is Order.SAID:
+        first = replace(first, order=Order.FIRST)
+    places = tuple(np for _, where in found for at in where for np in at.targets if not np.pronoun)
+    named = replace(said, clause=ReorientClause(Things(places), only_named=True))
+    return (*((named,) if places else ()), first, *more)
 
 
 def done_later(later: Reading, rest: Reading) -> Reading:
