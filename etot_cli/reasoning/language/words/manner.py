@@ -35,7 +35,10 @@ STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
     loose, outside, unused, round, dark
 """
-_RIGHT_WAY_UP = "[the] right (way|side) up"
+_RIGHT_WAY_UP = """(
+    [the] right (way|side) up|[with] [the|its|their] (mouth[s]|opening[s]|open (end|side|top)[s])
+    [facing|pointing] (up|upwards|upward)
+)"""
 UPRIGHT = f"upright, up, on (end|its end|their ends), vertical, vertically, {_RIGHT_WAY_UP}"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),

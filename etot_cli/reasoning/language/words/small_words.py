@@ -177,6 +177,7 @@ GREETINGS = f"""
     madam) ~comma, (quick|hurry [up]) ~comma,
     [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
     [hey|hello|hi|dear|yo] [my] [little|good|dear|clever] helper ~comma,
+    hand on heart, honestly, to be honest, in all honesty,
     hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),
     sorry to (bother|trouble|disturb|interrupt) you [again],

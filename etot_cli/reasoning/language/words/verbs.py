@@ -160,13 +160,15 @@ ARRANGE = """
     lay|prepare|sort)
 """
 NOTHING_IS_SO = """
-    nothing (is|lies|stands|sits|remains) [left|lying|standing|sitting], there is nothing [left],
+    nothing (is|lies|stands|sits|remains) [left] [lying|standing|sitting],
+    there is nothing [left],
     there (is not|is no longer) anything [left]
 """
 """Before where there is to be nothing, as was said before."""
 NOTHING_IS = f"""
     (nothing (should|must|is to|has to) (be|stay|remain|stand|lie|sit)|
-    (i|we) (do not want anything|want nothing) [to be]) [left|lying|standing|sitting],
+    (i|we) (do not want anything|want nothing) [to be])
+    [left] [lying|standing|sitting],
     (nothing (should|must|may|can|is to|has to)|(ensure|make sure|see to it) [that] nothing)
     (stay|remain|stays|remains) [left],
     there (should|must|has to|needs to|is to) be nothing [left],
@@ -176,7 +178,7 @@ NOTHING_IS = f"""
 """
 """Before where there is to be nothing."""
 NOTHING_MAY_BE = """
-    nothing (may|can) (be|stay|remain|stand|lie|sit) [left|lying|standing|sitting],
+    nothing (may|can) (be|stay|remain|stand|lie|sit) [left] [lying|standing|sitting],
     there (may|can) (not|no longer) be anything [left]
 """
 _BROUGHT = """
