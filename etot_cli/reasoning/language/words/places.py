@@ -241,6 +241,8 @@ ITS_SIDE: dict[Nearby, str] = {
     Nearby.LEFT: "(to|on|at) its left [side|hand side]",
     Nearby.RIGHT: "(to|on|at) its right [side|hand side]",
 }
+IN_FRONT = "in front"
+"""Alone it is in front of what another thing goes next to."""
 ACROSS = "(to|on|at) the (other|opposite) side of"
 """Where something is not yet."""
 _AT = "on|at|to|in|onto|towards|near|along"

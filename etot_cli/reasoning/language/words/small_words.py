@@ -29,6 +29,7 @@ WITHOUT_MEANING = f"""
     [pretty] please, kindly, ta,
     ~comma there is a ((good|dear|clever) (boy|girl|lad|lass|chap|robot)|dear|love|darling),
     [very|really] (carefully|gently|safely|cautiously),
+    while you are (at|about) it,
     also, too, as well, just, simply, now, though, of course, obviously, naturally, evidently,
     needless to say, somehow [or other], in some way [or other], one way or another,
     again,
@@ -50,7 +51,7 @@ WITHOUT_MEANING = f"""
     [of] your [own] (choice|choosing)),
     (any|whichever) ({_HOLDING}), with (any|whichever|whatever) ({_HOLDING}),
     ({_HOLDING}) (of your [own] (choice|choosing)|as you (like|please|wish|prefer)),
-    (whichever|whatever) [one|of (them|these|the two)]
+    (whichever|whatever) [one|ones|of (them|these|the two)]
     you (like|want|prefer|choose|fancy|can reach) [best], [it is] your choice,
     [it is|that is] up to you, you (choose|decide|pick) [which [one]], the choice is yours,
     wherever (you (like|want)|there is [some] (room|space)|it fits), (it fits|they fit) (in|into),

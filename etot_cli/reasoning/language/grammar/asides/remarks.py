@@ -65,7 +65,7 @@ _HAPPENED = Expression(
     r"(?:cold|cool|warm|hot|chilled|fresh|clean|neat|better|best)(?= anyway|$)"
     r"|^(?:comes?|gets?) (?:back |home )+(?:late|early|soon|tired|hungry)\b"
     r"|^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
-    r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?)\b"
+    r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?|will not (?:bend|let (?:me|us)))\b"
     r"|^(?:am going to need|"
     r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
     rf"|^do not want (?:any(?:one|body|thing) |it |them )?(?=to (?:{_MISHAPS})\b)"
@@ -157,7 +157,8 @@ _IN_GENERAL = Expression(
     r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b"
 )
 _IN_PASSING = Expression(
-    r"(?:it|they) (?:is|are) (?:(?:still|quite|very|really|rather|almost|too) )?full"
+    r"(?:it|they) (?:is|are) "
+    r"(?:(?:still|quite|very|really|rather|almost|too|nearly|half) )*full"
     r"(?: of \w+| to the (?:brim|rim|top))?"
     r"|(?:it|they) (?:is|are) (?:going|about) to (?:be|get) (?P<done>\w+(?:ed|t|n))"
     r"(?: (?:today|tomorrow|tonight|soon|later|next week|this week|in a (?:minute|moment)))?"
@@ -176,7 +177,9 @@ _PREDICATE = Expression(
     r"(?: (?:still|just|already|always|all|so|very|too|really|a bit|far|badly|quite|less|more))*"
     r"(?= |$)"
 )
-_A_BIT = Expression(r" (?:a (?:little|bit|lot)|quite a bit|by now)(?= |$)")
+_A_BIT = Expression(
+    r" (?:a (?:little|bit|lot)|quite a bit|by now|all the time|so often|every time)(?= |$)"
+)
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
 _TOO_BIG = Expression(
     r"^(?:is|are) (?:just |far |much |a bit |a little )*too \w+ "
@@ -199,6 +202,8 @@ _NO_PLACE = Expression(
     rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
+    r"|^(?:(?:always|constantly|often|just|only|easily) )*(?:roll|slide|slip|fall|tip|topple)s? "
+    r"(?:off|over|away|down|around|everywhere|out)(?: (?:again|easily|constantly))?$"
     rf"|^(?:is|are) (?:going|turning) (?:{TURNED})$"
     rf"|^{_NOT_STAYING}$"
     r"|^(?:must|should) (?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"

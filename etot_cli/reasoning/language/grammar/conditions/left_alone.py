@@ -122,7 +122,9 @@ KEEP_STILL = either(
         either(
             sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, {_THERE}"),
             sequence(
-                f"leav(e|ing), keep[ing], {verbs.IGNORE}, you can leave", THINGS, optional("out")
+                f"leav(e|ing) [me|us], keep[ing], {verbs.IGNORE}, you can leave",
+                THINGS,
+                optional("out"),
             ),
         ),
         build=lambda things: AvoidClause(Avoid.MOVE, things, as_it_is=True, far_fetched=2),

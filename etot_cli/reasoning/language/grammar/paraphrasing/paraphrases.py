@@ -121,7 +121,9 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         ".",
     ),
     (
-        r"\bi need (it|them|this|that) (?=(?:in a|later|soon|tomorrow|tonight|again)\b)",
+        r"\bi need (it|them|this|that) "
+        r"(?=(?:in a|later|soon|tomorrow|tonight|again)\b"
+        r"|for (?:(?:my|our|the|a) )?\w+(?:[.,;!]|$))",
         r"i will need \1 ",
     ),
     (rf"^({ASKED}leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),

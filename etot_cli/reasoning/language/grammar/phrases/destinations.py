@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     after,
     alternatives,
+    not_ahead,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.abreast import ABREAST, ABREAST_SO, EACH_OTHER
@@ -206,6 +207,13 @@ OVER = sequence(
 
 
 _to = sequence(places.TO, TARGETS, build=_toward(Toward.TO))
+_in_front = sequence(
+    places.IN_FRONT,
+    not_ahead("of"),
+    build=lambda: Destination(
+        Toward.TO, (NounPhrase("the", ("front",), text=places.IN_FRONT),), places.IN_FRONT
+    ),
+)
 _free = either(
     sequence(
         f"(to|in|into|at|on|onto) ({places.FREE_SPOT}) (on [top of]|of)",
@@ -239,6 +247,7 @@ _place = either(
     _AT_END,
     OVER,
     _to,
+    _in_front,
     _free,
     _top_of,
     AT_LEVEL,

@@ -109,11 +109,14 @@ def told_beside(group: PutGroup, marks: Sequence[Beside]) -> PutGroup:
     elif first.toward is Toward.TO:
         named = first.targets[0].modifiers  # "to the left of D" has its own
         side = None if named else _SIDES.get(first.targets[0].words)
+        side = Nearby.FRONT if first.word == places.IN_FRONT else side
     else:
         marks = [m for m in marks if m.relation in (*_REGIONS, *_REGIONS.values())]
     if side is None or more or len(marks) != 1 or first.targets[1:]:
         return group
-    relation = side if marks[0].relation.landmarks else _REGIONS.get(side, side)
+    relation = side if marks[0].relation.landmarks else _REGIONS.get(side)
+    if relation is None:
+        return group
     beside = (replace(marks[0], relation=relation),)
     return replace(group, destinations=(Destination(Toward.BESIDE, beside=beside),))
 

@@ -122,15 +122,31 @@ def _to_be_bare(
     return emptied(things, held=at, part=part), *stays
 
 
+_IN_OR_ON: dict[tuple[Prep | None, tuple[str, ...]], str] = {
+    (None, ()): "in, inside", (Prep.ON, ()): "on",
+}  # fmt: skip
+
+
 def _nothing_there(said: str) -> Parser:
     """Where there is nothing, behind words for that."""
-    places = {(None, ()): "in, inside", (Prep.ON, ()): "on", (Prep.ON, _TOP): "on [the] top of"}
     return sequence(
         said,
-        one_of(places),
+        one_of({**_IN_OR_ON, (Prep.ON, _TOP): "on [the] top of"}),
         ALL_THINGS,
         silent(optional(small_words.ANY_MORE)),
         build=lambda at, things: (*at, things),
+    )
+
+
+def _has_nothing(*said: Any) -> Parser:
+    """The same, said of the thing ("the tray has nothing on it")."""
+    return sequence(
+        *said,
+        silent(optional("left, lying, standing, sitting")),
+        one_of(_IN_OR_ON),
+        "it, them",
+        silent(optional(small_words.ANY_MORE)),
+        build=lambda things, at: (*at, things),
     )
 
 
@@ -162,7 +178,18 @@ TO_BE_EMPTY = either(
         ),
         to_be_empty,
     ),
-    variants(_nothing_there(verbs.NOTHING_IS), _to_be_bare),
+    variants(
+        either(
+            _nothing_there(verbs.NOTHING_IS),
+            _has_nothing(
+                ALL_THINGS, "(must|should|shall|has to|have to|is to|are to) have nothing"
+            ),
+            _has_nothing(
+                either(verbs.ENSURE, verbs.WANTED), ALL_THINGS, "(has|have|with|to have) nothing"
+            ),
+        ),
+        _to_be_bare,
+    ),
     variants(_nothing_there(verbs.NOTHING_MAY_BE), partial(_to_be_bare, negated=True)),
 )
 """What is said of how things are to be, rather than of what is to be done."""
@@ -246,10 +273,13 @@ IS_EMPTY = variants(
     to_be_empty,
 )
 """What something is done for ("so that the box is empty")."""
-NOTHING_THERE = variants(_nothing_there(verbs.NOTHING_IS_SO), _to_be_bare)
+_NOTHING_IS_THERE = either(
+    _nothing_there(verbs.NOTHING_IS_SO), _has_nothing(ALL_THINGS, "(has|have) nothing")
+)
+NOTHING_THERE = variants(_NOTHING_IS_THERE, _to_be_bare)
 """The same, said of the place; it stays so where it is so already."""
 NOTHING_LEFT_THERE = valued(
-    _nothing_there(verbs.NOTHING_IS_SO),
+    _NOTHING_IS_THERE,
     lambda found: emptied(found[2], held=found[0], part=found[1]),
 )
 """What has been taken from there by then ("once there is nothing left in the box")."""

@@ -70,6 +70,7 @@ from etot_cli.reasoning.language.grammar.sentences.past import (
     ALL_LATER,
     EARLIER,
     LATER,
+    ahead_of,
     done_later,
     once_done,
     then_done,
@@ -384,6 +385,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             done = _maybe_denied(done, clause)
         if said == "before" and _is_denied(before):
             return None  # "do not put it there before …" rather asks for both
+        if said == "before" and (ahead := ahead_of(clause, done)):
+            done = ahead
+            continue
         if said in ("which", "which in turn"):
             named = named_last if said == "which" else held_by
             goes_there = named(before, clause[0].clause)

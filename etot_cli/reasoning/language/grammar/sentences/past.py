@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
     PutClause,
     RemoveClause,
+    ReorientClause,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -58,7 +59,9 @@ SO = sequence(
     OPEN_OR_CLOSED,
     build=lambda things, word: MoveClause(things, word == "open"),
 )
-_TAKEN_BY_THEN = f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted)"
+_TAKEN_BY_THEN = (
+    f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted|gone)"
+)
 _TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
 _NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
 """Not before what has been done with it next ("taken out and put on the tray")."""
@@ -116,7 +119,7 @@ _SO_BY_THEN = either(
     sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
     sequence(
         ALL_THINGS,
-        f"(is|are) (out|off), (is|are|has been|have been) ({_TAKEN_AWAY})",
+        f"(is|are) (out|off|gone), (is|are|has been|have been) ({_TAKEN_AWAY})",
         _NO_MORE,
         build=RemoveClause,
     ),
@@ -234,10 +237,43 @@ def once_done(earlier: Reading, later: Reading) -> Reading:
     return (*earlier, *then_done(later))
 
 
+def _done_with(clause: Clause) -> list[tuple[tuple[NounPhrase, ...], tuple[Destination, ...]]]:
+    """What something is done with, and where that goes."""
+    match clause:
+        case PutClause(groups=groups):
+            return [(group.things.phrases, group.destinations) for group in groups]
+        case EnsureClause(states=states):
+            return [(state.subjects, state.destinations) for state in states]
+        case MoveClause(things=things) | PickClause(things=things) | RemoveClause(things=things):
+            return [(things.phrases, ())]
+    return []
+
+
+def ahead_of(later: Reading, done: Reading) -> Reading | None:
+    """What is done before anything is done with whatever it may be, which itself asks for nothing
+    ("before you put anything in the box, open the drawer"); None where ``later`` asks for more.
+    """
+    (first, *more), (said, *_) = done, later
+    found = _done_with(said.clause)
+    if not any(
+        np.determiner == "any" or np.words[-1:] in (("anything",), ("something",))
+        for nps, _ in found
+        for np in nps
+    ):
+        return None
+    if first.order is Order.SAID:
+        first = replace(first, order=Order.FIRST)
+    places = tuple(np for _, where in found for at in where for np in at.targets if not np.pronoun)
+    named = replace(said, clause=ReorientClause(Things(places), only_named=True))
+    return (*((named,) if places else ()), first, *more)
+
+
 def done_later(later: Reading, rest: Reading) -> Reading:
     """What is said ahead to come later, and the rest: after all of it, but for what needs open what
     is opened then ("before opening it, clear the tray, then put the pen in it").
     """
+    if done := ahead_of(later, rest):
+        return done
     opened = later[0].clause
     if isinstance(opened, MoveClause) and opened.opens:
         named = [{*np.words} for np in opened.things.phrases]

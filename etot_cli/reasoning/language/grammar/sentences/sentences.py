@@ -58,12 +58,14 @@ from etot_cli.reasoning.language.grammar.sentences.topics import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
+    Clause,
     EnsureClause,
     PutClause,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import State
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, State
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION
 from etot_cli.reasoning.language.words import manner, small_words
+from etot_cli.reasoning.language.words.places import Prep
 
 
 def _verbless(
@@ -78,8 +80,17 @@ def _verbless(
         return None
     if order is not Order.SAID:
         first = (replace(first[0], order=order, far_fetched=far_fetched),)
+    elif more and isinstance(more[0][1][0].clause, EnsureClause) and _leaves_out(clause):
+        # "Everything on the desk except the cup and the can goes in the box"
+        first = (replace(first[0], far_fetched=1),)
     done = chained(first, more)
     return None if done is None else sum(avoided, done)
+
+
+def _leaves_out(clause: Clause) -> bool:
+    """Whether something is left out of what is put somewhere."""
+    groups = clause.groups if isinstance(clause, PutClause) else ()
+    return any(isinstance(item, Modifier) and item.prep is Prep.EXCEPT for item in nodes(groups))
 
 
 UNORDERED = sequence(LEAD, build=lambda orders: None if orders else NOTHING)

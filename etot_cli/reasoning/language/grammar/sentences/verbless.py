@@ -7,7 +7,9 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    optional,
     sequence,
+    silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
@@ -92,7 +94,14 @@ VERBLESS = either(
         build=lambda things, *moved: PutClause((brought(things, *moved),)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=put_down),
-    sequence(FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
+    sequence(
+        FIRST_THEN,
+        silent(optional(either(COMMA, COLON))),
+        silent(optional("both, all")),
+        DESTINATIONS,
+        silent(optional("with (them|both) [of them]")),
+        build=put_in_turn,
+    ),
     sequence(
         NP_LIST,
         RESPECTIVE_PLACES,
