@@ -88,6 +88,8 @@ BOTTOM_UP = """
     starting (with|at|from) the bottom,
     [in this order] from bottom to top
 """
+IN_THE_ORDER = "in (the|this) [following] order [of], [and] in the [following] sequence [of]"
+"""Before what is named in the order of a stack."""
 TOP_DOWN = """
     in (this|that) order from (top to bottom|the top down), [from the] top (first|down),
     from (the top|top) to bottom, from top to the bottom
