@@ -7,11 +7,11 @@ from etot_cli.reasoning.language.words.verbs import REORIENTED
 _TURNED = REORIENTED.replace(",", "|")
 _SWUNG = "pulled|pushed|slid|swung|eased|drawn|rolled|nudged"
 IS_OPEN = f"""
-    [still] [{_SWUNG}|prised|flung|tugged|standing] [wide|all the way|fully|completely] open
+    [still|already] [{_SWUNG}|prised|flung|tugged|standing] [wide|all the way|fully|completely] open
 """
 OPEN_STATE = f"{IS_OPEN}, opened [up]"
 CLOSED_STATE = f"""
-    [still] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight] (closed|shut)
+    [still|already] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight] (closed|shut)
     [behind (it|them)|tight], closed up, (pushed|slid|shoved|eased) [back] (in|to|home)
 """
 TO = "[back] (to|home) [again]"
@@ -142,6 +142,8 @@ AS_IT_IS = """
     unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
+AS_NOW = "[~comma] [exactly|just] (as|like|the way) (it|they) (is|are) [now]"
+"""Behind a state that things have."""
 UNTOUCHED = """
     [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
     [left|kept|staying|remaining] [standing|lying|sitting] [exactly|precisely|just|right]

@@ -291,9 +291,23 @@ def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
     return Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps))) if told else None
 
 
+def _that_one(the: str, np: NounPhrase) -> Modifier | None:
+    """That things are a certain one of their kind ("neither of them may be the red one")."""
+    said = replace(np, determiner=the, text=f"{the} {np.text}")
+    return None if np.determiner else Modifier(Prep.EXCEPT, (_one_of_them(said),), denied=True)
+
+
+_MAY_BE = "(may|can|should|must|shall|is to|are to) be"
 NONE_OF_THEM = sequence(
-    "[but|and] (neither [one]|none|not one) of (them|which|these|those) [is|are|being]",
-    either(PLAIN_MODIFIER, CONTENTS, QUALITY, _none_of),
+    f"[but|and] (neither [one]|none|not one) of (them|which|these|those) [is|are|being|{_MAY_BE}],"
+    f" [but|and] neither [one] {_MAY_BE}",
+    either(
+        PLAIN_MODIFIER,
+        CONTENTS,
+        QUALITY,
+        _none_of,
+        sequence(phrase("the"), noun_phrase, build=_that_one),
+    ),
     build=denied,
 )
 """Behind several things, what is true of none of them."""
@@ -363,7 +377,8 @@ _modifier = either(
     sequence(nouns.RELATIVE, DESCRIBED),
     sequence(
         # "The cup that is standing there"
-        nouns.RELATIVE,
+        either(nouns.RELATIVE, "already"),
+        optional("up, down, over, in, on"),
         "there",
         build=lambda: Modifier(Prep.FROM, (NounPhrase(pronoun="it", text="there"),)),
     ),
