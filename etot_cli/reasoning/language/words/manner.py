@@ -204,7 +204,12 @@ IN_THIS_ORDER = """
     one (by one|after the other) in this order
 """
 _UPRIGHT = f"(upright|vertical|vertically|on (end|its end)|{_RIGHT_WAY_UP})"
-ERECT = f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation)"
+_MOUTH_UP = """
+    [with] [its|their|the] (opening|mouth|open (end|side|top)) [facing|pointing|looking|turned]
+    (up|upward|upwards)
+"""
+"""Said of a vessel that stands."""
+ERECT = f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation), {_MOUTH_UP}"
 _SO = "so [that]|such that|in such a way that"
 STANDS = f"""
     ({_SO}) (it|they) [all|both|each] (stands|stand|is|are) [all|both|each] [standing]
