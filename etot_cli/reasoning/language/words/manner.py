@@ -11,8 +11,9 @@ IS_OPEN = f"""
 """
 OPEN_STATE = f"{IS_OPEN}, opened [up]"
 CLOSED_STATE = f"""
-    [still|already] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight] (closed|shut)
-    [behind (it|them)|tight], closed up, (pushed|slid|shoved|eased) [back] (in|to|home)
+    [still|already] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight]
+    (closed|shut) [behind (it|them)|tight], closed up,
+    (pushed|slid|shoved|eased) [back] (in|to|home)
 """
 TO = "[back] (to|home) [again]"
 """As doors are pushed when they are closed."""
@@ -209,7 +210,9 @@ _MOUTH_UP = """
     (up|upward|upwards)
 """
 """Said of a vessel that stands."""
-ERECT = f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation), {_MOUTH_UP}"
+ERECT = (
+    f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation), {_MOUTH_UP}"
+)
 _SO = "so [that]|such that|in such a way that"
 STANDS = f"""
     ({_SO}) (it|they) [all|both|each] (stands|stand|is|are) [all|both|each] [standing]
