@@ -219,9 +219,13 @@ def _of_another_color(
     context: Context, thing: Thing, among: Sequence[Thing], group: PutGroup
 ) -> Resolved:
     """Those of some places that have not the colour of a thing; "the" one has to be one."""
-    (target,) = group.destinations[0].targets
+    (target,), scene = group.destinations[0].targets, context.scene
     own, colors = context.phrases.colors_of(thing), context.phrases.colors_of
-    found = [item for item in among if own and colors(item) and not own & colors(item)]
+    found = [
+        item
+        for item in among  # where it is by now may be meant as well by what is "another" colour
+        if own and colors(item) and not own & colors(item) and not touches(thing, item, scene)
+    ]
     if not found or (len(found) > 1 and quantity_of(target.determiner).definite):
         names = " and ".join(item.name for item in found) or "none of them"
         raise ReferenceProblem(target.text, f"{names}: of another colour than {thing.name}", 3)
