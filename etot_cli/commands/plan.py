@@ -142,9 +142,7 @@ def plan_task(
                 limits=options.limits,
                 without=options.without,
                 observer=observer,
-                # A model may propose anything; the built-in reasoner works from the instruction.
-                check=session is not None,
-                foresee=session is None,
+                costless=session is None,
             )
         if (options.worlds or task.worlds) > 1 and result.final is not None:
             with watch.phase("trials"):

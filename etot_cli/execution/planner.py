@@ -49,7 +49,9 @@ class TreePlanner:
                 self.scene, seed=self.seed, jobs=1, worlds=1, record=False
             )
         self._simulator.begin_from(start, scene)
-        return planned_by(search(asked, self._simulator, BuiltinReasoner(), limits=self.limits))
+        reasoner = BuiltinReasoner()
+        found = search(asked, self._simulator, reasoner, limits=self.limits, costless=True)
+        return planned_by(found)
 
     def close(self) -> None:
         """Ends worker processes; idempotent."""

@@ -74,11 +74,16 @@ class Findings:
         """What happened at a node that was judged to have failed."""
         return self._failures[node.id]
 
+    def scenes(self, node: PlanNode) -> tuple[SceneState, ...]:
+        """What the actions up to a node lead through, from the root on."""
+        assert self._root_scene is not None  # the root was there before any node
+        return self._root_scene, *(self.rollouts[one.id].record.after for one in node.path)
+
     def offer(self, node: PlanNode) -> None:
         """[extractPath] A plan was found; it is kept when it survives in more worlds."""
-        ends = [(each.action, self.rollouts[each.id].record.after) for each in node.path]
-        final = ends[-1][1]
-        if not self.does_it(node.actions, final, undone(ends, final)):
+        _, *after = self.scenes(node)
+        ends = list(zip(node.actions, after, strict=True))
+        if not self.does_it(node.actions, after[-1], undone(ends, after[-1])):
             return
         if self.best is None or len(self._alive(node)) > len(self._alive(self.best)):
             self.best = node

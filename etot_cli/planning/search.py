@@ -11,6 +11,8 @@ from __future__ import annotations
 import time
 from collections import deque
 from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
 from itertools import islice
 
 from etot_cli.control.simulated import Simulator
@@ -54,8 +56,7 @@ def search(
     limits: Limits | None = None,
     without: frozenset[Ablation] = frozenset(),
     observer: SearchObserver | None = None,
-    check: bool = False,
-    foresee: bool = False,
+    costless: bool = False,
 ) -> SearchResult:
     """Looks for a plan that works in the simulator from its first action to its last.
 
@@ -70,19 +71,17 @@ def search(
         limits: bounds; the defaults when None.
         without: mechanisms to switch off.
         observer: told of every step.
-        check: a plan also has to bring about what is asked for, as far as that can be read without
-            the reasoner; for reasoners that may propose what was not asked for. A formal goal is
-            always checked.
-        foresee: where jobs would be idle, the reasoner is asked how it would correct failures whose
-            turn has not come; for reasoners that cost nothing and answer the same twice. Changes
-            nothing but the time.
+        costless: the reasoner costs nothing and answers the same twice. So it is asked how it would
+            correct failures whose turn has not come, where jobs would be idle; that changes nothing
+            but the time. And where a plan works and is not what was asked for, it is asked what is
+            still to be done then.
 
     Raises:
         InstructionError: the assignment cannot be understood against the scene.
     """
     run = _Search(
         assignment, simulator, reasoner, limits or Limits(), without, observer or SearchObserver(),
-        check=check, foresee=foresee,
+        costless=costless,
     )  # fmt: skip
     return run.result()
 
@@ -99,8 +98,7 @@ class _Search:
         without: frozenset[Ablation],
         observer: SearchObserver,
         *,
-        check: bool,
-        foresee: bool,
+        costless: bool,
     ) -> None:
         self._assignment = assignment
         self._simulator = simulator
@@ -115,14 +113,13 @@ class _Search:
         self._started = time.monotonic()
         seconds = limits.time_limit_s
         self._until_s = NEVER if seconds is None else self._started + seconds
-        ahead = self._foresee if foresee and Ablation.REFLECTIVE not in without else None
+        self._costless = costless and Ablation.REFLECTIVE not in without
+        ahead = self._foresee if self._costless else None
         self._lookahead = Lookahead(simulator, self._known.start_of, self._until_s, ahead)
         self._proposals: Iterator[Branch] = iter(())
         self._branches: list[Branch] = []
         self._untried: deque[Corrections] = deque()
         self._reflected: set[tuple[int, tuple[Action, ...]]] = set()
-        # What is beside something in the end is only seen then, and physics may undo what was so.
-        self._check = check or assignment.goal is not None
         self._limit: LimitKind | None = None
         self._cut: LimitKind | None = None
         self._stopped = ""
@@ -188,9 +185,9 @@ class _Search:
             self._known.judge(node, simulated)
             self._observer.judged(node)
             if node.status is NodeStatus.SUCCESS:
-                if node.end is not None:
-                    self._known.offer(node)
                 self._queue.extend(node.live_children)
+                if node.end is not None:
+                    self._offer(node)
             else:
                 self._revise(node)
 
@@ -199,8 +196,8 @@ class _Search:
         self._proposals = iter(self._reasoner.propose(self._assignment, scene))
         if Ablation.PRIORI in self._without:
             self._proposals = islice(self._proposals, 1)
-        if self._check:
-            self._known.check = check_of(self._assignment, scene)
+        # A model may propose anything. And what is beside something in the end is only seen then.
+        self._known.check = check_of(self._assignment, scene)
         self._propose()
         self._known.goal_holds = not self._branches and self._known.does_it((), scene)
 
@@ -313,7 +310,34 @@ class _Search:
             if not any(node in self._queue for node in merged):
                 self._queue.append(new)
         elif merged and merged[-1].status is NodeStatus.SUCCESS:
-            self._known.offer(merged[-1])  # a plan whose every step has succeeded
+            self._offer(merged[-1])  # a plan whose every step has succeeded
+
+    def _offer(self, node: PlanNode) -> None:
+        """[extractPath] Takes note of a plan; one that works and is not what was asked for goes on
+        with what is still to be done then, as a plan does that is made after a look at the scene.
+        """
+        self._known.offer(node)
+        assert node.end is not None  # otherwise it would be no plan
+        key = (node.id, node.actions)
+        if not self._costless or self._known.best is not None or key in self._reflected:
+            return
+        if node.end.revisions >= self._limits.revisions_per_branch:
+            self._cut = LimitKind.REVISIONS
+        elif len(self._reflected) >= self._limits.max_reflections:
+            self._cut = LimitKind.REFLECTIONS
+        else:
+            self._reflected.add(key)
+            self._known.statistics.reflections += 1
+            self._take(Corrections(node, node.end.revisions + 1, self._continued(node)))
+
+    def _continued(self, node: PlanNode) -> Iterator[Branch]:
+        """Plans that begin with one that works."""
+        *past, scene = self._known.scenes(node)
+        assignment = replace(self._assignment, past=(*self._assignment.past, *past))
+        # What cannot be done any more from there ends this way of doing it, and not the search.
+        with suppress(UnsatisfiableError):
+            for branch in self._reasoner.propose(assignment, scene):
+                yield Branch((*node.actions, *branch.actions), branch.reason)
 
     def _limit_reached(self) -> LimitKind | None:
         if self._known.statistics.nodes_evaluated >= self._limits.max_nodes:

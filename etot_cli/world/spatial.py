@@ -127,6 +127,17 @@ class Outline:
         outside = np.abs(self._local(points)) - np.array(self.half)
         return np.asarray(np.linalg.norm(np.maximum(outside, 0.0), axis=1))
 
+    def free_distance(self, other: Outline) -> float:
+        """How much is free between it and another [m], by the corners and centre of either."""
+        return min(
+            float(one.distance(np.array([*two._corners(), two.center])).min())
+            for one, two in ((self, other), (other, self))
+        )
+
+    def _corners(self) -> Vector:
+        signs = np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)])
+        return np.asarray(np.array(self.center) + (signs * np.array(self.half)) @ _axes(self.yaw))
+
     def border(self, points: Vector) -> Vector:
         """Distances (m, 2) of points (m, 2) inside it from the nearer border along each axis."""
         return np.asarray(np.array(self.half) - np.abs(self._local(points)))
@@ -158,6 +169,8 @@ def fits(
         area: outline of the surface on which it stands.
         forward: unit direction in which the viewer looks.
     """
+    if where.denied and where.relation is Nearby.AWAY:
+        return np.asarray(landmarks[0].distance(points) < NEAR)
     if where.denied:
         there = replace(where, denied=False)
         return ~fits(there, points, radius, landmarks, area, forward)
@@ -177,7 +190,8 @@ def fits(
         case Nearby.NEAR:
             return np.asarray(landmarks[0].distance(points) - radius <= NEAR)
         case Nearby.AWAY:
-            return np.asarray(landmarks[0].distance(points) - radius >= NEAR)
+            # However it is turned there, its corners are as far away.
+            return np.asarray(landmarks[0].distance(points) - math.sqrt(2) * radius >= NEAR)
         case Nearby.BETWEEN:
             return _between(points, landmarks[0], landmarks[1])
         case Nearby.BEYOND:
@@ -206,6 +220,9 @@ def holds(where: Whereabouts, name: str, scene: SceneState) -> bool:
     if where.relation is Nearby.LYING:
         return lies(scene.infos[name], state.quaternion) and not (state.in_hand or state.lost)
     outlines = [outline_of(landmark, scene) for landmark in where.landmarks]
+    if where.relation is Nearby.AWAY:
+        apart = outline_of(name, scene).free_distance(outlines[0]) >= NEAR
+        return apart is not where.denied
     surface = state.on[0].partition(".")[0] if state.on else DESK
     area = outline_of(surface if surface in scene.states else DESK, scene)
     point = np.array([state.position[:2]])

@@ -127,7 +127,7 @@ def _plan(made: Problem, task: Task, limit_s: float, tried: Tried) -> str:
         _, start = simulator.start()
         result = search(
             Assignment(task.instruction, task.goal), simulator, BuiltinReasoner(),
-            limits=Limits(time_limit_s=limit_s), check=True,
+            limits=Limits(time_limit_s=limit_s),
         )  # fmt: skip
     tried.plan = " ".join(str(action) for action in result.plan)
     failed = [node for node in result.tree if node.verdict and node.verdict.cause]

@@ -71,7 +71,7 @@ def random_search(seed: int, jobs: int, worlds: int) -> tuple[SearchResult, ToyS
     simulator = ToySimulator(rule, jobs=jobs, worlds=worlds, delay_s=0.001 if jobs > 1 else 0.0)
     result = search(
         Assignment("do it"), simulator, ToyReasoner(branches, revise), limits=Limits(max_nodes=60),
-        foresee=jobs > 1,
+        costless=jobs > 1,
     )  # fmt: skip
     simulator.close()
     return result, simulator
@@ -128,7 +128,7 @@ def test_what_corrects_a_failure_runs_before_the_failure_is_judged() -> None:
     for foresee in (False, True):
         simulator = SlowSimulator(rule, "a")
         reasoner = ToyReasoner(["a", "d b c"], revisions)
-        result = search(Assignment("do it"), simulator, reasoner, foresee=foresee)
+        result = search(Assignment("do it"), simulator, reasoner, costless=foresee)
         simulator.close()
         assert names(result.plan) == "a"
         assert len(result.tree) == 4, "what was foreseen is not in the tree"

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.planning.options import Ablation, Limits
 from etot_cli.planning.result import LimitKind, SearchObserver, SearchResult, SearchStatus
 from etot_cli.planning.search import search
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
-from etot_cli.world.state import CauseKind
+from etot_cli.skills.action import Action
+from etot_cli.specs.task import Condition
+from etot_cli.world.state import CauseKind, SceneState
 from tests.planning.fakes import (
     STEP_S,
     STEPS,
@@ -254,6 +259,65 @@ def test_other_errors_are_not_swallowed() -> None:
 
     with pytest.raises(TimeoutError, match="worker's own"):
         run(ToySimulator(broken), ToyReasoner(["a"]), limits=Limits(time_limit_s=60.0))
+
+
+class Held(ToySimulator):
+    """What an action is about is in the hand after it."""
+
+    def _simulate(self, state: StateToken, action: Action, delay: float) -> Simulated:
+        found = super()._simulate(state, action, delay)
+        return replace(found, outcomes=[self._held(one, action) for one in found.outcomes])
+
+    @staticmethod
+    def _held(outcome: WorldOutcome, action: Action) -> WorldOutcome:
+        after = outcome.record.after
+        states = {
+            name: replace(each, in_hand=name == action.target)
+            for name, each in after.states.items()
+        }
+        return replace(outcome, record=replace(outcome.record, after=replace(after, states=states)))
+
+
+class GoesOn(ToyReasoner):
+    """Proposes something else once something has been seen."""
+
+    def __init__(self, first: str, then: list[str]) -> None:
+        super().__init__([first])
+        self._then = [branch(text) for text in then]
+        self.past: list[int] = []
+
+    def propose(self, assignment: Assignment, scene: SceneState) -> list[Branch]:
+        self.past.append(len(assignment.past))
+        return self._then if assignment.past else self._branches
+
+
+GOAL = Assignment("do it", (Condition.model_validate({"in_hand": "cup"}),))
+
+
+def test_a_plan_that_works_and_is_not_what_was_asked_for_goes_on() -> None:
+    reasoner = GoesOn("a b", ["cup"])
+    result = search(GOAL, Held(fails()), reasoner, costless=True)
+    assert names(result.plan) == "a b cup"
+    assert reasoner.past == [0, 2], "asked once, by the scene behind what works"
+    assert result.statistics.reflections == 1
+    assert not result.doubts, "what the plan begins with is none"
+
+
+def test_a_plan_that_never_becomes_what_was_asked_for_ends() -> None:
+    limits = Limits(revisions_per_branch=3)
+    reasoner = GoesOn("a", ["b"])
+    result = search(GOAL, Held(fails()), reasoner, limits=limits, costless=True)
+    assert result.status is SearchStatus.LIMIT and result.limit is LimitKind.REVISIONS
+    assert result.plan == () and len(result.tree) == 4
+
+
+@pytest.mark.parametrize("without", [frozenset(), frozenset({Ablation.REFLECTIVE})])
+def test_a_model_is_not_asked_again_nor_is_anybody_without_reflection(
+    without: frozenset[Ablation],
+) -> None:
+    reasoner = GoesOn("a", ["cup"])
+    result = search(GOAL, Held(fails()), reasoner, without=without, costless=bool(without))
+    assert result.plan == () and reasoner.past == [0]
 
 
 def test_rollouts_of_the_plan_are_kept() -> None:

@@ -196,3 +196,30 @@ def test_of_two_that_change_places_each_is_moved_once(seed: int, tmp_path: Path)
     goal = [{"at": ["lamp", [0.42, 0.05]]}, {"right_of": ["block", "lamp"]}]
     plan = _planned(tmp_path, seed, goal, lamp=lamp, block=JIG | {"at": [0.42, 0.05]})
     assert len(plan) == 4, plan
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("at", [[0.22, -0.40], [0.30, -0.16]])
+def test_what_makes_way_stays_away_from_what_it_is_to_be_away_from(
+    at: list[float], seed: int, tmp_path: Path
+) -> None:
+    """The box is in the door's way, and the pen is away from it already or has to go, too."""
+    cabinet = {
+        "kind": "cabinet", "at": [0.62, 0.0], "yaw_deg": 180, "size": [0.20, 0.30, 0.22],
+        "door": {"open_deg": 90, "handle": {"vertical": True}},
+    }  # fmt: skip
+    objects = {
+        "cabinet": cabinet,
+        "box": {"kind": "box", "at": [0.32, -0.05], "size": [0.08, 0.06, 0.05], "mass": 0.1},
+        "pen": {"kind": "pen", "at": at, "diameter": 0.014, "length": 0.12, "mass": 0.02},
+    }
+    goal = [{"closed": "cabinet"}, {"away_from": ["pen", "box"]}]
+    noise = {"position_m": 0.005, "yaw_deg": 2}
+    task = {"name": "away", "scene": {"objects": objects, "variation": noise}, "goal": goal,
+            "success": goal}  # fmt: skip
+    options = PlanOptions(task=write(task, tmp_path), jobs=1, seed=seed, vary=True)
+    report = plan_task(options).report
+    assert report.status == SearchStatus.FEASIBLE.value, report.stopped
+    assert report.success is not None and report.success.holds
+    assert len(report.plan) == (3 if at[1] < -0.3 else 5), report.plan

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from etot_cli.specs.scene import Camera, Scene
-from etot_cli.world.spatial import Nearby, Outline, Whereabouts, fits, whereabouts
+from etot_cli.world.spatial import Nearby, Outline, Whereabouts, fits, outline_at, whereabouts
 from etot_cli.world.viewpoint import forward_of
 
 DESK = Outline((0.42, 0.0), (0.4, 0.6))
@@ -49,6 +49,37 @@ def test_beside_one_thing(
 ) -> None:
     assert check(relation, *inside, PLATE)
     assert not any(check(relation, *point, PLATE) for point in outside)
+
+
+PEN = (0.12, 0.014, 0.014)
+
+
+@pytest.mark.parametrize(("x", "free"), [(0.50, 0.203), (0.49, 0.193)])
+def test_each_is_as_far_away_from_the_other(x: float, free: float) -> None:
+    """However long they are along the other axis: the pen lies along the box's side."""
+    along = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
+    box = outline_at((0.20, 0.0, 0.2), (1.0, 0.0, 0.0, 0.0), (0.18, 0.06, 0.05))
+    pen = outline_at((x, 0.0, 0.2), along, PEN)
+    assert box.free_distance(pen) == pytest.approx(free, abs=1e-6)
+    assert pen.free_distance(box) == pytest.approx(free, abs=1e-6)
+    beside = outline_at((0.20, 0.035, 0.2), (1.0, 0.0, 0.0, 0.0), (0.30, 0.30, 0.05))
+    assert box.free_distance(beside) == 0.0
+
+
+@given(st.floats(-0.4, 0.4), st.floats(-0.4, 0.4), st.floats(0.0, math.pi), st.floats(0.0, math.pi))
+def test_where_it_fits_away_from_something_it_is_away_from_it(
+    x: float, y: float, yaw: float, other: float
+) -> None:
+    """However it comes to lie there."""
+
+    def turn(angle: float) -> tuple[float, float, float, float]:
+        return (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
+
+    where = Whereabouts(Nearby.AWAY, ("a",))
+    mark = outline_at((0.0, 0.0, 0.2), turn(other), (0.10, 0.05, 0.05))
+    radius = max(PEN[:2]) / 2
+    if fits(where, np.array([[x, y]]), radius, (mark,), DESK, ROBOT)[0]:
+        assert outline_at((x, y, 0.2), turn(yaw), PEN).free_distance(mark) >= 0.20
 
 
 def test_beyond_one_thing_that_is_between_it_and_the_other() -> None:

@@ -13,7 +13,7 @@ from etot_cli.world.state import SceneState
 class ModelThinking(VlmSession):
     """Implements :class:`etot_cli.benchmark.methods.thinking.Thinking` with one session."""
 
-    checked = True
+    costless = False
 
     def at_once(self, assignment: Assignment, scene: SceneState) -> Branch | None:
         """The model's plan from one look."""

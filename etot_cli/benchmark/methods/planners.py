@@ -62,7 +62,7 @@ class SearchPlanner:
             self.thinking.reasoner,
             limits=self.limits,
             without=self.without,
-            check=self.thinking.checked,
+            costless=self.thinking.costless,
         )
         if result.limit is LimitKind.SERVICE:
             raise ServiceError(result.stopped)

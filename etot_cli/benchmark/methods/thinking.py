@@ -22,8 +22,8 @@ class Thinking(Protocol):
         ...
 
     @property
-    def checked(self) -> bool:
-        """Whether plans are also held against the instruction, as it may propose anything."""
+    def costless(self) -> bool:
+        """Whether it costs nothing and answers the same twice."""
         ...
 
     @property
@@ -57,7 +57,7 @@ class Thinking(Protocol):
 class BuiltinThinking:
     """The built-in reasoner, which costs nothing."""
 
-    checked = False
+    costless = True
     rendering_s = 0.0
 
     def __init__(self) -> None:

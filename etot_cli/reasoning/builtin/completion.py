@@ -8,8 +8,9 @@ left behind of an opening whose use has come earlier is dropped.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 
 from etot_cli.reasoning.builtin.choices import address_of
 from etot_cli.reasoning.builtin.goal import Goal, Near, Open, Put, Relation, Thing, things_in
@@ -18,9 +19,10 @@ from etot_cli.reasoning.builtin.relations import container_address, is_open
 from etot_cli.reasoning.builtin.revision import Actions, purpose
 from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
+from etot_cli.reasoning.builtin.turning import turned
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
-from etot_cli.world.spatial import Whereabouts
+from etot_cli.world.spatial import Nearby, Whereabouts
 from etot_cli.world.state import DESK, SceneState, owner_of
 
 _Home = tuple[Relation, str, tuple[Whereabouts, ...]]
@@ -44,6 +46,7 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
     wanted = {name: _wanted_from_start(name, goals, start) for name in away}
     for name, put in away.items():
         kept = _as_wanted(kept, put, wanted[name])
+        kept = _located(kept, put, _apart_from(name, goals))
     revised = replace(revised, actions=kept)
     last = kept[-1]
     shut_too_early = last.verb is Verb.CLOSE and any(
@@ -99,8 +102,27 @@ def _as_wanted(actions: Actions, put: int, homes: Iterable[_Home]) -> Actions:
         anywhere = action.coming or all(one.relation.is_stance for one in where)
         if (relation, target) == (Relation.ON, action.target) and anywhere:
             kept = tuple(one for one in where if coming.isdisjoint(one.landmarks))
-            return (*actions[:put], replace(action, where=kept), *actions[put + 1 :])
+            return _located(actions, put, kept)
     return actions
+
+
+def _located(actions: Actions, put: int, where: Iterable[Whereabouts]) -> Actions:
+    """The branch with more said of where something is put."""
+    action = actions[put]
+    said = tuple(dict.fromkeys((*action.where, *where)))
+    return (*actions[:put], replace(action, where=said), *actions[put + 1 :])
+
+
+def _apart_from(name: str, goals: Iterable[Goal]) -> Iterator[Whereabouts]:
+    """What an object is to be away from, where a goal says that others are to be away from it."""
+    for goal in goals:
+        for step in (step for step in goal.steps if isinstance(step, Put)):
+            beside = (_whereabouts(near, goal) for place in step.places for near in place.beside)
+            apart = [one for one in beside if one.relation is Nearby.AWAY and not one.denied]
+            for index, where in product(step.what, apart):
+                options = goal.referents[index].options
+                for thing in options[0] if len(options) == 1 else ():
+                    yield from (there for mark, there in turned(thing.name, where) if mark == name)
 
 
 def _filled_elsewhere(name: str, actions: Sequence[Action], start: SceneState) -> list[_Home]:

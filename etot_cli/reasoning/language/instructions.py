@@ -67,7 +67,7 @@ _SWEEPING = word_set("other others rest else everything anything")
 _PUT = words_of((verbs.PUT, verbs.BRING))
 _WITHIN = word_set("in on into onto inside")
 """A heading by which things are put into or onto others says where, which is to be read."""
-_BUILT = words_of((verbs.BUILD,)) | {"on", "in", "onto"}
+_BUILT = words_of((verbs.BUILD,)) - {"them"} | {"on", "in", "onto"}
 """With "stack" they say what is to become of things."""
 _ALSO_VERBS = frozenset({"open", "please", "first", "empty", "free", "you"})
 """They begin a request, too, though things are told by them."""

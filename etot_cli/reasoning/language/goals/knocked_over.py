@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from etot_cli.reasoning.builtin.goal import Constraint, Keep, Put
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.stance import can_stand, reorient
 from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause, ReorientClause
-from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.spoken_of import are_several
+from etot_cli.reasoning.language.reference.pronouns.coreference import PLURAL_PRONOUNS
 from etot_cli.world.spatial import Nearby
 
 
@@ -21,6 +24,11 @@ def keep_it_standing(context: Context, clause: AvoidClause) -> bool:
     pronouns = clause.things is not None and all(np.pronoun for np in clause.things.phrases)
     if not (clause.over and pronouns and isinstance(step, Put)) or clause.things is None:
         return False
+    plural = any(np.pronoun in PLURAL_PRONOUNS for np in clause.things.phrases)
+    one = len(step.what) == 1 and not are_several(context.discourse, step.what[0])
+    if plural and one:
+        _keep_choice_standing(context, step, clause.things.text)
+        return True
     beside = {mark for place in step.places for near in place.beside for mark in near.landmarks}
     fall = [index for index in beside if can_stand(context, index)]
     moved = any(can_stand(context, index) for index in step.what)
@@ -37,6 +45,20 @@ def keep_it_standing(context: Context, clause: AvoidClause) -> bool:
         raise AmbiguousReference(text, [referents[i].text for i in (*step.what, *fall)])
     reorient(context, ReorientClause(clause.things, Nearby.UPRIGHT, meanwhile=True))
     return True
+
+
+def _keep_choice_standing(context: Context, step: Put, text: str) -> None:
+    """After "put the pen into either cup" what "they" are that must not fall over: the cups.
+
+    Raises:
+        ReferenceProblem: it did not go to one of several.
+    """
+    around = dict.fromkeys(place.where for place in step.places)
+    stand = [i for i in around if i is not None and _is_thing_that_stands(context, i)]
+    names = tuple(dict.fromkeys(thing.name for thing in context.discourse.things(*stand)))
+    if len(names) < 2:
+        raise ReferenceProblem(text, UNCLEAR, 2)
+    context.constraints.append(Constraint(Keep.UNHIT, names))
 
 
 def _is_thing_that_stands(context: Context, index: int) -> bool:

@@ -313,6 +313,8 @@ def check_enough(context: Context, themes: Sequence[int], places: Sequence[Place
     """
     referents = context.discourse.referents
     count = sum(len(referents[index].options[0]) for index in themes)
+    if len({place.beside for place in places}) >= count:
+        return  # on both sides of something
     where = [place.where for place in places if place.where is not None]
     units = _parts_of_a_unit(context, list(context.discourse.things(*where)))
     if not where and len(places) < count:

@@ -152,6 +152,8 @@ def rule_out(
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []
     beside = [item.text for where in destinations for item in where.beside]
+    if all(where.toward is Toward.TO for where in destinations):
+        themes = ()  # what is not to be used takes nothing, whether that goes in or on it
     discourse = context.discourse
     try:
         before, discourse.replaced = discourse.replaced, discourse.replaced | {*besides}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Put, Relation
@@ -56,7 +57,9 @@ def told_by_contents(context: Context, state: State) -> tuple[State, list[State]
             context.discourse.notes.append(f"{np.text!r}: so in the end")
             inside.append(held)
         subjects.append(plain)
-    where, shut = _upon_closed(context, state.destinations)
+    # What "goes into the closed drawer" may only tell which one.
+    within = () if state.going else (Toward.INSIDE,)
+    where, shut = _at_closed(context, state.destinations, (Toward.ON, *within))
     return replace(state, subjects=tuple(subjects), destinations=where), [*inside, *shut]
 
 
@@ -81,7 +84,7 @@ def put_on_closed(context: Context, clause: PutClause) -> tuple[PutClause, list[
     """What goes "on top of the closed drawer", which is to be closed in the end."""
     groups, shut = [], list[State]()
     for group in clause.groups:
-        where, more = _upon_closed(context, group.destinations)
+        where, more = _at_closed(context, group.destinations)
         groups.append(replace(group, destinations=where))
         shut += more
     return replace(clause, groups=tuple(groups)), shut
@@ -115,10 +118,10 @@ def _is_the_one(np: NounPhrase) -> bool:
     return quantity_of(np.determiner).definite and bool(np.words)
 
 
-def _upon_closed(
-    context: Context, where: tuple[Destination, ...]
+def _at_closed(
+    context: Context, where: tuple[Destination, ...], toward: Sequence[Toward] = (Toward.ON,)
 ) -> tuple[tuple[Destination, ...], list[State]]:
-    """Places on top of what is closed by a drawer or door of its own, and that it is closed."""
+    """Places on top of, or in, what is closed by a drawer or door of its own, and that it is."""
     shut: list[State] = []
 
     def plain(np: NounPhrase) -> NounPhrase:
@@ -134,7 +137,7 @@ def _upon_closed(
         return whole
 
     found = [
-        item.going_to(plain) if item.toward is Toward.ON and len(where) == 1 else item
+        item.going_to(plain) if item.toward in toward and len(where) == 1 else item
         for item in where
     ]
     return tuple(found), shut

@@ -36,7 +36,7 @@ WAS_HIT = """
 """
 DISTURBED = """
     moved [around|about|away], disturbed, lifted [up|off|out], picked up, shifted, displaced,
-    removed, taken [away|out|off|down]
+    budged, removed, taken [away|out|off|down]
 """
 """Behind what must not be."""
 MAY = "may, can, could, should, must, shall, (is|are) to, (is|are) (allowed|permitted|supposed) to"
@@ -95,7 +95,7 @@ FALL_DOWN = """
 """
 DISTURB = f"""
     {SHIFT},
-    disturb[ing], displac(e|ing), lift[ing]
+    disturb[ing], displac(e|ing), budg(e|ing), lift[ing]
 """
 UPSET = "knock[ing], tip[ping], push[ing], throw[ing], sweep[ing]"
 TOPPLE = """

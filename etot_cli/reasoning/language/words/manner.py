@@ -36,7 +36,10 @@ STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
     loose, outside, unused, round, dark
 """
-_RIGHT_WAY_UP = "[the] right (way|side) up"
+_RIGHT_WAY_UP = """(
+    [the] right (way|side) up|[with] [the|its|their] (mouth[s]|opening[s]|open (end|side|top)[s])
+    [facing|pointing] (up|upwards|upward)
+)"""
 UPRIGHT = f"upright, up, on (end|its end|their ends), vertical, vertically, {_RIGHT_WAY_UP}"
 UPON_EACH_OTHER = """
     on [top of] (each other|one another), one on [top of] (the other|another),
@@ -135,9 +138,14 @@ THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, gripper, the robot, 
 """What holds it."""
 HELD = "held"
 """The state of what is there."""
-AS_IT_IS = """
-    [standing|lying|sitting] [exactly|precisely|right|just] where
-    (it|they|he|she) (is|are|was|were),
+WHERE_IT_IS = """
+    [standing|lying|sitting] [exactly|precisely|right|just] where (it|they|he|she)
+    ((is|are) [standing|lying|sitting] [right] [now]|stand[s] [now]|lie[s] [now]|
+    sit[s] [now])
+"""
+AS_IT_IS = f"""
+    {WHERE_IT_IS},
+    [standing|lying|sitting] [exactly|precisely|right|just] where (it|they|he|she) (was|were),
     [exactly|precisely|just] as (it|they) (is|are) [right] [now],
     [exactly|precisely|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched,
     unchanged,
@@ -145,10 +153,11 @@ AS_IT_IS = """
 """
 AS_NOW = "[~comma] [exactly|just] (as|like|the way) (it|they) (is|are) [now]"
 """Behind a state that things have."""
-UNTOUCHED = """
+UNTOUCHED = f"""
     [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
-    [left|kept|staying|remaining] [standing|lying|sitting] [exactly|precisely|just|right]
-    (as|where|like) (it|they) (is|are) [now], (staying|remaining) (put|in place|there),
+    [left|kept|staying|remaining] ({WHERE_IT_IS}),
+    [left|kept|staying|remaining] [exactly|precisely|just|right] (as|like) (it|they) (is|are) [now],
+    (staying|remaining) (put|in place|there),
     [left|kept] as is, left alone
 """
 """Behind what is to stay so, in a headline."""

@@ -186,7 +186,10 @@ STANDS_AT: dict[Prep, str] = {
 }
 """Behind "the tray that the cup is": where what is meant is to the cup."""
 PREPOSITIONS: dict[Prep, str] = {
-    Prep.BLOCKING: "blocking, obstructing, [right] in the way of",
+    Prep.BLOCKING: """
+        blocking, obstructing, [right] in the way of,
+        (that|which) (blocks|block|obstructs|obstruct)
+    """,
     Prep.ON: "on, upon, (standing|lying|sitting) on, in the (mouth|opening) of",
     Prep.IN: "inside [of], in, within",
     Prep.FROM: "from, off of, off, out of",

@@ -53,7 +53,8 @@ WITHOUT_MEANING = f"""
     (whichever|whatever) [one|of (them|these|the two)]
     you (like|want|prefer|choose|fancy|can reach) [best], [it is] your choice,
     [it is|that is] up to you, you (choose|decide|pick) [which [one]], the choice is yours,
-    wherever (you (like|want)|there is [some] (room|space)|it fits),
+    wherever (you (like|want)|there is [some] (room|space)|it fits), (it fits|they fit) (in|into),
+    (can|will) (take|hold|accommodate) (it|them), has [enough] (room|space) for (it|them),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
@@ -176,6 +177,7 @@ GREETINGS = f"""
     madam) ~comma, (quick|hurry [up]) ~comma,
     [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
     [hey|hello|hi|dear|yo] [my] [little|good|dear|clever] helper ~comma,
+    hand on heart, honestly, to be honest, in all honesty,
     hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),
     sorry to (bother|trouble|disturb|interrupt) you [again],

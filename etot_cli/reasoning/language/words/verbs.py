@@ -83,7 +83,7 @@ DISTRIBUTE = """
 """
 SEPARATE = "separat(e|ing), split[ting] [up], divid(e|ing) [up]"
 """Before things of which it is told next where each of them goes."""
-TIDIED = "(put|tidied|stored|stowed|packed|cleared) away, tidied up"
+TIDIED = "(put|tidied|stored|packed|cleared) away, stowed [away], tidied up"
 PUT_DOWN = "put[ting] down, set[ting] down, lay[ing] down, releas(e|ing), let go of"
 PUT_BACK = "put[ting] back, return[ing], mov(e|ing) back"
 TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
@@ -160,13 +160,15 @@ ARRANGE = """
     lay|prepare|sort)
 """
 NOTHING_IS_SO = """
-    nothing (is|lies|stands|sits|remains) [left|lying|standing|sitting], there is nothing [left],
+    nothing (is|lies|stands|sits|remains) [left] [lying|standing|sitting],
+    there is nothing [left],
     there (is not|is no longer) anything [left]
 """
 """Before where there is to be nothing, as was said before."""
 NOTHING_IS = f"""
     (nothing (should|must|is to|has to) (be|stay|remain|stand|lie|sit)|
-    (i|we) (do not want anything|want nothing) [to be]) [left|lying|standing|sitting],
+    (i|we) (do not want anything|want nothing) [to be])
+    [left] [lying|standing|sitting],
     (nothing (should|must|may|can|is to|has to)|(ensure|make sure|see to it) [that] nothing)
     (stay|remain|stays|remains) [left],
     there (should|must|has to|needs to|is to) be nothing [left],
@@ -176,20 +178,20 @@ NOTHING_IS = f"""
 """
 """Before where there is to be nothing."""
 NOTHING_MAY_BE = """
-    nothing (may|can) (be|stay|remain|stand|lie|sit) [left|lying|standing|sitting],
+    nothing (may|can) (be|stay|remain|stand|lie|sit) [left] [lying|standing|sitting],
     there (may|can) (not|no longer) be anything [left]
 """
 _BROUGHT = """
-    put|placed|moved|brought|taken|took|set|stored|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
+    put|placed|moved|brought|taken|took|set|stored|stowed|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|
     set out|laid out|lowered|collected|gathered
 """ + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
 BROUGHT = _BROUGHT
 """What was taken from one place is then, to another one."""
-NOTHING_GOES = """
+NOTHING_GOES = f"""
     (nothing|no (thing|object|item)) (should|must|may|can|shall|is to|has to)
-    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move),
-    (nothing|no (thing|object|item)) (goes|belongs)
+    (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move|end up|land|get),
+    [{ENSURE}] (nothing|no (thing|object|item)) (goes|belongs|ends up|lands|gets)
 """
 """Before where nothing more is to go."""
 _BEING = "standing|lying|sitting|located|resting"

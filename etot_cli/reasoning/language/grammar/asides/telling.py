@@ -67,9 +67,12 @@ _EXCLAIMED = Expression(
     r"|(?:good|oh my|my) (?:grief|goodness|lord|heavens|god|gracious)"
 )
 _PLACED_THERE = Expression(
+    r"(?P<who>(?:i|we) (?:(?:still|also|soon) )*"
+    r"(?:have to|will|need to|(?:am|are) going to) (?:(?:also|soon|then) )?(?:put|fit|get) )?"
     r"(?P<whose>my|our|the|a|an|some|this|that) (?:\w+ )?(?P<what>\w+)"
-    r" (?:(?:(?:still|also|soon) )?(?:has|have|needs?|(?:is|are)(?: (?:going|about))?) to"
-    r" (?:go|be put|fit)|(?:is|are) (?:going|coming|about to go)|will (?:soon )?(?:go|be put)|goes)"
+    r"(?(who)| (?:(?:(?:still|also|soon) )?(?:has|have|needs?|(?:is|are)(?: (?:going|about))?) to"
+    r" (?:go|be put|fit)|(?:is|are) (?:going|coming|about to go)|will (?:soon )?(?:go|be put)"
+    r"|goes))"
     r" (?:right )?(?:(?:in|into|inside|on|onto)(?: (?:there|it|here))?|there|here)"
     r"(?: (?:in a (?:minute|moment|second|bit)|soon|later|now|shortly|next|afterwards|tonight))?"
 )

@@ -34,6 +34,8 @@ def _not_toppled(things: Things, said: str) -> AvoidClause | ReorientClause:
     if not all(np.pronoun for np in things.phrases):
         return AvoidClause(Avoid.HIT, things)
     over = {"over", "topple"} & {*said.split()}
+    if over and any(np.pronoun in ("they", "them", "these", "those") for np in things.phrases):
+        return AvoidClause(Avoid.HIT, things, over=True)
     return ReorientClause(things, Nearby.UPRIGHT, meanwhile=True) if over else unharmed(things)
 
 
@@ -64,8 +66,12 @@ def _some_unharmed(things: Things) -> AvoidClause | None:
     return None if matches_any(things.phrases[0].head, THING_NOUNS) else unharmed(things)
 
 
-_NONE_OF = sequence(
-    one_of({"neither": "neither [of the]", "no": "no, none of the"}), WORDS, build=_of_none
+_THEM = Things((NounPhrase(pronoun="them", text="neither of them"),))
+_NONE_OF = either(
+    sequence(
+        one_of({"neither": "neither [of the]", "no": "no, none of the"}), WORDS, build=_of_none
+    ),
+    phrase("neither [of (them|the two)], none of them", _THEM),
 )
 
 
@@ -86,7 +92,7 @@ UNHARMED = either(
     sequence(
         _NONE_OF,
         f"{forbidden.TOPPLES}, (may|must|should|will|can|shall|is to|does) ({_TOPPLE})",
-        build=partial(AvoidClause, Avoid.HIT, negated=True),
+        build=partial(AvoidClause, Avoid.HIT, negated=True, over=True),
     ),
     sequence(_NONE_OF, f"({forbidden.MUST}) [ever] ({LEAVE_THE_DESK})", build=_some_unharmed),
     sequence(THINGS, phrase(f"{_WILL_NOT} ({_TOPPLE})"), build=_not_toppled),

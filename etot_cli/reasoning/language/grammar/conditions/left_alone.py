@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIER
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.emptying import stays_empty
@@ -68,6 +68,15 @@ OTHERS_STILL = sequence(
             _THE_REST,
         ),
         sequence("leav(e|ing), keep[ing]", _ALL_ELSE, optional(manner.AS_IT_IS)),
+        sequence(
+            "(apart|aside) from (that|this), other than (that|this)",
+            OPTIONAL_COMMA,
+            either(
+                sequence("leav(e|ing) everything, keep[ing] everything", manner.AS_IT_IS),
+                sequence("everything", verbs.LEFT_THERE, optional(manner.AS_IT_IS)),
+            ),
+            build=lambda: _THE_REST,
+        ),
     ),
     build=partial(AvoidClause, Avoid.MOVE),
 )
@@ -104,7 +113,7 @@ KEEP_STILL = either(
             sequence("leav(e|ing), keep[ing]", THINGS),
             sequence(optional("let"), THINGS, verbs.LEFT_THERE),
         ),
-        "[exactly|just|right] where (it is|they are)",
+        manner.WHERE_IT_IS,
         some(MODIFIER, least=1, most=2),
         build=left_where_it_is,
     ),

@@ -34,25 +34,32 @@ def _only_these(nps: tuple[NounPhrase, ...], avoid: Avoid) -> AvoidClause:
     return AvoidClause(avoid, Things((others,)), negated=True)
 
 
-_MAY_BE = sequence(
-    forbidden.MAY,
-    one_of(
-        {
-            Avoid.TOUCH: f"be ({forbidden.TOUCHED_ONLY})",
-            Avoid.MOVE: f"be ({forbidden.MOVED_ONLY}), move",
-        }
-    ),
+def _but_these(nps: tuple[NounPhrase, ...], avoid: Avoid) -> AvoidClause:
+    """What is left out of all that may be moved or touched must not be."""
+    return AvoidClause(avoid, Things(nps), negated=True)
+
+
+_MOVES = one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move, lift"})
+_IS_MOVED = one_of(
+    {
+        Avoid.TOUCH: f"be ({forbidden.TOUCHED_ONLY})",
+        Avoid.MOVE: f"be ({forbidden.MOVED_ONLY}), move",
+    }
 )
-
-
+_MAY_BE = sequence(forbidden.MAY, _IS_MOVED)
+_PERMITTED = "can, may, could, (is|are) (allowed|permitted) to"
+_BUT = sequence(OPTIONAL_COMMA, nouns.EXCEPT, exceptions)
+_ALL = "anything, everything"
 ONLY_THESE_MAY = either(
+    # "Anything but the pen may be moved"
+    sequence(_ALL, _BUT, _PERMITTED, _IS_MOVED, build=_but_these),
+    sequence(_ALL, _PERMITTED, _IS_MOVED, _BUT, build=lambda avoid, nps: _but_these(nps, avoid)),
+    sequence("you (can|may|could)", _MOVES, _ALL, _BUT, build=lambda a, nps: _but_these(nps, a)),
     sequence("only", NP_LIST, _MAY_BE, build=_only_these),
     sequence(
         "nothing",
         _MAY_BE,
-        OPTIONAL_COMMA,
-        nouns.EXCEPT,
-        exceptions,
+        _BUT,
         build=lambda avoid, nps: _only_these(nps, avoid),
     ),
     sequence(
@@ -62,7 +69,7 @@ ONLY_THESE_MAY = either(
             sequence("that, which", _MAY_BE),
             sequence(
                 f"[that|which] you ({forbidden.MAY})",
-                one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move, lift"}),
+                _MOVES,
             ),
         ),
         build=_only_these,
@@ -71,8 +78,8 @@ ONLY_THESE_MAY = either(
         # "You may only move the pen"
         f"you ({forbidden.MAY})",
         either(
-            sequence("only", _MOVES_ONLY := one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move"})),
-            sequence(_MOVES_ONLY, "only, just"),
+            sequence("only", _MOVES),
+            sequence(_MOVES, "only, just"),
         ),
         NP_LIST,
         build=lambda avoid, nps: replace(_only_these(nps, avoid), far_fetched=1),

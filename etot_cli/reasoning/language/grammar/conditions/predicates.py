@@ -54,11 +54,22 @@ def _of(nps: tuple[NounPhrase, ...], predicate: Any) -> Sequence[State | None]:
     return [state_of(nps, predicate)]
 
 
+def _is_beside(predicate: Any) -> bool:
+    """Whether a predicate tells a place by what is around it alone."""
+    match predicate:
+        case (Destination(toward=Toward.BESIDE, targets=(), denied=False),):
+            return True
+        case _:
+            return False
+
+
 def _all_of_it(
     nps: tuple[NounPhrase, ...], first: Any, more: tuple[Any, ...], nothing: Any
 ) -> EnsureClause | None:
     """What is said of the same things: several predicates, or that there is nothing in them."""
     said = [first, *more, *nothing]
+    if all(_is_beside(item) for item in said):
+        return None  # "next to each other, away from the plate" is one place
     if any(item != _EMPTY for item in nothing) and not isinstance(first, str):
         return None  # "on the tray with the pen in it" may tell which tray
     alone = len(nps) == 1 or not any(isinstance(item, tuple) and item[0] == "has" for item in said)

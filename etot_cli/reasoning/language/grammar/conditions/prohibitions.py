@@ -343,8 +343,15 @@ AVOID = either(
         build=lambda avoid, things: AvoidClause(avoid, things, negated=True),
     ),
     sequence(
-        THINGS,
-        forbidden.NOT_TO_BE,
+        either(
+            sequence(THINGS, forbidden.NOT_TO_BE),
+            sequence(
+                # "Make sure that the cup does not get moved"
+                verbs.ENSURE,
+                THINGS,
+                f"{forbidden.NOT_TO_BE}, (is|are) not [ever], (does|do) not [ever] get",
+            ),
+        ),
         either(_DONE, phrase("opened", Avoid.OPEN)),
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),

@@ -21,10 +21,11 @@ def _one(said: str) -> str:
     return f"the {said} one" if is_descriptive(said) else said
 
 
-_IN_THERE = r"(?:(?:in|on|inside) (?:there|it)|there|inside)"
+_IN_THERE = r"(?:(?:in|on|inside|into) (?:there|it)|there|inside)"
 _NOTHING_ELSE = (
-    r"(?:and |but )?(?:nothing else (?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
-    rf"|end up|come|stay|remain|be left) {_IN_THERE}"
+    r"(?:and |but )?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
+    r"(?:nothing else (?:(?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
+    rf"|end up|come|get|land|stay|remain|be left)|goes|ends up|comes|gets|lands|is) {_IN_THERE}"
     rf"|there (?:should|must|may|is to) be nothing else {_IN_THERE}"
     r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
     r"(?: (?:in|on) it)?)"

@@ -55,7 +55,7 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"\1 out of the way",
     ),
     (rf"\b(out of|in) ({_WHAT})(?:'s| 's) {_WAY}\b", r"\1 the way of \2"),
-    (rf"\bin its {_WAY}{_ENDS}", "in the way of it"),
+    (rf"\b(in|out of) its {_WAY}{_ENDS}", r"\1 the way of it"),
     (rf"\b(?:out of|from) (?:the|its) {_WAY} of (?={_WHAT})", "out of the way of "),
     (
         rf"\b(?:clear|take|get|bring) ({_WHAT}|it|them) (?=out of the way of\b)",
@@ -112,10 +112,6 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         rf"\b(?:whatever|what|anything|everything)(?: that| which)? {_BLOCKS} (?={_WHAT})",
         "everything that is blocking ",
-    ),
-    (
-        rf"\bthe (thing|object) (?:that |which )?{_BLOCKS} (?={_WHAT})",
-        r"the \1 that is blocking ",
     ),
     (
         rf"\b(that is blocking) ({_WHAT}) {_AWAY}{_ENDS}",

@@ -275,6 +275,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         ", ",
     ),
     (r"\bnothing (?:more|besides)\b", "nothing else"),
+    # "Sort the two: one of them goes on the tray, the other in the box"
+    (r"(?<=: )((?:put )?)one of (?:the two|them)(?= [^.;:]*\bthe other\b)", r"\1one"),
     (_MAY_GO, r"\1\2 should \3"),
     (
         r", (?:say|for example|e\.g\.),? (?=(?:to|in|on|into|onto|at|next|beside|near|behind)\b)",

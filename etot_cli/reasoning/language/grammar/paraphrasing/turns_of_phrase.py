@@ -348,5 +348,11 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)close up" + _END,
         r"\1\2close it",
     ),
+    # Nothing else is to be done; "only want the cup on the tray" may be: nothing else there
+    (
+        rf"\b(i|we) only (want|need) (?=you to\b|{NAMED} (?:\w+ )?\w+ (?:closed|shut|open)\b)",
+        r"\1 \2 ",
+    ),
+    (rf"\b(before|after) (closing|shutting|opening)(?: up)?{_END}", r"\1 \2 it"),
 )
 """In order."""

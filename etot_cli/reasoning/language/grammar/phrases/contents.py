@@ -41,6 +41,13 @@ def _contents_with(having: str | Parser, denied: bool, bare: bool = False) -> Pa
     )
 
 
+WITH_IN_IT = sequence(
+    "with",
+    noun_phrase,
+    one_of({Prep.CONTAINING: _INSIDE_IT, Prep.BEARING: _UPON_IT}),
+    build=lambda np, prep: Modifier(prep, (np,)),
+)
+"""What is in or on a thing, as it is said between commas."""
 _SUCH = NounPhrase("a", ("one",), text="one")
 _HAVING_NONE = either(
     sequence(_HAVING, "none"),

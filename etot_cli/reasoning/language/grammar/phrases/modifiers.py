@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
-from etot_cli.reasoning.language.grammar.phrases.contents import CONTENTS
+from etot_cli.reasoning.language.grammar.phrases.contents import CONTENTS, WITH_IN_IT
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words
@@ -434,5 +434,6 @@ _modifier = either(
     sequence(COMMA, CONTRASTED, COMMA),
     sequence(OPTIONAL_COMMA, LEAVING_OUT, exceptions, LEFT, build=without_such),
     sequence(COMMA, LEAVING_OUT, exceptions, COMMA, build=without_such),
+    sequence(COMMA, WITH_IN_IT, COMMA),
 )
 MODIFIER.define(_modifier)

@@ -26,11 +26,13 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     NOUN_WORD,
+    exceptions,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.comparing import ONE_COMPARED
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
+    LEAVING_OUT,
     MODIFIERS,
     NOT_BUT,
     OF_ALL,
@@ -39,6 +41,7 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     QUALITY,
     denied,
     quality_alone,
+    without_such,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import nouns, small_words
@@ -72,6 +75,20 @@ DETERMINER = either(
 PRONOUN = phrase("it, them, they, this, that, these, those, its, he, him, she, her")
 ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
 WORDS = some(NOUN_WORD, least=1, most=6)
+
+
+def _any_but(
+    words: tuple[str, ...],
+    modifiers: tuple[Modifier, ...],
+    again: tuple[str, ...],
+    said: str,
+    left_out: tuple[NounPhrase, ...],
+) -> NounPhrase | None:
+    """Any of some things but for those that are left out."""
+    but = without_such(said, left_out) if again in (words, (), ("one",), words[-1:]) else None
+    return None if but is None else NounPhrase("any", words, (*modifiers, but))
+
+
 _NEAREST = word_set("nearest closest farthest furthest")
 
 
@@ -316,6 +333,18 @@ noun_phrase.define(
                 _ANY_ONE,
                 either(COMMA, at_end),
                 build=partial(NounPhrase, "any"),
+            ),
+            sequence(
+                # "A cup, any cup but the red one"
+                "a, an, one, any",
+                WORDS,
+                MODIFIERS,
+                COMMA,
+                "any",
+                optional(WORDS, ()),
+                LEAVING_OUT,
+                exceptions,
+                build=_any_but,
             ),
             sequence(
                 optional("the, a, their, its, his, her"),

@@ -27,10 +27,15 @@ from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
 
-def flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
-    """Two things, one to the left and one to the right of another ("a cup on each side of it");
-    one alone may only be on either side.
+def flanking(
+    things: Things, said: str, mark: NounPhrase, on: tuple[Destination, ...] = ()
+) -> PutClause | None:
+    """Two things, one to the left and one to the right of another ("a cup on each side of it"),
+    ``on`` what that is on; one alone may only be on either side.
     """
+    around = on[0] if on else Destination(Toward.BESIDE)
+    if len(on) > 1 or around.beside or (on and around.toward is not Toward.ON):
+        return None
     (np, *more) = things.phrases
     single = not more and singular(np.head) == np.head and "either" not in said
     if single and np.determiner not in ("a", "an", "one", "two", "both"):
@@ -38,9 +43,7 @@ def flanking(things: Things, said: str, mark: NounPhrase) -> PutClause | None:
     if not more and np.determiner in ("a", "an", "one"):
         things = Things((replace(np, determiner="two"),))
     sides = (Nearby.LEFT, Nearby.RIGHT)
-    where = tuple(
-        Destination(Toward.BESIDE, beside=(Beside(side, (mark,), mark.text),)) for side in sides
-    )
+    where = tuple(replace(around, beside=(Beside(side, (mark,), mark.text),)) for side in sides)
     return None if things.either else PutClause((PutGroup(things, where),), Grouping.SEPARATELY)
 
 

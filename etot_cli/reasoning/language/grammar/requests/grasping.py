@@ -328,6 +328,17 @@ GRASP = quiet(
                 small_words.ANY_WILL_DO,
                 build=_so,
             ),
+            sequence(
+                # "A side grip is fine, so is one from above"
+                _told(_POSE),
+                small_words.ANY_WILL_DO,
+                OPTIONAL_COMMA,
+                either(
+                    sequence("[and] so (is|would be|will|does) [one]", _POSE, optional("one")),
+                    sequence("and [one]", _POSE, optional("one"), "too, as well, also"),
+                ),
+                build=lambda one, other: None if one is other else _so((one, other)),
+            ),
             sequence(_NAMED_GRASP, build=_so),
             sequence(_told(_OR_BOTH), "~comma", small_words.DOES_NOT_MATTER, build=_so),
             sequence(

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     in_a_stance,
     stance_in,
 )
+from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.world.spatial import Nearby
 
 
@@ -26,8 +27,11 @@ def _laid_down(things: Things, where: tuple[Destination, ...], extras: Any) -> P
 
 
 LAID_DOWN = sequence(
-    "lay[ing]",
-    either(sequence(THINGS, "down"), sequence("down", THINGS)),
+    either(
+        sequence("lay[ing]", either(sequence(THINGS, "down"), sequence("down", THINGS))),
+        # "Tip the vase onto its side on the tray"
+        sequence(verbs.TIP, THINGS, manner.LAID),
+    ),
     DESTINATIONS,
     EXTRAS,
     build=_laid_down,

@@ -116,7 +116,7 @@ BACK = (Destination(Toward.HOME),)
 
 _SO_THAT_IT_IS = sequence(
     OPTIONAL_COMMA,
-    small_words.SO_THAT,
+    f"{small_words.SO_THAT}, until, till",
     either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
 )
 
@@ -328,7 +328,14 @@ PUT = either(
         some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
         build=lambda first, more: PutClause((first, *more)),
     ),
-    sequence(BROUGHT, ON_BOTH_SIDES, noun_phrase, build=flanking),
+    sequence(
+        BROUGHT,
+        optional(sequence(DESTINATIONS, OPTIONAL_COMMA), ()),
+        optional("one"),
+        ON_BOTH_SIDES,
+        noun_phrase,
+        build=lambda things, where, said, np: flanking(things, said, np, where),
+    ),
     sequence(
         BROUGHT,
         places.NEARBY[Nearby.NEXT_TO],

@@ -351,7 +351,7 @@ WITH_MORE_BEFORE_IT = either(
     ),
     TOLD_BEHIND,
     sequence(TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
-    sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by", CHAIN, build=add),
+    sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by, ~colon", CHAIN, build=add),
     sequence(plain(SEEING), "[~comma] by, ~comma, ~colon", CHAIN, build=_opened_for),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),

@@ -157,8 +157,10 @@ HINDRANCE = either(
 UNFIT = either(
     sequence(
         noun_phrase,
-        words.UNFIT,
-        optional(sequence("in, into, inside", noun_phrase), None),
+        either(
+            sequence(words.UNFIT, optional(sequence("in, into, inside", noun_phrase), None)),
+            sequence(words.TOO_BIG, "for", noun_phrase),
+        ),
         build=_named,
     ),
     sequence(silent(phrase(words.SOMEBODY_DID_NOT)), ALL_THINGS, silent(optional(words.PROPERLY))),

@@ -19,6 +19,8 @@ from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
     PutClause,
+    PutGroup,
+    RemoveClause,
     ReorientClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things
@@ -36,18 +38,25 @@ def _kept_upright(kept: tuple[int, Things], rest: Reading) -> Reading | None:
     """What is kept upright while it, or something else, is put somewhere."""
     at, things = kept
     put = rest[0].clause
-    if not isinstance(put, PutClause) or len(put.groups) != 1:
-        return None
-    (group,) = put.groups
-    moved = group.things.phrases
+    match put:
+        case (
+            PutClause(groups=(PutGroup(things=what),))
+            | RemoveClause(things=what)
+            | PickClause(things=what)
+        ):
+            moved = what.phrases
+        case _:
+            return None
     if not all(np.pronoun or np.words == things.phrases[0].words for np in moved):
         alike = {np.head for np in things.phrases} & {np.head for np in moved}
         if alike or any(np.pronoun or np.is_elliptic for np in (*moved, *things.phrases)):
             return None
         return (Spoken(ReorientClause(things, Nearby.UPRIGHT), at), *rest)
-    again = ReorientClause(group.things, Nearby.UPRIGHT, meanwhile=True)
+    if not isinstance(put, PutClause):
+        return None
+    again = ReorientClause(what, Nearby.UPRIGHT, meanwhile=True)
     if all(np.pronoun for np in moved):
-        put = replace(put, groups=(replace(group, things=things),))
+        put = replace(put, groups=(replace(put.groups[0], things=things),))
     return (replace(rest[0], clause=put), Spoken(again, rest[0].position), *rest[1:])
 
 
@@ -63,7 +72,7 @@ MEANWHILE = either(
     sequence(small_words.WHILE, LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
     sequence(
         located(_KEPT, lambda at, things: (at, things)),
-        f"{manner.ERECT}, {manner.LEVELED}",
+        f"{manner.ERECT}, {manner.LEVELED}, standing",
         silent(optional(small_words.ALL_ALONG)),
         OPTIONAL_COMMA,
         f"{small_words.WHILE}, when [you [are]], and, and then, throughout as you",

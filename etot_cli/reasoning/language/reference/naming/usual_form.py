@@ -41,6 +41,8 @@ _ITS_OWNER = NounPhrase(pronoun="it", text="the contents")
 """Of "the contents" of what was spoken of."""
 
 
+_LIKE_THAT = frozenset({"colored", "coloured", "shaped"})
+"""Behind a word for a colour or shape they say nothing more."""
 _EACH_OF = [["each", "of", "the"], ["every", "one", "of", "the"], ["both", "of", "the"]]
 
 
@@ -59,6 +61,9 @@ def is_robot(phrase: NounPhrase) -> bool:
 
 def usual_form(phrase: NounPhrase) -> NounPhrase:
     """The phrase in the usual form: "the bigger of the mugs" is the bigger mug."""
+    if {*phrase.words[1:-1]} & _LIKE_THAT:  # "the lime coloured ball", "the cup shaped holder"
+        said = (word for word in phrase.words if word not in _LIKE_THAT)
+        return usual_form(replace(phrase, words=tuple(said)))
     for item in phrase.modifiers:
         if item.prep is Prep.SIDE and item.words[0] in ORDINALS and phrase.words:
             # "The drawer second from the top"

@@ -46,7 +46,7 @@ def meant_by_them(
     single = len(found) == 1 and all(len(option) == 1 for option in options)
     plural = any(singular(mention.noun) != mention.noun for mention in said)  # "the pliers"
     if single and not plural and not any(item.several or item.whatever for item in said):
-        others = _several_named(discourse, role) if role in TARGETS else ()
+        others = _several_named(discourse, role) if role in (*TARGETS, Role.ANY) else ()
         if others and not {*others} & {*found}:
             return others  # "take the cup to the drawers and put it on them", of one chest
         raise AmbiguousReference(text, [item.text for item in discourse.referents])
