@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 
-from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Thing, things_in
+from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
@@ -34,7 +34,13 @@ def check_taken(
         isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
         for step in context.done[-1:]
     ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
-    where = {place.where for place in places if place.where is not None}
+    states, moved = context.scene.states, context.discourse.things(*themes)
+    upon = all(states[thing.name].inside is None for thing in moved)
+    where = {
+        place.where
+        for place in places  # "from the drawer into the drawer" is right of what lies on top
+        if place.where is not None and not (upon and place.relation is Relation.INSIDE)
+    }
     reached = {*context.discourse.things(*where)}
     for phrase in group.things.phrases:
         for prep, np in ((item.prep, np) for item in phrase.modifiers for np in item.phrases):

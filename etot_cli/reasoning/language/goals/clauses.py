@@ -40,6 +40,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     MoveClause,
     PickClause,
     PutClause,
+    PutGroup,
     RemoveClause,
     SwapClause,
     TowerClause,
@@ -86,6 +87,38 @@ def _check_told(context: Context, things: Things) -> None:
                 raise ReferenceProblem(np.text, "say whether it is to be held", 1)
 
 
+def _of_the_wanted(before: Clause | None, clause: PutClause) -> PutClause:
+    """After "I would like a can" the "one" that goes somewhere is that can, and no further one."""
+    match before, clause.groups:
+        case (
+            PickClause(things=Things(phrases=(NounPhrase(determiner="a" | "an"),))),
+            (PutGroup(things=Things(phrases=(one,))) as group,),
+        ) if (one.determiner, one.words) in _ONE_ALONE and not (one.modifiers or one.pronoun):
+            it = Things((NounPhrase(pronoun="it", text=one.text),))
+            return replace(clause, groups=(replace(group, things=it),))
+    return clause
+
+
+_ONE_ALONE = (("one", ()), ("", ("one",)))
+
+
+def _check_not_wanted(context: Context, clause: PutClause, put_before: set[int]) -> None:
+    """After "I would like a can" a red one, or the red one, that goes somewhere may be that can.
+
+    Raises:
+        ReferenceProblem: it may.
+    """
+    discourse, done = context.discourse, context.done[-1:]
+    wished = isinstance(context.last, PickClause) and context.last.wanted
+    wanted = [step.what for step in done if wished and isinstance(step, Pick)]
+    fitting = {*discourse.things(*wanted)}
+    for np in clause.groups[0].things.phrases if len(fitting) > 1 else ():
+        quantity = quantity_of(np.determiner)
+        moved = {*discourse.things(*(discourse.put - put_before))}
+        if not (quantity.other or np.pronoun) and moved & fitting:
+            raise ReferenceProblem(np.text, "say whether that is what is wanted", 3)
+
+
 def steps_of(clause: Clause, context: Context) -> list[Step]:
     """A clause's steps.
 
@@ -110,11 +143,13 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             grasp(context, clause)
         case PutClause():
             moved = {*context.discourse.put}
+            clause = _of_the_wanted(context.last, clause)
             clause, first = filled_first(context, clause)
             for filling in first:
                 put(context, filling)
             clause, so = put_on_closed(context, clause)
             put(context, clause)
+            _check_not_wanted(context, clause, moved)
             for state in so:
                 ensure(context, state)
             context.steps = _after_a_lift(clause, context, moved)

@@ -12,9 +12,11 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import counted_by
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
+from etot_cli.reasoning.language.grammar.phrases.modifiers import ANY_SUCH
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
+    Modifier,
     NounPhrase,
     Things,
     Toward,
@@ -98,10 +100,35 @@ def _is_by_color(group: PutGroup) -> bool:
     return any(map(is_matching, (*group.things.phrases, *targets)))
 
 
+def _to_that_one(group: PutGroup) -> PutGroup:
+    """Behind "every block that has the colour of a bowl" "that bowl" is the one that matches."""
+    marks = {
+        mark.words
+        for np in group.things.phrases
+        for item in np.modifiers
+        if item.prep is Prep.COLORED and item.words == ANY_SUCH
+        for mark in item.phrases
+    }
+
+    def matching(np: NounPhrase) -> NounPhrase:
+        said = np.determiner in ("the", "that") and not np.modifiers and {np.words} == marks
+        return replace(np, determiner="the", modifiers=(Modifier(Prep.MATCHING),)) if said else np
+
+    return group.going_to(matching)
+
+
 def _by_color(context: Context, group: PutGroup) -> None:
     """Adds a step for each thing, to the places of its colour."""
     phrases, text = group.things.phrases, group.things.text
     toward, targets = _places(context, group, text)
+    if _is_of_another_color(group):
+        (theme, *more) = context.phrases.things(group.things, Role.THEME)
+        (thing, *further) = context.only(theme, "say which ones")
+        if more or further:
+            raise ReferenceProblem(text, "say which of them goes where", 3)
+        any_of_them = _of_another_color(context, thing, targets, group)
+        _put(context, [theme], toward, any_of_them, text, Grouping.ANY)
+        return
     if any(map(is_matching, phrases)):
         # "The matching lid on the pot": the pot is known, its lid is sought.
         plain = [context.phrases.meaning(unmatched(phrase), Role.THEME) for phrase in phrases]
@@ -174,6 +201,37 @@ def _with_a_place(
     return tuple(thing for thing in things if thing not in lacking)
 
 
+def _is_of_another_color(group: PutGroup) -> bool:
+    """Whether one thing goes where it has not the colour of ("in a bowl of a different colour").
+
+    Raises:
+        ReferenceProblem: what goes there is told by that, or several places are.
+    """
+    targets = group.destinations[0].targets
+    nps = (*group.things.phrases, *targets)
+    denied = [np for np in nps for item in np.modifiers if item.denied and is_matching(np)]
+    if denied and denied != [*targets]:
+        raise ReferenceProblem(group.things.text, "say which colour is meant", 3)
+    return bool(denied)
+
+
+def _of_another_color(
+    context: Context, thing: Thing, among: Sequence[Thing], group: PutGroup
+) -> Resolved:
+    """Those of some places that have not the colour of a thing; "the" one has to be one."""
+    (target,), scene = group.destinations[0].targets, context.scene
+    own, colors = context.phrases.colors_of(thing), context.phrases.colors_of
+    found = [
+        item
+        for item in among  # where it is by now may be meant as well by what is "another" colour
+        if own and colors(item) and not own & colors(item) and not touches(thing, item, scene)
+    ]
+    if not found or (len(found) > 1 and quantity_of(target.determiner).definite):
+        names = " and ".join(item.name for item in found) or "none of them"
+        raise ReferenceProblem(target.text, f"{names}: of another colour than {thing.name}", 3)
+    return Resolved(tuple((item,) for item in found), noun=found[0].name)
+
+
 def _of_color(context: Context, thing: Thing, among: Sequence[Thing], text: str) -> list[Thing]:
     colors = context.phrases.colors_of(thing)
     if not colors:
@@ -190,6 +248,7 @@ def add_pairs(
     """Adds the steps of a clause in which each thing gets a place of its own; whether it is one.
     ``in_the_end``: it is said how it is to be, so that what is there already is among them.
     """
+    group = _to_that_one(group)
     if clause.by_color or _is_by_color(group):
         _by_color(context, group)
     elif clause.one_each or _is_one_each(group):

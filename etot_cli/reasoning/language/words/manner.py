@@ -7,12 +7,13 @@ from etot_cli.reasoning.language.words.verbs import REORIENTED
 _TURNED = REORIENTED.replace(",", "|")
 _SWUNG = "pulled|pushed|slid|swung|eased|drawn|rolled|nudged"
 IS_OPEN = f"""
-    [still] [{_SWUNG}|prised|flung|tugged|standing] [wide|all the way|fully|completely] open
+    [still|already] [{_SWUNG}|prised|flung|tugged|standing] [wide|all the way|fully|completely] open
 """
 OPEN_STATE = f"{IS_OPEN}, opened [up]"
 CLOSED_STATE = f"""
-    [still] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight] (closed|shut)
-    [behind (it|them)|tight], closed up, (pushed|slid|shoved|eased) [back] (in|to|home)
+    [still|already] [{_SWUNG}|pressed|shoved] [fully|completely|properly|all the way|tight]
+    (closed|shut) [behind (it|them)|tight], closed up,
+    (pushed|slid|shoved|eased) [back] (in|to|home)
 """
 TO = "[back] (to|home) [again]"
 """As doors are pushed when they are closed."""
@@ -91,6 +92,8 @@ BOTTOM_UP = """
     starting (with|at|from) the bottom,
     [in this order] from bottom to top
 """
+IN_THE_ORDER = "in (the|this) [following] order [of], [and] in the [following] sequence [of]"
+"""Before what is named in the order of a stack."""
 TOP_DOWN = """
     in (this|that) order from (top to bottom|the top down), [from the] top (first|down),
     from (the top|top) to bottom, from top to the bottom
@@ -148,6 +151,8 @@ AS_IT_IS = f"""
     unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
+AS_NOW = "[~comma] [exactly|just] (as|like|the way) (it|they) (is|are) [now]"
+"""Behind a state that things have."""
 UNTOUCHED = f"""
     [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
     [left|kept|staying|remaining] ({WHERE_IT_IS}),
@@ -209,7 +214,14 @@ IN_THIS_ORDER = """
     one (by one|after the other) in this order
 """
 _UPRIGHT = f"(upright|vertical|vertically|on (end|its end)|{_RIGHT_WAY_UP})"
-ERECT = f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation)"
+_MOUTH_UP = """
+    [with] [its|their|the] (opening|mouth|open (end|side|top)) [facing|pointing|looking|turned]
+    (up|upward|upwards)
+"""
+"""Said of a vessel that stands."""
+ERECT = (
+    f"[standing] {_UPRIGHT}, in (an upright|a vertical) (position|pose|orientation), {_MOUTH_UP}"
+)
 _SO = "so [that]|such that|in such a way that"
 STANDS = f"""
     ({_SO}) (it|they) [all|both|each] (stands|stand|is|are) [all|both|each] [standing]

@@ -94,9 +94,16 @@ MATCHING = f"""
 """
 SAME_COLOR = """
     (of|with|in) the same (color|colour) as,
-    (that|which) (is|are|has|have) [of] the same (color|colour) as
+    (that|which) (is|are|has|have) [of] the same (color|colour) as,
+    whose (color|colour) (matches|is the same as|is also) [that of],
+    (that|which) (has|have|matches|match) the (color|colour) of, matching the (color|colour) of
 """
 """Before the thing whose colour it is."""
+OTHER_COLOR = """
+    (of|with|in) (a different|another|the other) (color|colour) [than (it|its own|itself)],
+    (that|which) (is of|has) (a different|another) (color|colour) [than (it|its own|itself)]
+"""
+"""Behind a place for one thing, of which it has not the colour."""
 MATCHING_ADJECTIVES = (
     "matching, corresponding, same color, same colour, same colored, same coloured"
 )

@@ -55,7 +55,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.nouns import is_only
 
@@ -221,6 +221,7 @@ ENSURE = either(
         verbs.KEEP,
         NP_LIST,
         OPEN_OR_CLOSED,
+        silent(optional(manner.AS_NOW)),
         ALWAYS,
         build=kept_so,
     ),

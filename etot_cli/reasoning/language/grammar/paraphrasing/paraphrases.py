@@ -144,7 +144,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"leave \1 as they are",
     ),
     (
-        rf"^({ASKED})(?:tidy|clean)(?: up)? (?:the|my) {TABLE}(?: up)?(?:: | by (?=\w+ing ))",
+        rf"^({ASKED})(?:tidy|clean|declutter|neaten|organi[sz]e)(?: up)? (?:the|my) "
+        rf"(?:{TABLE}|workspace|workplace|work area)(?: up)?(?:: | by (?=\w+ing ))",
         r"\1tidy up: ",
     ),
     # "By size on the tray"

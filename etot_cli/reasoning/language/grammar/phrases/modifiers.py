@@ -115,6 +115,18 @@ def _at_side(said: str) -> Modifier:
     return Modifier(Prep.SIDE, words=tuple(said.split()))
 
 
+def _colored(np: NounPhrase) -> Modifier:
+    """The colour of a thing, or of any of several ("every block of the same colour as a bowl")."""
+    any_one = np.determiner in ("a", "an", "any", "one")
+    if not any_one:
+        return Modifier(Prep.COLORED, (np,))
+    return Modifier(Prep.COLORED, (replace(np, determiner="all"),), ANY_SUCH)
+
+
+ANY_SUCH = ("any",)
+"""Of a thing's colour: any of several has it."""
+
+
 PLAIN_MODIFIER = either(
     sequence(optional(phrase(small_words.EXACTLY), ""), PREPOSITION, noun_phrase, build=_rightly),
     sequence(
@@ -135,7 +147,7 @@ PLAIN_MODIFIER = either(
         noun_phrase,
         build=lambda np: Modifier(Prep.IN, (np,), ("outside",), denied=True),
     ),
-    sequence(nouns.SAME_COLOR, noun_phrase, build=lambda np: Modifier(Prep.COLORED, (np,))),
+    sequence(nouns.SAME_COLOR, noun_phrase, build=_colored),
     valued(SIDE, _at_side),
     spanned(either(one_of(places.AREAS), _NEAREST_AREA), _in_area),
     sequence(
@@ -144,10 +156,13 @@ PLAIN_MODIFIER = either(
         build=lambda ordinal, side: Modifier(Prep.SIDE, words=(ordinal, *side)),
     ),
 )
-_matching = sequence(
-    nouns.MATCHING,
-    optional("as (it|them|its own|their own|itself|themselves|theirs|they have|it has)"),
-    build=lambda: Modifier(Prep.MATCHING),
+_matching = either(
+    sequence(
+        nouns.MATCHING,
+        optional("as (it|them|its own|their own|itself|themselves|theirs|they have|it has)"),
+        build=lambda: Modifier(Prep.MATCHING),
+    ),
+    phrase(nouns.OTHER_COLOR, Modifier(Prep.MATCHING, denied=True)),
 )
 QUALITY = valued(ADJECTIVES, lambda words: Modifier(Prep.QUALITY, words=words))
 _none_of = valued(
@@ -276,9 +291,23 @@ def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
     return Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps))) if told else None
 
 
+def _that_one(the: str, np: NounPhrase) -> Modifier | None:
+    """That things are a certain one of their kind ("neither of them may be the red one")."""
+    said = replace(np, determiner=the, text=f"{the} {np.text}")
+    return None if np.determiner else Modifier(Prep.EXCEPT, (_one_of_them(said),), denied=True)
+
+
+_MAY_BE = "(may|can|should|must|shall|is to|are to) be"
 NONE_OF_THEM = sequence(
-    "[but|and] (neither [one]|none|not one) of (them|which|these|those) [is|are|being]",
-    either(PLAIN_MODIFIER, CONTENTS, QUALITY, _none_of),
+    f"[but|and] (neither [one]|none|not one) of (them|which|these|those) [is|are|being|{_MAY_BE}],"
+    f" [but|and] neither [one] {_MAY_BE}",
+    either(
+        PLAIN_MODIFIER,
+        CONTENTS,
+        QUALITY,
+        _none_of,
+        sequence(phrase("the"), noun_phrase, build=_that_one),
+    ),
     build=denied,
 )
 """Behind several things, what is true of none of them."""
@@ -348,7 +377,8 @@ _modifier = either(
     sequence(nouns.RELATIVE, DESCRIBED),
     sequence(
         # "The cup that is standing there"
-        nouns.RELATIVE,
+        either(nouns.RELATIVE, "already"),
+        optional("up, down, over, in, on"),
         "there",
         build=lambda: Modifier(Prep.FROM, (NounPhrase(pronoun="it", text="there"),)),
     ),

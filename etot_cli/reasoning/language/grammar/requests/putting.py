@@ -422,7 +422,14 @@ PUT = either(
         build=lambda where: put_to(Things((NounPhrase(pronoun=UNSAID, text="it"),)), (where,)),
     ),
     sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
-    sequence(verbs.PUT, THINGS, _SO_THAT_IT_IS, DESTINATIONS, build=put_to),
+    sequence(
+        verbs.PUT,
+        THINGS,
+        _SO_THAT_IT_IS,
+        DESTINATIONS,
+        EXTRAS,
+        build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
+    ),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
     spanned(

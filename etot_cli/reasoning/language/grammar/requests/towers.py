@@ -138,6 +138,22 @@ def _rising(lowest: Any, more: Any) -> tuple[NounPhrase, ...] | None:
     return nps[::-1] if begun == "top" else nps
 
 
+def _of_these(things: Things, base: Any, nps: tuple[NounPhrase, ...]) -> TowerClause | None:
+    """A tower of those of several things that are named in their order."""
+    (np, *more) = things.phrases
+    plural = singular(np.head) != np.head
+    if more or not plural or np.modifiers:
+        return None
+    named = tuple(
+        replace(told, words=(*told.words, singular(np.head)))
+        if all(map(is_descriptive, told.words))
+        else told
+        for told in nps
+    )
+    count = None if np.determiner in ("the", "these", "those", "") else things
+    return TowerClause(Things(named), upward=True, base=base, whole=count)
+
+
 _UPWARD = sequence(
     OPTIONAL_COMMA, either(phrase(manner.BOTTOM_UP, True), phrase(manner.TOP_DOWN, False))
 )
@@ -160,6 +176,16 @@ _MORE_LAYERS = some(
     most=5,
 )
 _IN_A_ROW = separated(noun_phrase, LIST, most=6)
+_ORDER = sequence(OPTIONAL_COMMA, manner.IN_THE_ORDER, OPTIONAL_COMMA)
+_IN_ORDER = either(
+    sequence(_ORDER, _IN_A_ROW, _UPWARD, build=lambda nps, up: nps if up else nps[::-1]),
+    sequence(
+        either(sequence(_ORDER, _UPWARD, COMMA), sequence(_UPWARD, _ORDER)),
+        _IN_A_ROW,
+        build=lambda up, nps: nps if up else nps[::-1],
+    ),
+)
+"""All of a tower in an order whose direction is said, from the bottom up."""
 _LAYERS = valued(
     either(
         sequence(_LAYER, _MORE_LAYERS, build=_rising),
@@ -167,6 +193,7 @@ _LAYERS = valued(
         FIRST_TO_LAST,
         sequence(_IN_A_ROW, _UPWARD, build=lambda nps, up: nps if up else nps[::-1]),
         sequence(_UPWARD, COMMA, _IN_A_ROW, build=lambda up, nps: nps if up else nps[::-1]),
+        _IN_ORDER,
     ),
     _with_nouns,
 )
@@ -285,6 +312,15 @@ _TOWER = either(
         optional(sequence(THINGS, optional("up"), SO), None),
         _LAYERS,
         build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),
+    ),
+    sequence(
+        # "Stack the blocks on the tray from bottom to top in the order red, blue"
+        verbs.STACK,
+        THINGS,
+        optional("up"),
+        optional(DESTINATIONS, ()),
+        _IN_ORDER,
+        build=_of_these,
     ),
 )
 

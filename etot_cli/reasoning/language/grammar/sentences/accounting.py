@@ -242,7 +242,7 @@ def _said(node: object) -> Iterator[str]:
             if denied or prep in (Prep.EXCEPT, Prep.CONTRAST):
                 yield from (_DENIAL, "other")
             if prep in (Prep.MATCHING, Prep.COLORED):
-                yield "same"
+                yield "another" if denied else "same"
         case NounPhrase(as_many_as=NounPhrase()):
             yield "same"
         case NounPhrase(without=without) if without:

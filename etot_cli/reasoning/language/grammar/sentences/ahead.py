@@ -1,4 +1,6 @@
-"""Rules for what is said ahead of a request: what is left out, and where something is not to be."""
+"""Rules for what is said ahead of a request: what is left out, where something is not to be, and
+for each of which things it is said.
+"""
 
 from __future__ import annotations
 
@@ -68,8 +70,31 @@ def _without(out: Modifier, rest: Reading) -> Reading | None:
     return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
 
 
+def _for_each(np: NounPhrase, rest: Reading) -> Reading | None:
+    """What is to be with each of some things ("for each plate, put a cup on it")."""
+    if np.determiner.split()[:1] not in (["each"], ["every"]) or len(rest) > 1:
+        return None
+
+    def with_each(where: tuple[Destination, ...]) -> tuple[Destination, ...]:
+        return tuple(item.going_to(lambda at: np if at.pronoun == "it" else at) for item in where)
+
+    new: PutClause | EnsureClause
+    match rest[0].clause:
+        case PutClause(groups=(group,)) as clause:
+            told = with_each(group.destinations)
+            same = told == group.destinations
+            new = replace(clause, groups=(replace(group, destinations=told),))
+        case EnsureClause(states=(state,)) as clause:
+            told = with_each(state.destinations)
+            same = told == state.destinations
+            new = replace(clause, states=(replace(state, destinations=told),))
+        case _:
+            return None
+    return None if same else (replace(rest[0], clause=new),)
+
+
 def not_so(chain: Parser) -> Parser:
-    """What is not meant, or not to be, and then what is asked for."""
+    """What is not meant, or not to be, or for each of what it is, and then what is asked for."""
     there = sequence(
         small_words.NOT_THERE, optional(verbs.BEING), valued(DESTINATIONS, denied), OPTIONAL_COMMA
     )
@@ -79,4 +104,5 @@ def not_so(chain: Parser) -> Parser:
             valued(_NOT_THIS, lambda np: Modifier(Prep.CONTRAST, (np,))), chain, build=_without
         ),
         sequence(there, chain, build=_elsewhere),
+        sequence("for", noun_phrase, OPTIONAL_COMMA, chain, build=_for_each),
     )

@@ -42,7 +42,9 @@ def _paired(parts: list[str]) -> list[str]:
 
 _LOOK_FOR = Expression(rf"\b(?:{'|'.join(spellings(small_words.LOOK_FOR))}) [^,]*$")
 _OF_A_CHOICE = re.compile(
-    r"(?:and |but )?it (?:must|should|has to|needs to)(?: not)? be (?:an?|the) [\w ]+ one"
+    r"(?:and |but )?(?:it (?:must|should|has to|needs to)(?: not)?"
+    r"|(?:neither|none of (?:them|these|those)|neither of (?:them|these|those)) "
+    r"(?:may|must|should|can)) be (?:an?|the) [\w ]+ one"
 )
 """What is said of one of several things that was left to choose; no state ends in "one"."""
 
