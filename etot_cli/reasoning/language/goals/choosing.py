@@ -276,6 +276,23 @@ def tell_not_there(context: Context, theme: int, places: Sequence[Place]) -> Non
         discourse.notes.append(f"{referent.text!r} is not there yet, and is put there")
 
 
+def check_may_stay(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
+    """What may stay somewhere is there, or gets there.
+
+    Raises:
+        ReferenceProblem: it is not there, so that it may be meant to be put there.
+    """
+    discourse, scene = context.discourse, context.scene
+    at = [place.where for place in places if place.where is not None]
+    for theme in themes:
+        text = discourse.referents[theme].text
+        gets_there = theme in discourse.put and {*at} <= {p.where for p in discourse.last_places}
+        things, targets = discourse.things(theme), discourse.things(*at)
+        there = any(touches(thing, target, scene) for thing in things for target in targets)
+        if not (there or gets_there):
+            raise ReferenceProblem(text, "it is not there; say where it goes", 2)
+
+
 def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]) -> None:
     """What is left somewhere is there already, or is put there.
 

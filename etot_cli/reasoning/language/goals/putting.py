@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.goals.alone import check_alone, check_counted, 
 from etot_cli.reasoning.language.goals.choosing import (
     check_contrasted,
     check_describes,
+    check_may_stay,
     check_not_there,
     check_poured,
     check_swept,
@@ -312,6 +313,10 @@ def ensure(context: Context, state: State) -> None:
         out, where = Things(state.subjects), state.destinations
         avoid(context, AvoidClause(Avoid.PUT, out, where, not_left=True))
         return
+    if state.allowed and len(state.destinations) == 1:
+        themes = context.phrases.things(Things(state.subjects), Role.THEME)
+        found = context.places.of(state.destinations, themes, stays=True)
+        check_may_stay(context, themes, found)
     emptied = RemoveClause(Things(state.subjects))
     if is_emptying(emptied):
         try:

@@ -23,7 +23,7 @@ from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_e
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, RemoveClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
-from etot_cli.reasoning.language.reference.memory.antecedents import NothingThere
+from etot_cli.reasoning.language.reference.memory.antecedents import EmptyAlready, NothingThere
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -77,6 +77,12 @@ def remove(context: Context, clause: RemoveClause) -> None:
         _check_holds(context, things)
         _speak_of_emptied(context, clause)
         return  # "put the pen in the cup to free the tray"
+    except EmptyAlready as already:
+        if not clause.by_then:
+            raise
+        discourse.notes.append(f"{already.phrase!r} is empty already")
+        _speak_of_emptied(context, clause)
+        return
     if clause.by_then and is_emptying(clause) and not _is_untouched(context, themes):
         _check_emptied(context, clause, themes)
         _speak_of_emptied(context, clause)

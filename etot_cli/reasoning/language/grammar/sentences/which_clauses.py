@@ -239,6 +239,8 @@ def held_by(before: Clause, clause: Clause) -> Clause | None:
     """What goes on, with a name for "which": what something goes into or onto before it."""
     match before:
         case EnsureClause(states=(State(destinations=(where,), denied=False) as state,)):
+            if state.alone:
+                return None  # "nothing on the tray except the spoon, which …" is about the spoon
             before = put_to(Things(state.subjects), (where,))
         case PutClause(groups=(PutGroup(destinations=(where,)),)):
             pass

@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.reference.choosing.nouns import with_quality
 from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.memory.antecedents import (
     AmbiguousReference,
+    EmptyAlready,
     UnclearLandmark,
 )
 from etot_cli.reasoning.language.reference.naming.determiners import Quantity, quantity_of
@@ -113,7 +114,7 @@ def modified(
             found = things
             ways = {tuple(things): ([], [_atop(things[0], scene)])}
         if not found:
-            raise ReferenceProblem(*_untrue(phrase, modifier, things), 1)
+            raise _untrue(phrase, modifier, things)
         bare = modifier.denied and (
             modifier.prep in (Prep.WITH, Prep.FROM)
             or (modifier.prep in HOLDING and is_one(modifier.phrases[0]))
@@ -188,14 +189,15 @@ def _atop(thing: Thing, scene: SceneState) -> str:
 _ALONE = "there is no other one that this would tell it from"
 
 
-def _untrue(phrase: NounPhrase, modifier: Modifier, things: Sequence[Thing]) -> tuple[str, str]:
+def _untrue(phrase: NounPhrase, modifier: Modifier, things: Sequence[Thing]) -> ReferenceProblem:
     """The words that are true of nothing, and why; a place may stand apart from what is there."""
     landmark = next((np.text for np in modifier.phrases), phrase.text)
     if modifier.words == CLEARED:
-        return landmark, "there is nothing in or on it"
+        return EmptyAlready(landmark, "there is nothing in or on it", 1)
     if modifier.prep is Prep.FROM and landmark not in phrase.text:
-        return landmark, f"{phrase.text!r} is not there"
-    return phrase.text, f"this is true of none of what it could mean ({names_of_things(things)})"
+        return ReferenceProblem(landmark, f"{phrase.text!r} is not there", 1)
+    why = f"this is true of none of what it could mean ({names_of_things(things)})"
+    return ReferenceProblem(phrase.text, why, 1)
 
 
 def _check_cleared(

@@ -35,6 +35,10 @@ class NothingThere(ReferenceProblem):
     """Words for all that is somewhere, from where it has been moved."""
 
 
+class EmptyAlready(ReferenceProblem):
+    """Words for all that is in or on something, where nothing is."""
+
+
 @dataclass(frozen=True, slots=True)
 class Mention:
     """A referent spoken of in a clause, in a role."""
