@@ -138,6 +138,7 @@ _DONE = sequence(
     ),
     build=_strictest,
 )
+_DONE_OR_TURNED = either(_DONE, one_of({Avoid.OPEN: "opened", Avoid.CLOSE: "closed, shut"}))
 """Behind "must not be": one or several things that are not to happen ("lifted or shifted")."""
 _DOING = sequence(
     separated(
@@ -308,8 +309,8 @@ AVOID = either(
     sequence(
         # "None of the cups may be moved"
         noun_phrase,
-        f"({forbidden.MAY}) be",
-        _DONE,
+        f"({forbidden.MAY}) be [ever]",
+        _DONE_OR_TURNED,
         build=_none_disturbed,
     ),
     sequence(
@@ -319,7 +320,7 @@ AVOID = either(
         either(
             sequence(
                 f"({forbidden.MAY}) be [ever]",
-                either(_DONE, one_of({Avoid.OPEN: "opened", Avoid.CLOSE: "closed, shut"})),
+                _DONE_OR_TURNED,
             ),
             phrase(f"({forbidden.MAY}) move", Avoid.MOVE),
         ),

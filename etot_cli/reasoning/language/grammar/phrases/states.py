@@ -69,8 +69,11 @@ SO = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, DESTINATIONS)
 """How things are."""
 
 
+_OPENED = "opened"
+"""Of "none" that says what is not to be done, not how it is to be."""
 PREDICATE = either(
-    OPEN_OR_CLOSED,
+    phrase("opened [up]", _OPENED),
+    IS_OPEN_OR_CLOSED,
     IN_HAND,
     _NOT_SO,
     sequence(optional(sequence("out of the way", OPTIONAL_COMMA)), WHERE),
@@ -84,6 +87,10 @@ def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
     if "still" in predicate:
         denied = any(np.determiner in NONE for np in subjects)
         return None if denied else State(subjects, predicate[1], kept=True)
+    if predicate == _OPENED:
+        predicate = "open"
+        if any(np.determiner in NONE for np in subjects):
+            return None
     if all(np.determiner in NONE for np in subjects) and "not" not in predicate:
         every = tuple(replace(np, determiner=NONE[np.determiner]) for np in subjects)
         return _opposite(every, predicate)
