@@ -337,7 +337,10 @@ CONTAINED = """
     (was|were|is) holding
 """
 """Between a vessel and what is to be in it."""
-STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [behind] [put|lying|standing|sitting]"
+STAY = f"""
+    ([{_MUST}|can|may] {_SIMPLY} (stay|remain)|{_SIMPLY} (stays|remains))
+    [behind] [put|lying|standing|sitting]
+"""
 STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
 """Before what something is never to be in or on."""
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left [standing|lying|sitting]"

@@ -26,6 +26,8 @@ _NOTHING_ELSE = (
     r"(?:and |but )?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
     r"(?:nothing else (?:(?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
     rf"|end up|come|get|land|stay|remain|be left)|goes|ends up|comes|gets|lands|is) {_IN_THERE}"
+    rf"|(?:(?:do not|never) (?:put|place) (?:anything else|any other things?)"
+    rf"|(?:put|place) nothing else) {_IN_THERE}"
     rf"|there (?:should|must|may|is to) be nothing else {_IN_THERE}"
     r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
     r"(?: (?:in|on) it)?)"

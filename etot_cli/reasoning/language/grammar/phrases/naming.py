@@ -145,6 +145,13 @@ def _nearest_to(
     return None if ordinal else NounPhrase(determiner, words, (Modifier(prep, (mark[1],)),))
 
 
+def _whichever(words: tuple[str, ...], modifier: Modifier, more: Any) -> NounPhrase:
+    """The one that is so; whichever "is left" is the one that nothing else was done with."""
+    if modifier.words == ("left",) and not modifier.denied:
+        return NounPhrase("the other", words, more)
+    return NounPhrase("the only", words, (modifier, *more))
+
+
 def _where_it_is(words: tuple[str, ...], np: NounPhrase) -> NounPhrase | None:
     """The place that something is in or on ("the same drawer as the pen")."""
     vague = matches_any(words[-1], (*THING_NOUNS, "color", "colour", "place", "way", "side"))
@@ -268,9 +275,7 @@ noun_phrase.define(
                     sequence("not", either(PLAIN_MODIFIER, quality_alone), build=denied),
                 ),
                 MODIFIERS,
-                build=lambda words, modifier, more: NounPhrase(
-                    "the only", words, (modifier, *more)
-                ),
+                build=_whichever,
             ),
             sequence(
                 "the",
