@@ -182,6 +182,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
             touched = tuple(f"{part.owner}.{part.name}" for part in parts)
             context.constraints.append(Constraint(Keep.UNTOUCHED, touched))
         return
+    if touching and all(moving.get(t) for t in things):  # one that is ajar, not its chest
+        names = tuple(f"{part.owner}.{part.name}" for part in parts)
     names += _what_is_there(context, names) if clause.as_it_is else ()
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
 

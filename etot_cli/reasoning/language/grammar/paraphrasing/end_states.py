@@ -395,7 +395,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "With the cup still on the tray" tells of no tray.
     (
-        r"(?<=\w) with (?="
+        r"(?<=\w)(?<!\bnot) with (?="
         rf"{_SOME} (?:still|staying|remaining|left) (?:standing |lying |sitting |resting )?"
         rf"(?:on|in|inside|there|where|untouched)\b)(?!{_SOME} still (?:in|on) it\b)",
         ", with ",
