@@ -51,6 +51,8 @@ A_PUT = """
     (a|an|one|the) (place|placement|placing|put|pick and place|insertion|transfer|relocation|move)
 """
 """What is performed on a thing ("do a pick of the cup")."""
+PUTTING = "[the] (placement|placing|insertion|transfer|relocation)"
+"""Likewise, as a heading ("placement of the cup on the tray")."""
 OUT_OF_THE_WAY = """
     (is|are) [safely] (out of the way|no longer in the way|not in the way [any more]|to one side),
     (is|are|has been|have been) [safely] (moved|put|set|taken|brought|cleared|pushed)

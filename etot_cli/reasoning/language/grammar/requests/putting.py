@@ -450,8 +450,7 @@ PUT = either(
     sequence(ALL_THINGS, "need[s]", verbs.SET_DOWN, DESTINATIONS, build=put_to),
     sequence(
         # "Do a placement of the cup on the tray"
-        verbs.PERFORM,
-        verbs.A_PUT,
+        either(sequence(verbs.PERFORM, verbs.A_PUT), verbs.PUTTING),
         "of",
         THINGS,
         DESTINATIONS,
