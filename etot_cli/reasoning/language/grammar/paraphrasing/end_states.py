@@ -26,12 +26,14 @@ _NOTHING_ELSE = (
     r"(?:and |but )?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
     r"(?:nothing else (?:(?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
     rf"|end up|come|get|land|stay|remain|be left)|goes|ends up|comes|gets|lands|is) {_IN_THERE}"
-    rf"|(?:(?:do not|never) (?:put|place) (?:anything else|any other things?)"
-    rf"|(?:put|place) nothing else) {_IN_THERE}"
     rf"|there (?:should|must|may|is to) be nothing else {_IN_THERE}"
     r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
     r"(?: (?:in|on) it)?)"
     r"(?=[.;!]|$)"
+)
+_PUT_NOTHING_ELSE = (
+    r"(?:and |but )?(?:(?:do not|never) (?:put|place) (?:anything else|any other things?)"
+    rf"|(?:put|place) nothing else) {_IN_THERE}(?=[.;!]|$)"
 )
 _LEFT = "(?:,? and|, then)(?: then)? (?:left|kept|(?:to )?(?:stay|remain))"
 _KEPT = {"out of": "in", "off": "on"}
@@ -271,8 +273,15 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "Put the egg in the bowl; nothing else should be in there"
     (
-        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? {_NOTHING_ELSE}",
+        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? "
+        rf"(?:{_NOTHING_ELSE}|{_PUT_NOTHING_ELSE})",
         r"\1",
+    ),
+    # What is there already may stay.
+    (
+        rf"\b(put|place|set|stand|lay) ({_SOME}) ((?:in|on|into|onto|inside) {_SOME})[.;,]? "
+        rf"{_PUT_NOTHING_ELSE}",
+        r"\1 \2 \3. do not put anything but \2 \3",
     ),
     (
         rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "

@@ -99,6 +99,8 @@ def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhras
             return None  # "cup nearest shelf"
     if words[0] == "one" and len(words) > 1 and determiner == "any":
         return None  # "any one pen" is one of them, "the one pen" the only one
+    if determiner in ("whichever", "whatever") and any(m.words == ("left",) for m in modifiers):
+        return None  # it is not on the left
     number = words[-1] == "one" and not (determiner and len(words) == 1)
     plain = number and not (len(words) > 1 and singular(words[-2]) == words[-2])
     return None if plain else NounPhrase(determiner, words, modifiers)
