@@ -51,7 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.memory.by_now import note_placed
+from etot_cli.reasoning.language.reference.memory.by_now import note_placed, note_turned
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words import verbs
@@ -213,6 +213,8 @@ def _note_placed(clause: Clause, context: Context) -> None:
     """Notes where things are by now. Of what a clause empties the next one may say where all that
     is in there goes ("clear the tray: whatever is on it goes into the bin").
     """
+    for done in context.steps:
+        note_turned(context.discourse, done)
     puts = [step for step in context.steps if isinstance(step, Put)]
     cleared = is_emptying(clause)
     for step in (*context.cleared, *(() if cleared else puts)):

@@ -45,7 +45,8 @@ def spread(context: Context, place: Place) -> Place:
 
 
 _ELSEWHERE = (
-    r"(?:(?:to|in|into|at) )?(?:(?:somewhere|some ?place) (?:else|safe)|elsewhere|aside|safety"
+    r"(?:(?:to|in|into|at) )?(?:(?:(?:some|any)where|some ?place) else"
+    r"|(?:somewhere|some ?place) safe|elsewhere|aside|safety"
     r"|(?:an?|another) (?:(?:new|good|better|safer?|suitable|different|proper) )+(?:place|spot"
     r"|position|location)|another (?:place|spot|position|location)"
     r"|(?:somewhere|anywhere) (?:that is )?not in the way"

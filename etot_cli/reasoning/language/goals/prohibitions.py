@@ -119,7 +119,11 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         kept = [mention for mention in said if mention.role is Role.THEME and not before]
         targets = [replace(m, role=Role.ANY) for m in said if m.role in _TARGETS]
         kept += [replace(m, clause=0) for m in targets] if before else targets
-        context.discourse.mentions[before:] = kept
+        # "Nothing but the cups may be there, so put them there"
+        spared = [t for m in said for t in context.discourse.left_out.get(m.referent, ())]
+        context.discourse.mentions[before:] = [] if spared else kept
+        for thing in sorted(spared, key=attrgetter("address")):
+            context.discourse.alone(thing, Role.THEME)
         return
     indices = _left_by_what_moves(context, clause) or context.phrases.things(clause.things, role)
     if clause.avoid is Avoid.HARM:
@@ -182,6 +186,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
             touched = tuple(f"{part.owner}.{part.name}" for part in parts)
             context.constraints.append(Constraint(Keep.UNTOUCHED, touched))
         return
+    if touching and all(moving.get(t) for t in things):  # one that is ajar, not its chest
+        names = tuple(f"{part.owner}.{part.name}" for part in parts)
     names += _what_is_there(context, names) if clause.as_it_is else ()
     context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
 

@@ -58,7 +58,8 @@ def rule_out_things(context: Context, clause: AvoidClause) -> None:
         taken = (at,) if whole else tuple(context.single(thing, thing.name) for thing in there)
         for index in taken:
             add_put(context, (index,), (context.places.on_the_desk(),), Grouping.ANY, removal=True)
-        if known and not whole and at not in context.discourse.put:
+        spared = context.discourse.left_out.get(at)  # what "it" means then
+        if known and not (whole or spared) and at not in context.discourse.put:
             _speak_of_those_there(context, at, taken, where)
 
 

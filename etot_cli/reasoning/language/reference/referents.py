@@ -17,7 +17,11 @@ from etot_cli.reasoning.language.reference.memory.antecedents import (
     AmbiguousReference,
     NothingThere,
 )
-from etot_cli.reasoning.language.reference.memory.by_now import is_empty_by_now, there_by_now
+from etot_cli.reasoning.language.reference.memory.by_now import (
+    is_empty_by_now,
+    open_by_now,
+    there_by_now,
+)
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.memory.spoken_of import openable
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -133,6 +137,8 @@ class Referents(Meanings):
         plain = usual_form(phrase)
         if (changed := self._empty_by_now(plain, role)) is not None:
             return changed
+        if (changed := self._open_by_now(plain, role)) is not None:
+            return changed
         held = [m for m in plain.modifiers if m.prep in (Prep.ON, Prep.IN, Prep.FROM)]
         item = held[0] if len(held) == 1 else None
         now = item is not None and not item.denied and HERE_BEFORE not in item.words
@@ -197,6 +203,39 @@ class Referents(Meanings):
             raise AmbiguousReference(phrase.text, [thing.address for thing in things])
         note = f"{phrase.text!r}: {fitting[0].address} by then"
         return Resolved(((fitting[0],),), definite=True, noun=called.noun, notes=(note,))
+
+    def _open_by_now(self, phrase: NounPhrase, role: Role) -> Resolved | None:
+        """All that is open, where that is no more what it was at the start; else None.
+
+        Raises:
+            ReferenceProblem: there are more of them, or fewer.
+            AmbiguousReference: what is closed by now may be meant, or what was so at the start.
+        """
+        states = [m for m in phrase.modifiers if m.prep is Prep.QUALITY and not m.denied]
+        words = (*phrase.words, *(word for m in states for word in m.words))
+        said = {STATES.get(word, "") for word in words} & {"open", "closed"}
+        quantity = quantity_of(phrase.determiner)
+        plural = quantity.every or singular(phrase.head) != phrase.head
+        if len(said) != 1 or not (plural and self.discourse.turned and role is Role.PART):
+            return None
+        rest = tuple(word for word in phrase.words if STATES.get(word) not in said)
+        told = tuple(m for m in phrase.modifiers if m not in states)
+        called: Resolved | None = None
+        with suppress(ReferenceProblem):
+            every = replace(phrase, words=rest, modifiers=told, determiner="all")
+            called = self.meaning(every, role)
+        things = things_in(called.options) if called else ()
+        wanted = said == {"open"}
+        now = tuple(thing for thing in things if open_by_now(thing, self.discourse) == wanted)
+        if called is None or {*now} == {
+            thing for thing in things if state_holds("open", thing, self.scene) == wanted
+        }:
+            return None
+        if not wanted:
+            raise AmbiguousReference(phrase.text, [thing.address for thing in things])
+        if quantity.count not in (None, len(now)) or not now:
+            raise ReferenceProblem(phrase.text, f"{len(now)} are so by then", 2)
+        return replace(called, options=(now,))
 
     def _as_before(self, resolved: Resolved) -> Resolved:
         """After "take the pen from the mug" "the pen" is that one, even where another one is

@@ -118,6 +118,7 @@ A_SAFE_PLACE = """
     somewhere (safe|safer|else)
 """
 """What is found for a thing that goes there."""
+SOMEWHERE_ELSE = "[to] (somewhere|some place|anywhere) else, elsewhere, to another (place|spot)"
 SOMEWHERE_FREE = "(somewhere|anywhere|some place) (free|clear|empty)"
 """Before, or behind, what it is on: where there is room, which every plan looks for."""
 SOMEWHERE = """

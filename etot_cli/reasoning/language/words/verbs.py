@@ -51,6 +51,8 @@ A_PUT = """
     (a|an|one|the) (place|placement|placing|put|pick and place|insertion|transfer|relocation|move)
 """
 """What is performed on a thing ("do a pick of the cup")."""
+PUTTING = "[the] (placement|placing|insertion|transfer|relocation)"
+"""Likewise, as a heading ("placement of the cup on the tray")."""
 OUT_OF_THE_WAY = """
     (is|are) [safely] (out of the way|no longer in the way|not in the way [any more]|to one side),
     (is|are|has been|have been) [safely] (moved|put|set|taken|brought|cleared|pushed)
@@ -337,7 +339,10 @@ CONTAINED = """
     (was|were|is) holding
 """
 """Between a vessel and what is to be in it."""
-STAY = f"[{_MUST}|can|may] {_SIMPLY} (stay[s]|remain[s]) [behind] [put|lying|standing|sitting]"
+STAY = f"""
+    ([{_MUST}|can|may] {_SIMPLY} (stay|remain)|{_SIMPLY} (stays|remains))
+    [behind] [put|lying|standing|sitting]
+"""
 STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
 """Before what something is never to be in or on."""
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left [standing|lying|sitting]"

@@ -31,6 +31,10 @@ _NOTHING_ELSE = (
     r"(?: (?:in|on) it)?)"
     r"(?=[.;!]|$)"
 )
+_PUT_NOTHING_ELSE = (
+    r"(?:and |but )?(?:(?:do not|never) (?:put|place) (?:anything else|any other things?)"
+    rf"|(?:put|place) nothing else) {_IN_THERE}(?=[.;!]|$)"
+)
 _LEFT = "(?:,? and|, then)(?: then)? (?:left|kept|(?:to )?(?:stay|remain))"
 _KEPT = {"out of": "in", "off": "on"}
 _IMPERATIVE = {
@@ -269,8 +273,15 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "Put the egg in the bowl; nothing else should be in there"
     (
-        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? {_NOTHING_ELSE}",
+        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? "
+        rf"(?:{_NOTHING_ELSE}|{_PUT_NOTHING_ELSE})",
         r"\1",
+    ),
+    # What is there already may stay.
+    (
+        rf"\b(put|place|set|stand|lay) ({_SOME}) ((?:in|on|into|onto|inside) {_SOME})[.;,]? "
+        rf"{_PUT_NOTHING_ELSE}",
+        r"\1 \2 \3. do not put anything but \2 \3",
     ),
     (
         rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
@@ -393,7 +404,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "With the cup still on the tray" tells of no tray.
     (
-        r"(?<=\w) with (?="
+        r"(?<=\w)(?<!\bnot) with (?="
         rf"{_SOME} (?:still|staying|remaining|left) (?:standing |lying |sitting |resting )?"
         rf"(?:on|in|inside|there|where|untouched)\b)(?!{_SOME} still (?:in|on) it\b)",
         ", with ",

@@ -436,7 +436,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     # "Open the drawer, but not with the cup inside": it is not in there by then
     (
         r",? (?:but )?not with ((?:the|my|our) (?:\w+ ){0,2}?\w+) "
-        r"(?:(?:still |left )*(?:inside|in there|in it))(?=[.,;!?]|$)",
+        r"(?:still |left )*(?:inside(?: it)?|in there|in it)(?=[.,;!?]|$)",
         r", but first make sure \1 is not in it",
     ),
     (

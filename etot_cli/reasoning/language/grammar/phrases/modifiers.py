@@ -45,6 +45,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhr
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
+    BOARD_NOUNS,
     COMMON_NOUNS,
     LEVELS,
     ORDINALS,
@@ -381,6 +382,18 @@ _modifier = either(
         optional("up, down, over, in, on"),
         "there",
         build=lambda: Modifier(Prep.FROM, (NounPhrase(pronoun="it", text="there"),)),
+    ),
+    sequence(
+        # "Open the top drawer and close the one below"
+        after("one", "drawer", *BOARD_NOUNS),
+        one_of(
+            {
+                Prep.UNDER: "[right|just] (below|underneath|beneath)",
+                Prep.ABOVE: "[right|just] above",
+            }
+        ),
+        not_ahead("the", "a", "an", "it", "them", "that", "this", "my", "your"),
+        build=lambda prep: Modifier(prep, (NounPhrase(pronoun="it", text="it"),)),
     ),
     sequence(
         # "That is red and on the left"

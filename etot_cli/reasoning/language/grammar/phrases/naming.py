@@ -99,6 +99,8 @@ def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhras
             return None  # "cup nearest shelf"
     if words[0] == "one" and len(words) > 1 and determiner == "any":
         return None  # "any one pen" is one of them, "the one pen" the only one
+    if determiner in ("whichever", "whatever") and any(m.words == ("left",) for m in modifiers):
+        return None  # it is not on the left
     number = words[-1] == "one" and not (determiner and len(words) == 1)
     plain = number and not (len(words) > 1 and singular(words[-2]) == words[-2])
     return None if plain else NounPhrase(determiner, words, modifiers)
@@ -143,6 +145,13 @@ def _nearest_to(
     if mark[1].words in (("you",), ("robot",)):
         return NounPhrase(determiner, (*filter(None, (ordinal,)), side, *words))
     return None if ordinal else NounPhrase(determiner, words, (Modifier(prep, (mark[1],)),))
+
+
+def _whichever(words: tuple[str, ...], modifier: Modifier, more: Any) -> NounPhrase:
+    """The one that is so; whichever "is left" is the one that nothing else was done with."""
+    if modifier.words == ("left",) and not modifier.denied:
+        return NounPhrase("the other", words, more)
+    return NounPhrase("the only", words, (modifier, *more))
 
 
 def _where_it_is(words: tuple[str, ...], np: NounPhrase) -> NounPhrase | None:
@@ -268,9 +277,7 @@ noun_phrase.define(
                     sequence("not", either(PLAIN_MODIFIER, quality_alone), build=denied),
                 ),
                 MODIFIERS,
-                build=lambda words, modifier, more: NounPhrase(
-                    "the only", words, (modifier, *more)
-                ),
+                build=_whichever,
             ),
             sequence(
                 "the",

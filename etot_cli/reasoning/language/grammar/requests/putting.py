@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
     either,
     optional,
     phrase,
@@ -223,6 +226,11 @@ _A_PLACE = """
 """
 
 
+_ALLOWED = {("you", "may"), ("you", "can"), ("you", "could")}
+_NOT_ALLOWED = Parser(
+    lambda given, at: [] if _ALLOWED & {*pairwise(given.words[:at])} else [(at, NOTHING)]
+)
+"""Who says that "you may move it somewhere else" leaves open whether it is moved."""
 _NEEDS_A_PLACE = """
     [still] (needs|need|deserves) (a|its|their) [new|safe|proper] (place|spot|home|places|homes),
     (should|must|has to|have to|is to|are to) find (a|its|their) [new|safe|proper] (place|spot|home)
@@ -302,7 +310,11 @@ PUT = either(
             sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to be, {verbs.TO_BE_THERE}"))),
             sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
         ),
-        either(phrase("aside, to one side", False), phrase(places.SAFELY, True)),
+        either(
+            phrase("aside, to one side", False),
+            sequence(_NOT_ALLOWED, phrase(places.SOMEWHERE_ELSE, False)),
+            phrase(places.SAFELY, True),
+        ),
         build=_safely,
     ),
     sequence(verbs.PUT_ASIDE, THINGS, build=partial(_safely, rather=False)),
@@ -438,8 +450,7 @@ PUT = either(
     sequence(ALL_THINGS, "need[s]", verbs.SET_DOWN, DESTINATIONS, build=put_to),
     sequence(
         # "Do a placement of the cup on the tray"
-        verbs.PERFORM,
-        verbs.A_PUT,
+        either(sequence(verbs.PERFORM, verbs.A_PUT), verbs.PUTTING),
         "of",
         THINGS,
         DESTINATIONS,

@@ -70,6 +70,7 @@ from etot_cli.reasoning.language.grammar.sentences.past import (
     ALL_LATER,
     EARLIER,
     LATER,
+    UNDER_WAY,
     ahead_of,
     done_later,
     once_done,
@@ -228,7 +229,7 @@ JOINED = either(
     joint("which in turn", COMMA, WHICH_IN_TURN_IS),
     joint("after", COMMA, WHICH_FIRST_GETS),
     joint("and", COMMA, so_in_turn(phrase("which", (NounPhrase(pronoun="it", text="which"),)))),
-    joint("while", OPTIONAL_COMMA, small_words.WHILE, LED_CLAUSE),
+    joint("while", OPTIONAL_COMMA, small_words.WHILE, either(LED_CLAUSE, plain(UNDER_WAY))),
     joint(
         "then",
         OPTIONAL_COMMA,

@@ -14,7 +14,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading
+from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.past import UNDER_WAY
 from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
@@ -69,7 +70,13 @@ _KEPT = either(
     ),
 )
 MEANWHILE = either(
-    sequence(small_words.WHILE, LED_CLAUSE, COMMA, CHAIN, build=_meanwhile),
+    sequence(
+        small_words.WHILE,
+        either(LED_CLAUSE, plain(UNDER_WAY)),
+        COMMA,
+        CHAIN,
+        build=_meanwhile,
+    ),
     sequence(
         located(_KEPT, lambda at, things: (at, things)),
         f"{manner.ERECT}, {manner.LEVELED}, standing",

@@ -8,6 +8,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,
     Parser,
     either,
+    one_of,
     optional,
     phrase,
     sequence,
@@ -163,6 +164,21 @@ _SO_BY_THEN = either(
     ),
 )
 """What has been done or is so by then ("once the pear has been put into the bowl")."""
+UNDER_WAY = either(
+    sequence(
+        ALL_THINGS,
+        f"(is|are|gets|get) [being] ({verbs.DONE_WITH_IT}) [down|away|over]",
+        DESTINATIONS,
+        build=put_to,
+    ),
+    sequence(
+        ALL_THINGS,
+        "(is|are) being",
+        one_of({True: "opened", False: "closed, shut"}),
+        build=MoveClause,
+    ),
+)
+"""What is being done at the time ("while the pen is being put on the tray")."""
 _HAVING_DONE = either(
     *(
         sequence(said, ALL_THINGS, build=lambda things, opens=opens: MoveClause(things, opens))
@@ -186,6 +202,7 @@ _HAVING_DONE = either(
     ),
     sequence(verbs.PICKED_UP, THINGS, build=PickClause),
     HAVING_TURNED,
+    sequence("emptied [out], cleared [out], unloaded", THINGS, build=emptied),
     sequence(
         f"{verbs.TAKEN_AWAY}, took (out|off|away), cleared away",
         ALL_THINGS,

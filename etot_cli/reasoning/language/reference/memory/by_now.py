@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Close, Open, Place, Put, Relation, Step, Thing
+from etot_cli.reasoning.builtin.relations import is_open, parts_of
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.words.places import Prep
@@ -106,6 +107,32 @@ def note_placed(discourse: Discourse, put: Put) -> None:
             if put.removal or not off:
                 discourse.moved_on |= {thing} if before != (None,) else set()
             discourse.placed[thing] = put.places if chosen else (*put.places, *before)
+
+
+def note_turned(discourse: Discourse, step: Step) -> None:
+    """Notes what is open or closed by now, as is what something has been put into."""
+    match step:
+        case Open(what=index) | Close(what=index):
+            turned = discourse.things(index)
+        case Put(places=(Place(relation=Relation.INSIDE, where=int(index)),)):
+            turned = discourse.things(index)
+        case _:
+            return
+    for thing in turned if len(discourse.referents[index].options) == 1 else ():
+        parts = parts_of(discourse.scene, thing)
+        if isinstance(step, Put) and len(parts) != 1:
+            continue  # into which drawer of a chest?
+        for part in parts:
+            discourse.turned[Thing(part.owner, part.name)] = not isinstance(step, Close)
+
+
+def open_by_now(thing: Thing, discourse: Discourse) -> bool:
+    """Whether a thing is open once all is done that was said so far."""
+    parts = parts_of(discourse.scene, thing)
+    return any(
+        discourse.turned.get(Thing(part.owner, part.name), is_open(discourse.scene, part))
+        for part in parts
+    )
 
 
 def is_off(thing: Thing, discourse: Discourse) -> bool:

@@ -33,6 +33,8 @@ class Discourse:
     last_places: tuple[Place, ...] = ()
     placed: dict[Thing, tuple[Place | None, ...]] = field(default_factory=dict)
     """Where things have been put, one of several places; None is where one was at the start."""
+    turned: dict[Thing, bool] = field(default_factory=dict)
+    """What has been opened, or closed (False), be it to put something into it."""
     moved_on: frozenset[Thing] = frozenset()
     """What has been put somewhere and then somewhere else, so that "where it was" may be either."""
     put_into: dict[int, int] = field(default_factory=dict)
@@ -88,6 +90,7 @@ class Discourse:
             referents=list(self.referents),
             mentions=list(self.mentions),
             placed=dict(self.placed),
+            turned=dict(self.turned),
             put_into=dict(self.put_into),
             notes=list(self.notes),
             stacks=dict(self.stacks),

@@ -136,7 +136,7 @@ def match_words(
     pools = _pools(vocabulary, head, adjectives, parts_first, upon)
     grades = {entry.grade(head) for entry in everything} - {None}
     if not grades:
-        before = words[-2] if len(words) > 1 and phrase.split()[0] != words[0] else ""
+        before = words[-2] if len(words) > 1 and phrase.split()[:1] != words[:1] else ""
         pools.append(
             vocabulary.of_category(head) or vocabulary.short_names(head, place=place, before=before)
         )

@@ -299,13 +299,19 @@ def _stood_on(discourse: Discourse, theme: int, furniture: int) -> bool:
 
 
 def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
-    """Whether one thing is a support by its looks, and another one neither that nor a vessel."""
+    """Whether one thing is a support by its looks, and another one neither that nor a vessel which
+    may hold what is put there.
+    """
     infos = discourse.scene.infos
-    own, rivals = (
-        [infos[thing.name] for thing in discourse.things(index) if thing.name in infos]
-        for index in (referent, other)
+    here = (m for m in discourse.mentions if m.clause == discourse.clause and m.role is Role.THEME)
+    own, rivals, placed = (
+        [infos[thing.name] for thing in discourse.things(*indices) if thing.name in infos]
+        for indices in ((referent,), (other,), [mention.referent for mention in here])
     )
-    return all(map(is_flat, own)) and not any(is_flat(info) or info.container for info in rivals)
+    widest = max((min(info.size[:2]) for info in placed), default=0.0)
+    return all(map(is_flat, own)) and not any(
+        is_flat(info) or (info.container and widest < min(info.size[:2])) for info in rivals
+    )
 
 
 def latest_place(
