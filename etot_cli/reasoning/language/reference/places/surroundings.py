@@ -314,7 +314,8 @@ class Surroundings:
         """The left side of a sideboard is a part of it; what is on the left of a tray is beside it,
         which is said.
         """
-        if "side" in beside.text.split() and self._are_fixed(things):
+        across = "other side of" in beside.text
+        if "side" in beside.text.split() and self._are_fixed(things) and not across:
             raise ReferenceProblem(beside.text, "say 'left of' and so on, or on which part", 1)
         flat = all(space.is_support(thing, self._scene) for thing in things)
         if flat and beside.text.startswith(("to the front of", "to the back of")):
