@@ -399,7 +399,7 @@ WITHOUT = sequence(
         sequence(
             forbidden.WITHOUT,
             THINGS,
-            "being, getting",
+            "[ever] (being|getting)",
             _DONE,
             build=lambda things, avoid: AvoidClause(avoid, things),
         ),

@@ -249,14 +249,13 @@ REORIENT = either(
         build=_laid_down,
     ),
 )
-STANDING_BESIDES = sequence(
-    "with",
-    ALL_THINGS,
-    silent(optional("still, kept, left, both, all")),
+_STILL_ERECT = sequence(
+    silent(optional("still, kept, left, both, all, staying, remaining")),
     manner.ERECT,
     silent(optional(small_words.BY_THE_END)),
-    build=_standing,
 )
+STANDING_BESIDES = sequence("with", ALL_THINGS, _STILL_ERECT, build=_standing)
+STAYING_UPRIGHT = sequence(ALL_THINGS, f"{verbs.BE}, {verbs.STAY}", _STILL_ERECT, build=_standing)
 """Which others stand upright, behind what is asked for (", with the cup upright")."""
 STANDS_UP = either(
     sequence(ALL_THINGS, optional(f"{verbs.BE}, {verbs.LIES}"), manner.ERECT, build=_stood_up),

@@ -40,7 +40,10 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
     holding_only,
     states,
 )
-from etot_cli.reasoning.language.grammar.requests.arrangements import STANDING_BESIDES
+from etot_cli.reasoning.language.grammar.requests.arrangements import (
+    STANDING_BESIDES,
+    STAYING_UPRIGHT,
+)
 from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.requests.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.requests.word_order import PLACE_AHEAD
@@ -141,7 +144,7 @@ def joint(name: str, *parts: Part) -> Parser:
 _SO = sequence(
     # "…, which should be closed afterwards", "…, which I want closed": what was named last
     "which [then] (should|must|has to|needs to|is to) [then] be [left|kept],"
-    " which (i|we) (want|need|would like) [to be] [left|kept]",
+    " which (i|we) (want|need|would like) [to (be|have)] [left|kept]",
     OPEN_OR_CLOSED,
     build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
 )
@@ -224,7 +227,7 @@ JOINED = either(
     joint(
         "so that", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))
     ),
-    joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(IS_EMPTY)),
+    joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(either(IS_EMPTY, STAYING_UPRIGHT))),
     joint("and", COMMA, timed(_SO)),
     joint("and", COMMA, WHICH_IS_MOVED),
     joint("which", COMMA, WHICH_GOES_ON),
