@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from etot_cli.skills.belief import Belief
+from etot_cli.skills.placements.dealt import DealtWith
 from etot_cli.skills.placements.judging import Request
 from etot_cli.skills.placements.orientation import points_down
 from etot_cli.skills.placements.placement import Placement, Tally, prepared_at
 from etot_cli.skills.placements.places import PlaceFinder
 from etot_cli.skills.placements.undersides import Stamps
-from etot_cli.world.arrays import Vector
 
 MAX_TRIES, TRIES_AGAIN = 60, 8
 """Places of one action that are looked at exactly, and when somebody is thought away. Of 30 floors
@@ -62,10 +61,10 @@ def placements(
     tries = MAX_TRIES if stamps is None else TRIES_AGAIN
     if closely is not None:
         tries = closely
-    done: list[_Mark] = []
-    found, upright, passed, far = 0, 0, 0, np.inf
+    dealt = DealtWith(SPREAD)
+    found, upright = 0, 0
     lays: bool | None = None
-    for place in finder.places(as_held=stamps is not None):
+    for place in finder.places(as_held=stamps is not None, skip=dealt.skips):
         position, rotation = place.pose.position, place.pose.rotation
         if tally.looked_at >= tries:
             return
@@ -74,31 +73,28 @@ def placements(
         if place.laid and (upright >= BEST_TRIES or not lays):
             continue  # there is room but for the hand, which may hold it otherwise
         on_others = place.bearers - {request.support.owner}
-        if on_others and tally.looked_at + passed >= LEVEL_TRIES:
+        if on_others and tally.looked_at + dealt.passed_over >= LEVEL_TRIES:
             continue
-        radius = float(np.hypot(*position[:2]))
-        if radius > far or any(mark.covers(position, rotation) for mark in done):
-            continue
-        spread = tally.looked_at >= BEST_TRIES and closely is None
-        if spread and any(mark.covers(position, rotation, SPREAD) for mark in done):
-            passed += 1
-            continue
+        if request.coming and dealt.covers(position[:2], rotation):
+            continue  # it has waited for others with more room beside it
         placement, reached = prepared_at(belief, request, place, tally)
+        dealt.spread = tally.looked_at >= BEST_TRIES and closely is None
         upright += not place.laid
         if placement is not None:
             yield placement
             found += 1
             if found == MAX_FOUND:
                 return
-            done.append(_Mark(position, None, APART))
+            dealt.add(position[:2], None, APART)
         elif reached:
             tally.obstructed += 1
-            done.append(_Mark(position, rotation, SAME_PLACE))
+            dealt.add(position[:2], rotation, SAME_PLACE)
         else:
             tally.unreached += 1
-            done.append(_Mark(position, rotation, UNREACHED_AROUND))
+            dealt.add(position[:2], rotation, UNREACHED_AROUND)
+            radius = float(np.hypot(*position[:2]))
             if radius > belief.arm.comfortable_radius(request.support.center[2]):
-                far = min(far, radius + UNREACHED_STEP)
+                dealt.far = min(dealt.far, radius + UNREACHED_STEP)
 
 
 def _from_above(belief: Belief, request: Request, tally: Tally) -> bool:
@@ -109,19 +105,3 @@ def _from_above(belief: Belief, request: Request, tally: Tally) -> bool:
         return False
     met = tally.blockers.most(excluding=[request.attached.name])
     return not any(belief.world.entries[name].info.movable for name in met)
-
-
-@dataclass(frozen=True)
-class _Mark:
-    """A place that has been dealt with: with one turn, or with all where there is none."""
-
-    position: Vector
-    rotation: Vector | None
-    radius: float
-
-    def covers(self, position: Vector, rotation: Vector, apart: float = 0.0) -> bool:
-        """Whether another place is much the same, or with one turn nearer than ``apart`` [m]."""
-        offset = position - self.position
-        radius = self.radius if self.rotation is None else max(self.radius, apart)
-        near = bool(np.hypot(offset[0], offset[1]) < radius)
-        return near and (self.rotation is None or np.array_equal(rotation, self.rotation))

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.placements.company import ROOMS, Company
+from etot_cli.skills.placements.dealt import Skip
 from etot_cli.skills.placements.judging import (
     FLAT,
     Cells,
@@ -83,7 +84,11 @@ class PlaceFinder:
         self._relief = self._judge.relief
 
     def places(
-        self, *, as_held: bool = False, kinds: Iterable[Quality] = Quality
+        self,
+        *,
+        as_held: bool = False,
+        kinds: Iterable[Quality] = Quality,
+        skip: Skip | None = None,
     ) -> Iterator[Place]:
         """The places, the best first; worked out as they are asked for.
 
@@ -93,8 +98,9 @@ class PlaceFinder:
         Args:
             as_held: only those where the object is not laid down.
             kinds: only these, in order.
+            skip: asked of every place before it is worked out.
         """
-        found = self._places(kinds, as_held=as_held)
+        found = self._places(kinds, as_held=as_held, skip=skip)
         if not self._request.coming:
             yield from found
             return
@@ -108,10 +114,12 @@ class PlaceFinder:
                 scarce.append(place)
         yield from scarce
 
-    def _places(self, kinds: Iterable[Quality], *, as_held: bool) -> Iterator[Place]:
+    def _places(
+        self, kinds: Iterable[Quality], *, as_held: bool, skip: Skip | None
+    ) -> Iterator[Place]:
         rehearsed = self._request.rehearsed
         if rehearsed is not None and not as_held:
-            yield from self._again(rehearsed)
+            yield from self._again(rehearsed, skip)
         request = self._request
         groups = orientations(self._belief, request.attached, self._support, request.stance)
         if request.bare:  # no hand keeps it from any turn
@@ -135,10 +143,10 @@ class PlaceFinder:
                     if group.laid and table[0].turned.height > LOWER * tables[0][0].turned.height:
                         table = []
                     tables.append(table)
-                for place in self._of_quality(tables[index], quality):
+                for place in self._of_quality(tables[index], quality, skip):
                     yield replace(place, laid=group.laid)
 
-    def _again(self, rehearsed: Pose) -> Iterator[Place]:
+    def _again(self, rehearsed: Pose, skip: Skip | None) -> Iterator[Place]:
         """Good places as near to a rehearsed one as they get, the nearest first."""
         relief = self._relief
         there = np.round(self._support.local(rehearsed.position[None, :2]) / relief.cell)
@@ -151,10 +159,15 @@ class PlaceFinder:
         away = np.linalg.norm(judged.turned.points - rehearsed.position[:2], axis=1)
         judged = replace(judged, cost=np.where(np.isfinite(judged.cost), away, np.inf))
         for quality in (Quality.GOOD, Quality.DROPPED):
-            yield from self._of_quality([judged], quality, look_ahead=False)
+            yield from self._of_quality([judged], quality, skip, look_ahead=False)
 
     def _of_quality(
-        self, table: Sequence[Judged], quality: Quality, *, look_ahead: bool = True
+        self,
+        table: Sequence[Judged],
+        quality: Quality,
+        skip: Skip | None,
+        *,
+        look_ahead: bool = True,
     ) -> Iterator[Place]:
         found = [
             (float(judged.cost[index]), turn, int(index))
@@ -170,6 +183,8 @@ class PlaceFinder:
         is_pile = quality in (Quality.PILED, Quality.PILED_HIGH)
         for _, turn, index in found[:MAX_PILED] if is_pile else found:
             turned = table[turn].turned
+            if skip is not None and skip(turned, index):
+                continue
             cell = turned.cells[index]
             rest = float(turned.rest[index])
             seen = under(self._relief.heights, -np.inf, turned.object, cell)
