@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.choosing.landmarks import HOLDING
@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.reference.naming.usual_form import (
 from etot_cli.reasoning.language.reference.pronouns.coreference import antecedents
 from etot_cli.reasoning.language.reference.pronouns.meanings import Meanings
 from etot_cli.reasoning.language.reference.pronouns.narrowing import part_around
+from etot_cli.reasoning.language.reference.pronouns.plural_pronouns import the_two_named
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -269,12 +270,7 @@ class Referents(Meanings):
                 for index in found:
                     self.discourse.mention_again(index, role)
                 return found
-        spoken = tuple(dict.fromkeys(item.referent for item in self.discourse.mentions))
-        things = [option for i in spoken for option in self.discourse.referents[i].options]
-        both = len(things) == len(spoken) == 2 and all(
-            len(option) == 1 and can_be(option[0], role, self.scene) for option in things
-        )
-        return spoken if both and not set(spoken) & set(excluded) else ()
+        return the_two_named(self.discourse, role, excluded)
 
     def _two_spoken_of(
         self, phrase: NounPhrase, role: Role, excluded: Sequence[int]

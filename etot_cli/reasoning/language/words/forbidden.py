@@ -44,7 +44,7 @@ MAY = "may, can, could, should, must, shall, (is|are) to, (is|are) (allowed|perm
 MOVED_ONLY = "moved [around|about|away]|disturbed|lifted [up]|picked up|shifted|displaced"
 TOUCHED_ONLY = "touched"
 WITHOUT = """
-    without, [while] (making|being) sure not to, [while] [being] careful not to,
+    without [ever], [while] (making|being) sure not to, [while] [being] careful not to,
     [while] taking care not to, so as not to
 """
 _BARELY = "[even|so much as|as much as]"
@@ -69,6 +69,8 @@ NO_HIT = "[any|all] (collision|collisions) with, (hitting|bumping|nudging) of"
 """The same as nouns, behind "no", "avoid" and "without"."""
 HARM = "damag(e|ing), harm[ing], crush[ing], squash[ing], break[ing], spill[ing]"
 """What no plan may do to anything."""
+HARMED = "damaged|harmed|crushed|squashed|broken|spilled|spilt|lost"
+"""What no plan may let become of anything."""
 TO_THE_FLOOR = """
     (fall|drop|roll|slip|tumble|land|end up|hit|go|crash) [down] [(on|onto|to)] the (floor|ground)
 """

@@ -224,7 +224,7 @@ ERECT = (
 )
 _SO = "so [that]|such that|in such a way that"
 STANDS = f"""
-    ({_SO}) (it|they) [all|both|each] (stands|stand|is|are) [all|both|each] [standing]
+    ({_SO}) (it|they) [all|both|each] (stand[s]|is|are|stay[s]|remain[s]) [all|both|each] [standing]
     ({_UPRIGHT}|up),
     ({_SO}) (it|they) (is|are) [all|both] standing,
     {ERECT}

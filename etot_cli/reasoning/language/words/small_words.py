@@ -387,7 +387,7 @@ INSTEAD = """
 AND = "and [also|likewise], as well as, along with, together with, plus, +"
 OR = "or [else]"
 EITHER = "either, one of, any of"
-JOINTS = "but, ~comma and, ~comma but, by, ~comma so, [~comma] whereas, ~comma (while|whilst)"
+JOINTS = "but, ~comma and, ~comma but, ~comma so, [~comma] whereas, ~comma (while|whilst)"
 PURPOSE = "to, in order to, so as to"
 THEN_JOINTS = f"""
     [and] when you have done, [and] [~comma] ({_THAT_DONE}),

@@ -88,7 +88,12 @@ UNHARMED = either(
         f"({verbs.NOT_LEAVE}) the ({_DESK}), ({verbs.NOT_BE_TAKEN}) (off [of]|from) the ({_DESK})",
         build=unharmed,
     ),
-    sequence(THINGS, "[be] not on the (floor|ground)", build=unharmed),
+    sequence(
+        THINGS,
+        f"[be] not on the (floor|ground), (is|are|does|do|must|should|may|can) not [be|get]"
+        f" ({forbidden.HARMED})",
+        build=unharmed,
+    ),
     sequence(
         _NONE_OF,
         f"{forbidden.TOPPLES}, (may|must|should|will|can|shall|is to|does) ({_TOPPLE})",
@@ -101,6 +106,7 @@ UNHARMED = either(
         f"nothing (should|must|may|shall) ({forbidden.FALL_DOWN}), "
         f"({forbidden.NOTHING}) ({forbidden.MUST}) [ever] ({LEAVE_THE_DESK}), "
         f"({forbidden.NOTHING}) leaves the ({_DESK}), "
+        f"({forbidden.NOTHING}) ((is|gets)|({forbidden.MUST}) (be|get)) ({forbidden.HARMED}), "
         f"{forbidden.EVERYTHING} ({verbs.STAY}) on the ({_DESK})",
         NOTHING_HARMED,
     ),

@@ -397,6 +397,20 @@ WITHOUT = sequence(
             forbidden.WITHOUT, THINGS, forbidden.TOPPLING, build=partial(AvoidClause, Avoid.HIT)
         ),
         sequence(forbidden.WITHOUT, THINGS, forbidden.GETTING_TO_THE_FLOOR, build=unharmed),
+        sequence(
+            forbidden.WITHOUT,
+            THINGS,
+            "[ever] (being|getting)",
+            _DONE,
+            build=lambda things, avoid: AvoidClause(avoid, things),
+        ),
+        sequence(
+            forbidden.WITHOUT,
+            forbidden.ANYTHING_ELSE,
+            "being, getting",
+            _DONE,
+            build=lambda avoid: AvoidClause(avoid, None),
+        ),
         sequence(forbidden.WITHOUT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
         sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
         _AVOIDED,

@@ -132,7 +132,7 @@ KEPT_UPRIGHT = either(
     sequence(
         silent(optional(f"{verbs.ENSURE}, {small_words.SO_THAT}")),
         ALL_THINGS,
-        f"(does|do|must|should|may|can|is to|are to|will) not ({verbs.TILTS}|be tilted)",
+        f"(does|do|must|should|may|can|is to|are to|will) not ({verbs.TILTS}|be (tilted|tipped))",
         build=_upright_meanwhile,
     ),
 )
@@ -149,6 +149,11 @@ def _staying_so(things: Things, stance: Nearby) -> ReorientClause:
     """What stays as it stands or lies."""
     upright = stance is Nearby.UPRIGHT
     return _kept_upright(things) if upright else ReorientClause(things, stance)
+
+
+def _standing(things: Things) -> ReorientClause | None:
+    """What stands upright besides; "it" would be what is put somewhere."""
+    return None if any(np.pronoun for np in things.phrases) else _stood_up(things)
 
 
 def _held_upright(things: Things) -> ReorientClause | None:
@@ -244,6 +249,14 @@ REORIENT = either(
         build=_laid_down,
     ),
 )
+_STILL_ERECT = sequence(
+    silent(optional("still, kept, left, both, all, staying, remaining")),
+    manner.ERECT,
+    silent(optional(small_words.BY_THE_END)),
+)
+STANDING_BESIDES = sequence("with", ALL_THINGS, _STILL_ERECT, build=_standing)
+STAYING_UPRIGHT = sequence(ALL_THINGS, f"{verbs.BE}, {verbs.STAY}", _STILL_ERECT, build=_standing)
+"""Which others stand upright, behind what is asked for (", with the cup upright")."""
 STANDS_UP = either(
     sequence(ALL_THINGS, optional(f"{verbs.BE}, {verbs.LIES}"), manner.ERECT, build=_stood_up),
     sequence(ALL_THINGS, optional("is, are, (has|have) been"), TURNED, build=turned),

@@ -146,7 +146,8 @@ _NOT_WITH = sequence(
     ),
     build=lambda pose: (_other(pose),),
 )
-_GRIPPING = "(grasping|gripping|holding|picking|lifting|taking|approaching)"
+_GRIPPING_HARD = "grasping|gripping|grabbing|approaching"
+_GRIPPING = f"({_GRIPPING_HARD}|holding|picking|lifting|taking)"
 _IMPOSSIBLE = """
     (is|are) (not (possible|feasible|doable)|impossible), (does|do|will) not work, (is|are) no good,
     fails, can not be done
@@ -238,7 +239,16 @@ GRASPED = sequence(
 WITH_A_GRASP = spanned(
     either(
         sequence(spanned(POSES, _with_a_grasp), build=lambda clause: clause),
-        valued(_NOT_WITH, lambda poses: GraspClause(None, poses)),
+        valued(
+            either(
+                _NOT_WITH,
+                sequence(f"[by|while] ({_GRIPPING_HARD}) (it|them)", POSES),
+                sequence(
+                    "(by|while) (holding|picking|lifting|taking) (it|them) [up]", _told(POSES)
+                ),
+            ),
+            lambda poses: GraspClause(None, poses),
+        ),
     ),
     _written,
 )

@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
     in_a_stance,
 )
-from etot_cli.reasoning.language.words import manner, small_words
+from etot_cli.reasoning.language.words import manner, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
@@ -47,6 +47,11 @@ _MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
 
 
+_SO_THAT_IT_IS = sequence(
+    OPTIONAL_COMMA,
+    f"{small_words.SO_THAT}, until, till",
+    either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
+)
 _PARTICLE = """
     down, up, away, back, over, out, inside, out of the way, together,
     one (by one|at a time|after the other|after another)
@@ -130,7 +135,7 @@ _PUT_GROUP = sequence(
         ),
         None,
     ),
-    _ASIDE,
+    either(_ASIDE, silent(_SO_THAT_IT_IS)),
     WHERE,
     silent(optional(manner.LET_GO, "")),
     silent(optional(sequence(OPTIONAL_COMMA, "contents and all"), "")),

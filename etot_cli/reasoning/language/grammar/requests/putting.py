@@ -117,13 +117,6 @@ DOWN = (Destination(Toward.HERE, word="down"),)
 BACK = (Destination(Toward.HOME),)
 
 
-_SO_THAT_IT_IS = sequence(
-    OPTIONAL_COMMA,
-    f"{small_words.SO_THAT}, until, till",
-    either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
-)
-
-
 def _got(gathered: bool, groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     several = gathered and all(group.things.may_be_several for group in groups)
     put = put_of(groups, extras)
@@ -434,14 +427,6 @@ PUT = either(
         build=lambda where: put_to(Things((NounPhrase(pronoun=UNSAID, text="it"),)), (where,)),
     ),
     sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
-    sequence(
-        verbs.PUT,
-        THINGS,
-        _SO_THAT_IT_IS,
-        DESTINATIONS,
-        EXTRAS,
-        build=lambda things, where, extras: put_of((PutGroup(things, where),), extras),
-    ),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
     spanned(

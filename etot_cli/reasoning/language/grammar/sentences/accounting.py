@@ -134,6 +134,7 @@ _SAY_NOTHING = phrase(
 _NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 
+_ACROSS = re.compile(r"\b(other|opposite) side of\b")
 _FROM_ITS_SIDE = re.compile(
     r"(?:away )?from (?:the )?(in front|(?:left |right )?side|front|back|rear|left|right) of\b"
 )
@@ -258,8 +259,8 @@ def _said(node: object) -> Iterator[str]:
             yield from ("all", "every") if things is None else ()
             yield from (_DENIAL, "other", "any", "after", "afterwards")
             yield from ("empty",) if avoid is Avoid.PUT else ()
-        case Beside(text=text) if "other side of" in text:
-            yield "other"
+        case Beside(text=text) if across := _ACROSS.search(text):
+            yield across[1]
         case Beside(relation=Nearby.AWAY, text=text) if side := _FROM_ITS_SIDE.match(text):
             yield from side[1].split()
         case Beside(relation=Nearby.AWAY, text=text) if _DOES_NOT.match(text):

@@ -40,6 +40,10 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
     holding_only,
     states,
 )
+from etot_cli.reasoning.language.grammar.requests.arrangements import (
+    STANDING_BESIDES,
+    STAYING_UPRIGHT,
+)
 from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.requests.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.requests.word_order import PLACE_AHEAD
@@ -139,8 +143,9 @@ def joint(name: str, *parts: Part) -> Parser:
 
 
 _SO = sequence(
-    # "…, which should be closed afterwards": what was named last
-    "which [then] (should|must|has to|needs to|is to) [then] be [left|kept]",
+    # "…, which should be closed afterwards", "…, which I want closed": what was named last
+    "which [then] (should|must|has to|needs to|is to) [then] be [left|kept],"
+    " which (i|we) (want|need|would like) [to (be|have)] [left|kept]",
     OPEN_OR_CLOSED,
     build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
 )
@@ -153,7 +158,7 @@ WITH_MORE_SO = either(
         plain(either(sequence(NP_LIST, SHUT, build=left_so), UNTOUCHED)),
     ),
     joint("and", LIST, ENDING_WITH, plain(sequence(NP_LIST, OPEN_OR_CLOSED, build=left_so))),
-    joint("and", COMMA, optional("but"), plain(BESIDES_SO)),
+    joint("and", COMMA, optional("but"), plain(either(BESIDES_SO, STANDING_BESIDES))),
     joint("and", OPTIONAL_COMMA, plain(MEANWHILE_SO)),
     joint(
         # "I want the box empty and the tray holding the pen only"
@@ -169,6 +174,7 @@ JOINED = either(
     WITH_MORE_SO,
     joint("mere and", "and", LED_CLAUSE),
     joint("and", either(COMMA, small_words.JOINTS), LED_CLAUSE),
+    joint("by", OPTIONAL_COMMA, "by", LED_CLAUSE),
     joint("purpose", small_words.PURPOSE, LED_CLAUSE),
     joint("then", OPTIONAL_COMMA, small_words.THEN_JOINTS, OPTIONAL_COMMA, LED_CLAUSE),
     joint("before", OPTIONAL_COMMA, LATER),
@@ -222,7 +228,7 @@ JOINED = either(
     joint(
         "so that", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))
     ),
-    joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(IS_EMPTY)),
+    joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(either(IS_EMPTY, STAYING_UPRIGHT))),
     joint("and", COMMA, timed(_SO)),
     joint("and", COMMA, WHICH_IS_MOVED),
     joint("which", COMMA, WHICH_GOES_ON),
@@ -369,6 +375,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
         if said.startswith("passive") and not goes_on(done[-1].clause, clause[0].clause):
             return None
         before = done[-1].clause
+        if said == "by" and isinstance(clause[0].clause, PickClause):
+            return None  # "put it there by gripping it from above" says how it is held meanwhile
         if said == "purpose" and isinstance(before, PickClause) and before.wanted:
             return None  # "I want the box to have the cup in it" does not ask for the box
         if said == "while" and not any(

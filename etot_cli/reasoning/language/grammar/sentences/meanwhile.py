@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.requests.arrangements import KEPT_UPRIGHT
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
 from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.past import UNDER_WAY
@@ -23,6 +24,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutGroup,
     RemoveClause,
     ReorientClause,
+    put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things
 from etot_cli.reasoning.language.words import manner, small_words
@@ -61,6 +63,17 @@ def _kept_upright(kept: tuple[int, Things], rest: Reading) -> Reading | None:
     return (replace(rest[0], clause=put), Spoken(again, rest[0].position), *rest[1:])
 
 
+def _of_the_same(kept: ReorientClause, rest: Reading) -> Reading | None:
+    """What is put somewhere as "it", which was named where it was said how it is kept."""
+    put = rest[0].clause
+    if not isinstance(put, PutClause) or any(np.pronoun for np in kept.things.phrases):
+        return None
+    group, *more = put.groups
+    if more or not all(np.pronoun for np in group.things.phrases):
+        return None
+    return (replace(rest[0], clause=put_to(kept.things, group.destinations)), *rest[1:])
+
+
 _KEPT = either(
     sequence("[always] (keep|hold)", THINGS),
     sequence(
@@ -68,6 +81,15 @@ _KEPT = either(
         "(must|should|has to|have to|needs to|need to|is to|are to) [always]"
         " (be kept|be held|stay|remain)",
     ),
+)
+_UPRIGHT_WHILE = sequence(
+    located(_KEPT, lambda at, things: (at, things)),
+    f"{manner.ERECT}, {manner.LEVELED}, standing",
+    silent(optional(small_words.ALL_ALONG)),
+    OPTIONAL_COMMA,
+    f"{small_words.WHILE}, when [you [are]], and, and then, throughout as you",
+    CHAIN,
+    build=_kept_upright,
 )
 MEANWHILE = either(
     sequence(
@@ -77,13 +99,13 @@ MEANWHILE = either(
         CHAIN,
         build=_meanwhile,
     ),
+    _UPRIGHT_WHILE,
     sequence(
-        located(_KEPT, lambda at, things: (at, things)),
-        f"{manner.ERECT}, {manner.LEVELED}, standing",
-        silent(optional(small_words.ALL_ALONG)),
-        OPTIONAL_COMMA,
-        f"{small_words.WHILE}, when [you [are]], and, and then, throughout as you",
-        CHAIN,
-        build=_kept_upright,
+        # "The cup must not tip, so keep it upright while you set it on the tray"
+        KEPT_UPRIGHT,
+        "~comma, ~colon",
+        optional("so, and [so]"),
+        _UPRIGHT_WHILE,
+        build=_of_the_same,
     ),
 )

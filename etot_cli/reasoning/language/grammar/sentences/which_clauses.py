@@ -90,9 +90,10 @@ def _moved(np: NounPhrase, *said: Order | bool) -> Spoken | None:
 _OPENED_OR_CLOSED = either(
     sequence(
         _THAT,
-        "you",
-        _ANY_TIME,
-        optional(_OUGHT),
+        either(
+            sequence("you", _ANY_TIME, optional(_OUGHT)),
+            "(i|we) (want|need|would like) you to [please]",
+        ),
         _ANY_TIME,
         _MOVING,
         _AGAIN,

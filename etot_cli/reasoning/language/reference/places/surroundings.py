@@ -40,6 +40,11 @@ _PARTS = word_set("edge end border rim half part corner quarter area")
 """Words for parts of a flat top."""
 
 
+def _is_across(beside: Beside) -> bool:
+    """Whether a place is told by where things are not yet ("on the other side of the box")."""
+    return " ".join(beside.text.split()[:5]) in spellings(ACROSS)
+
+
 class Surroundings:
     """Turns relations to things into relations to referents of a discourse.
 
@@ -236,7 +241,7 @@ class Surroundings:
             if not isinstance(closer, Nearby):
                 return [Near(Nearby.NEXT_TO, tuple(landmarks)), closer]
             beside = replace(beside, relation=closer)
-        if " ".join(beside.text.split()[:5]) in spellings(ACROSS):
+        if _is_across(beside):
             beside = replace(beside, relation=self._across(beside.text, themes, landmarks))
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
         if near_both or (beside.relation in (*OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
@@ -298,7 +303,7 @@ class Surroundings:
     def across_the_desk(self, where: Destination, themes: Sequence[int]) -> Destination:
         """The other side of the desk than that where things are, which is told."""
         (beside, *more) = where.beside
-        if more or " ".join(beside.text.split()[:5]) not in spellings(ACROSS):
+        if more or not _is_across(beside):
             return where
         marks = things_in(self._phrases.meaning(beside.phrases[0], Role.ANY).options)
         if [mark.name for mark in marks] != [DESK]:
@@ -314,7 +319,8 @@ class Surroundings:
         """The left side of a sideboard is a part of it; what is on the left of a tray is beside it,
         which is said.
         """
-        if "side" in beside.text.split() and self._are_fixed(things):
+        part = "side" in beside.text.split() and not _is_across(beside)
+        if part and self._are_fixed(things):
             raise ReferenceProblem(beside.text, "say 'left of' and so on, or on which part", 1)
         flat = all(space.is_support(thing, self._scene) for thing in things)
         if flat and beside.text.startswith(("to the front of", "to the back of")):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.builtin.roles import Role
+from etot_cli.reasoning.builtin.roles import Role, can_be
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.spoken_of import (
@@ -49,7 +49,10 @@ def meant_by_them(
         others = _several_named(discourse, role) if role in (*TARGETS, Role.ANY) else ()
         if others and not {*others} & {*found}:
             return others  # "take the cup to the drawers and put it on them", of one chest
-        raise AmbiguousReference(text, [item.text for item in discourse.referents])
+        two = the_two_named(discourse, role, excluded)
+        if not two:
+            raise AmbiguousReference(text, [item.text for item in discourse.referents])
+        return two  # "put the plum into the cup, then set them on the tray"
     if not found and role is Role.PART and len(openable(discourse)) > 1:
         return openable(discourse)  # "a pen in each of two drawers, and close them"
     return found or _several_named(discourse, role)
@@ -63,6 +66,18 @@ def _several_named(discourse: Discourse, role: Role) -> tuple[int, ...]:
         if singular(mention.noun) != mention.noun and fits(discourse, mention.referent, role)
     }
     return tuple(named) if len(named) == 1 else ()
+
+
+def the_two_named(
+    discourse: Discourse, role: Role, excluded: Sequence[int] = ()
+) -> tuple[int, ...]:
+    """The two things that were spoken of in all, be it as places."""
+    spoken = tuple(dict.fromkeys(item.referent for item in discourse.mentions))
+    things = [option for i in spoken for option in discourse.referents[i].options]
+    both = len(things) == len(spoken) == 2 and all(
+        len(option) == 1 and can_be(option[0], role, discourse.scene) for option in things
+    )
+    return spoken if both and not set(spoken) & set(excluded) else ()
 
 
 def emptied_by(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:
