@@ -258,3 +258,31 @@ def test_what_made_room_behind_a_door_comes_back_and_leaves_that_as_it_is_to_be(
     assert sum("carton" in action for action in report.plan) == 2, "it made room"
     assert report.plan.count("[OPEN, closet]") == (open_deg == 0.0)
     assert report.plan.count("[CLOSE, closet]") == (not stays_open)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("stands_open", [False, True])
+def test_what_made_room_in_a_drawer_comes_back_and_leaves_that_open(
+    stands_open: bool, seed: int, tmp_path: Path
+) -> None:
+    """It stands open and nobody speaks of that, or it is to be open."""
+    y, travel = random.Random(seed).uniform(0.25, 0.27), 0.14
+    unit = chest(y, 0.20)
+    unit["size"] = [0.20, 0.16, 0.10]
+    unit["drawers"][0]["open"] = travel * stands_open
+    objects = {
+        "chest": unit,
+        "bar": {
+            "kind": "box", "size": [0.11, 0.05, 0.05], "inside": "chest", "mass": 0.09,
+            "at": [0.47, y - travel * stands_open],
+        },
+        "ball": {"kind": "sphere", "diameter": 0.072, "at": [0.44, -0.18], "mass": 0.035},
+    }  # fmt: skip
+    goal: list[Any] = [{"inside": [name, "chest"]} for name in ("bar", "ball")]
+    goal += [] if stands_open else [{"open": "chest"}]
+    report = planned("room_in_a_drawer", goal, objects, tmp_path)
+    assert report.success is not None and report.success.holds
+    assert sum("bar" in action for action in report.plan) == 2, "it made room"
+    assert "[CLOSE, chest]" not in report.plan
+    assert len(report.plan) == 6 + (not stands_open)
