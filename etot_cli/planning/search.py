@@ -30,6 +30,7 @@ from etot_cli.planning.result import (
     told,
 )
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
+from etot_cli.reasoning.builtin.openings import kept_open
 from etot_cli.reasoning.protocol import (
     Assignment,
     Branch,
@@ -331,12 +332,15 @@ class _Search:
             self._take(Corrections(node, node.end.revisions + 1, self._continued(node)))
 
     def _continued(self, node: PlanNode) -> Iterator[Branch]:
-        """Plans that begin with one that works."""
+        """Plans that begin with one that works; where that only closes too much, less of it."""
         *past, scene = self._known.scenes(node)
         assignment = replace(self._assignment, past=(*self._assignment.past, *past))
         # What cannot be done any more from there ends this way of doing it, and not the search.
         with suppress(UnsatisfiableError):
             for branch in self._reasoner.propose(assignment, scene):
+                shorter = kept_open(node.actions, branch.actions)
+                if shorter is not None:
+                    yield Branch(shorter, branch.reason)
                 yield Branch((*node.actions, *branch.actions), branch.reason)
 
     def _limit_reached(self) -> LimitKind | None:

@@ -41,8 +41,7 @@ def plan_summary(out: Printer, report: PlanReport, path: Path) -> None:
         _steps(out, [by_id[number] for number in report.prefix.nodes])
         out.say(f"then {' '.join(report.prefix.missing)}", 4)
     _failures(out, failures, len(report.plan_nodes))
-    for doubt in report.doubts:
-        out.say(Text(_refused(doubt), style=LOOKS["failure"].style), 2)
+    _doubts(out, report.doubts)
     if report.stopped:
         out.say(report.stopped, 2)
     shortfall = _shortfall(report)
@@ -83,6 +82,24 @@ def _failures(out: Printer, failures: Sequence[Failure], steps: int) -> None:
     hidden = len(failures) - len(shown)
     if hidden:
         out.say(f"{hidden} more in the report", 4)
+
+
+def _doubts(out: Printer, doubts: Sequence[DoubtModel]) -> None:
+    """Plans that were refused, those for the same reason told once."""
+    alike: dict[str, list[DoubtModel]] = {}
+    for doubt in doubts:
+        alike.setdefault(doubt.why, []).append(doubt)
+    shown = list(alike.values())
+    if out.verbosity is not Verbosity.VERBOSE:
+        shown = shown[:MAX_FAILURES]
+    for same in shown:
+        text = _refused(min(same, key=lambda doubt: len(doubt.actions)))
+        if len(same) > 1:
+            text += f"; so it is with {counted(len(same) - 1, 'other plan')}"
+        out.say(Text(text, style=LOOKS["failure"].style), 2)
+    hidden = len(alike) - len(shown)
+    if hidden:
+        out.say(f"{counted(hidden, 'other reason')} to refuse plans in the report", 4)
 
 
 def _numbers(out: Printer, report: PlanReport) -> None:

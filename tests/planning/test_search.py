@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -12,7 +13,7 @@ from etot_cli.planning.result import LimitKind, SearchObserver, SearchResult, Se
 from etot_cli.planning.search import search
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
-from etot_cli.skills.action import Action
+from etot_cli.skills.action import Action, format_plan
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import CauseKind, SceneState
 from tests.planning.fakes import (
@@ -309,6 +310,46 @@ def test_a_plan_that_never_becomes_what_was_asked_for_ends() -> None:
     result = search(GOAL, Held(fails()), reasoner, limits=limits, costless=True)
     assert result.status is SearchStatus.LIMIT and result.limit is LimitKind.REVISIONS
     assert result.plan == () and len(result.tree) == 4
+
+
+class Lid(ToySimulator):
+    """The lid of the box is as it was turned last."""
+
+    def _simulate(self, state: StateToken, action: Action, delay: float) -> Simulated:
+        found = super()._simulate(state, action, delay)
+        turned = re.findall(r"\[(OPEN|CLOSE),", f"{state.decode()} {action}")
+        return replace(
+            found, outcomes=[self._turned(one, turned[-1:] == ["OPEN"]) for one in found.outcomes]
+        )
+
+    @staticmethod
+    def _turned(outcome: WorldOutcome, opened: bool) -> WorldOutcome:
+        after = outcome.record.after
+        lid = {"openness": {"lid": float(opened)}, "opened": {"lid": opened}}
+        states = {**after.states, "box": replace(after.states["box"], **lid)}
+        return replace(outcome, record=replace(outcome.record, after=replace(after, states=states)))
+
+
+@pytest.mark.parametrize(
+    ("works", "failing", "plan", "evaluated"),
+    [
+        ("OPEN a CLOSE", "", "OPEN a", 3),
+        ("OPEN CLOSE a", "", "OPEN a", 4),
+        ("OPEN CLOSE a", "OPEN a", "OPEN CLOSE a OPEN", 5),
+    ],
+)
+def test_what_was_closed_and_is_to_be_open_is_not_closed_where_it_need_not_be(
+    works: str, failing: str, plan: str, evaluated: int
+) -> None:
+    def lid(words: str) -> str:
+        verbs = {"OPEN": "[OPEN, box.lid]", "CLOSE": "[CLOSE, box.lid]"}
+        return " ".join(verbs.get(word, f"[PICK UP, {word}]") for word in words.split())
+
+    goal = Assignment("do it", (Condition.model_validate({"open": "box"}),))
+    rule = fails(*([lid(failing)] if failing else []))
+    result = search(goal, Lid(rule), GoesOn(lid(works), ["[OPEN, box.lid]"]), costless=True)
+    assert format_plan(result.plan) == lid(plan)
+    assert result.statistics.nodes_evaluated == evaluated
 
 
 @pytest.mark.parametrize("without", [frozenset(), frozenset({Ablation.REFLECTIVE})])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
@@ -571,6 +572,42 @@ def test_what_comes_back_into_a_drawer_does_so_before_that_is_closed() -> None:
     assert revised is not None
     assert format_plan(revised.actions) == (
         "[PICK UP, bottle] [PUT ON, desk] [PICK UP, bottle] [PUT INTO, chest] [CLOSE, chest]"
+    )
+
+
+@pytest.mark.parametrize("make", [scenes.cabinet, scenes.drawers])
+@pytest.mark.parametrize(
+    ("openness", "text", "opens", "closes"),
+    [
+        (0.0, "The store must be open.", True, False),
+        (1.0, "The store must be open.", False, False),
+        (1.0, "", False, False),
+        (1.0, "Ensure the store is closed.", False, True),
+        (0.0, "", True, True),
+        (0.0, "Ensure the store is closed.", True, True),
+    ],
+)
+def test_what_comes_back_into_what_is_to_stay_open_leaves_it_open(
+    make: Callable[..., scenes.Item], openness: float, text: str, opens: bool, closes: bool
+) -> None:
+    start = scenes.scene(
+        make("store", (0.5, -0.2), {"only": openness} if make is scenes.drawers else openness),
+        scenes.item("jar", at=(0.5, -0.2), on="store", inside="store"),
+        scenes.cup("mug", (0.3, 0.2)),
+    )
+    reasoner = BuiltinReasoner()
+    words = f"Put the jar into the store. Put the mug into the store. {text}".strip()
+    (branch,) = reasoner.propose(Assignment(words), start)
+    index = [action.verb for action in branch.actions].index(Verb.PUT_INTO)
+    wide = dict.fromkeys(start.states["store"].openness, 1.0)
+    before = held(changed(start, store={"openness": wide}), "mug")
+    rollout = record(before, effect=False, cause=cause(CauseKind.NO_ROOM, "store", "jar"))
+    verdict = reasoner.judge(branch.actions[index], rollout)
+    revised = first_revision(reasoner, FailedStep(branch, index, rollout, verdict, start))
+    assert revised is not None
+    assert format_plan(revised.actions) == (
+        "[OPEN, store] " * opens + "[PICK UP, jar] [PUT ON, desk] [PICK UP, mug] [PUT INTO, store] "
+        "[PICK UP, jar] [PUT INTO, store]" + " [CLOSE, store]" * closes
     )
 
 

@@ -19,8 +19,8 @@ from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.evidence import JudgedModel, moved_models
 from etot_cli.reporting.live import LiveView, window
 from etot_cli.reporting.log import PlainLog
-from etot_cli.reporting.plan_report import PlanReport
-from etot_cli.reporting.plan_summary import plan_summary
+from etot_cli.reporting.plan_report import DoubtModel, PlanReport
+from etot_cli.reporting.plan_summary import MAX_FAILURES, plan_summary
 from etot_cli.reporting.printer import Printer
 from etot_cli.reporting.run_summary import simulate_summary
 from etot_cli.reporting.style import LOOKS, Verbosity, make_console
@@ -186,6 +186,23 @@ def test_piped_lines_are_whole() -> None:
     text = shown(report, make_console(Stream("utf-8")))
     assert report.tree.nodes[1].cause.text.strip() in text
     assert not any(line.endswith(" ") for line in text.splitlines() if "because" not in line)
+
+
+def test_plans_that_are_refused_for_the_same_reason_are_told_once() -> None:
+    report = toy_report(["a"], "a")
+    report.doubts = [
+        DoubtModel(actions=["[PICK UP, a]"] * (9 - number), why="it is open" if number else "lost")
+        for number in range(8)
+    ]
+    text = shown(report, make_console(Stream("utf-8")))
+    told = [line for line in text.splitlines() if "not what was asked for" in line]
+    assert [line.count("[PICK UP, a]") for line in told] == [9, 2], "the shortest of those alike"
+    assert told[1].endswith("it is open; so it is with 6 other plans")
+    for doubt, why in zip(report.doubts, "abcdefgh", strict=True):
+        doubt.why = why
+    text = shown(report, make_console(Stream("utf-8")))
+    assert text.count("not what was asked for") == MAX_FAILURES
+    assert "2 other reasons to refuse plans in the report" in text
 
 
 def test_many_failures_fit_the_screen() -> None:

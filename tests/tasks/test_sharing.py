@@ -214,3 +214,75 @@ def test_a_vessel_stays_where_it_was_filled(seed: int, tmp_path: Path) -> None:
     goal = [{"inside": ["key", "mug"]}, {"on": ["box", "desk"]}]
     report = planned("two_layers", goal, objects, tmp_path)
     assert len(report.plan) == 6
+
+
+def closet(open_deg: float) -> dict[str, Any]:
+    """A cabinet with room for two things side by side, and for none beside one in its middle."""
+    return {
+        "kind": "cabinet", "at": [0.51, -0.265], "yaw_deg": 153, "size": [0.167, 0.215, 0.202],
+        "mass": 4.0, "door": {
+            "hinge": "left", "open_deg": open_deg, "range_deg": 110,
+            "handle": {"width": 0.08, "depth": 0.035, "thickness": 0.012, "vertical": True},
+        },
+    }  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("open_deg", "door", "stays_open"),
+    [
+        (0.0, [{"open": "closet"}], True),
+        (105.0, [], True),
+        (105.0, [{"closed": "closet"}], False),
+    ],
+)
+def test_what_made_room_behind_a_door_comes_back_and_leaves_that_as_it_is_to_be(
+    open_deg: float, door: list[Any], stays_open: bool, seed: int, tmp_path: Path
+) -> None:
+    rng = random.Random(seed)
+    objects = {
+        "closet": closet(open_deg),
+        "carton": {
+            "kind": "box", "size": [0.049, 0.044, 0.09], "yaw_deg": 153, "inside": "closet",
+            "at": [0.52 + rng.uniform(-0.003, 0.003), -0.27 + rng.uniform(-0.003, 0.003)],
+        },
+        "cup": {
+            "kind": "cup", "diameter": 0.078, "height": 0.077,
+            "at": [0.38 + rng.uniform(-0.02, 0.02), 0.11 + rng.uniform(-0.02, 0.02)],
+        },
+    }  # fmt: skip
+    goal = [{"inside": [name, "closet"]} for name in ("carton", "cup")] + door
+    report = planned("room_behind_a_door", goal, objects, tmp_path)
+    assert report.success is not None and report.success.holds
+    assert sum("carton" in action for action in report.plan) == 2, "it made room"
+    assert report.plan.count("[OPEN, closet]") == (open_deg == 0.0)
+    assert report.plan.count("[CLOSE, closet]") == (not stays_open)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("stands_open", [False, True])
+def test_what_made_room_in_a_drawer_comes_back_and_leaves_that_open(
+    stands_open: bool, seed: int, tmp_path: Path
+) -> None:
+    """It stands open and nobody speaks of that, or it is to be open."""
+    y, travel = random.Random(seed).uniform(0.25, 0.27), 0.14
+    unit = chest(y, 0.20)
+    unit["size"] = [0.20, 0.16, 0.10]
+    unit["drawers"][0]["open"] = travel * stands_open
+    objects = {
+        "chest": unit,
+        "bar": {
+            "kind": "box", "size": [0.11, 0.05, 0.05], "inside": "chest", "mass": 0.09,
+            "at": [0.47, y - travel * stands_open],
+        },
+        "ball": {"kind": "sphere", "diameter": 0.072, "at": [0.44, -0.18], "mass": 0.035},
+    }  # fmt: skip
+    goal: list[Any] = [{"inside": [name, "chest"]} for name in ("bar", "ball")]
+    goal += [] if stands_open else [{"open": "chest"}]
+    report = planned("room_in_a_drawer", goal, objects, tmp_path)
+    assert report.success is not None and report.success.holds
+    assert sum("bar" in action for action in report.plan) == 2, "it made room"
+    assert "[CLOSE, chest]" not in report.plan
+    assert len(report.plan) == 6 + (not stands_open)

@@ -15,7 +15,7 @@ from itertools import product
 from etot_cli.reasoning.builtin.choices import address_of
 from etot_cli.reasoning.builtin.goal import Goal, Near, Open, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.openings import closed_by_others
-from etot_cli.reasoning.builtin.relations import container_address, is_open
+from etot_cli.reasoning.builtin.relations import container_address, is_open, parts_of
 from etot_cli.reasoning.builtin.revision import Actions, purpose
 from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
@@ -23,7 +23,7 @@ from etot_cli.reasoning.builtin.turning import turned
 from etot_cli.reasoning.protocol import Branch, FailedStep
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.spatial import Nearby, Whereabouts
-from etot_cli.world.state import DESK, SceneState, owner_of
+from etot_cli.world.state import DESK, STAYS_OPEN_AT, SceneState, owner_of
 
 _Home = tuple[Relation, str, tuple[Whereabouts, ...]]
 """In or on what an object is, and where there."""
@@ -53,10 +53,13 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
         (Relation.INSIDE, last.target) == home[:2] for name in away for home in wanted[name]
     )
     sketch = Sketch(start, kept[:-1] if shut_too_early else kept)
+    stays_open = _stays_open(sketch, goals)
+    closed_at_last = (last.target,) if shut_too_early else ()
     for name in away:
         for relation, target, where in wanted[name] or _filled_elsewhere(name, kept, start):
             if not sketch.holds(name, relation, target, where):
-                sketch.put(name, relation, target, where=where)
+                put_open = (*stays_open, *closed_at_last)
+                sketch.put(name, relation, target, where=where, left_open=put_open)
                 break
     held = purpose(revised.actions, start).held
     if held is not None:
@@ -64,7 +67,9 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
     actions = tuple(sketch.actions)
     if shut_too_early and actions[-1] != last:
         actions = (*actions, last)
-    opened = (*left_open(failed.branch.actions, start), *closed_by_others(actions, start))
+    opened = (
+        *left_open(failed.branch.actions, start), *closed_by_others(actions, start), *stays_open
+    )  # fmt: skip
     if actions == revised.actions or check_plan(actions, start, opened):
         return revised
     return replace(revised, actions=actions)
@@ -82,6 +87,28 @@ def _without_last_openings(actions: Actions, goals: Iterable[Goal], start: Scene
             break
         actions = actions[:-1]
     return actions
+
+
+def _stays_open(sketch: Sketch, goals: Iterable[Goal]) -> tuple[str, ...]:
+    """Parts that a branch leaves open and that what comes back into them has no reason to close:
+    they stood open at the start, or a goal speaks of opening them.
+    """
+    scene = sketch.scene
+    asked = {
+        part.address
+        for goal in goals
+        for step in goal.steps
+        if isinstance(step, Open)
+        for thing in things_in(goal.referents[step.what].options)
+        for part in parts_of(scene, thing)
+    }
+    parts = [part for info in scene.infos.values() for part in info.parts]
+    asked |= {part.address for part in parts if scene.openness(part) >= STAYS_OPEN_AT}
+    return tuple(
+        part.address
+        for part in parts
+        if part.address in asked and sketch.is_accessible(part.address)
+    )
 
 
 def _taken_away(actions: Sequence[Action]) -> dict[str, int]:

@@ -73,6 +73,23 @@ def closed_by_others(actions: Sequence[Action], scene: SceneState) -> tuple[str,
     return tuple(part for part in left_open(actions, scene) if last.get(part) is Verb.CLOSE)
 
 
+def kept_open(actions: Sequence[Action], rest: Sequence[Action]) -> tuple[Action, ...] | None:
+    """A plan that does not close what the rest that follows it only opens again; None where the
+    rest does more than that, or nothing is left of the plan.
+    """
+    kept = list(actions)
+    for action in rest:
+        turns = [at for at, one in enumerate(kept) if _turns(one, action.target)]
+        if action.verb is not Verb.OPEN or not turns or kept[turns[-1]].verb is not Verb.CLOSE:
+            return None
+        del kept[turns[-1]]
+    return tuple(kept) if rest and kept else None
+
+
+def _turns(action: Action, address: str) -> bool:
+    return action.verb in _TURNS and action.target == address
+
+
 def closed_alike(actions: Sequence[Action], model: Sequence[Action]) -> tuple[Action, ...]:
     """A plan that closes at its end what another order of it, the model, leaves closed.
 
