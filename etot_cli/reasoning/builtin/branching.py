@@ -82,8 +82,10 @@ def branches_of(
         if broken is not None:
             objection = broken
             continue
-        seen.add(candidate.branch.actions)
-        yield candidate.branch
+        branch = _shortest(candidate, scene, course).branch
+        if branch.actions not in seen:
+            yield branch
+        seen |= {candidate.branch.actions, branch.actions}
     if len(goals) > MAX_ALTERNATIVES:
         raise ReasonerStopped(
             StopReason.MAX_CHOICES,
@@ -93,12 +95,21 @@ def branches_of(
         raise UnsatisfiableError(f"no well-formed plan does what is asked for: {objection}")
 
 
+class _Way(NamedTuple):
+    """A way of resolving a goal."""
+
+    goal: Goal
+    choice: Choice
+    poses: tuple[GraspPose | None, ...]
+
+
 class _Candidate(NamedTuple):
-    """A branch, the parts that its insertions leave open, and what it must not do."""
+    """A branch, the parts that its insertions leave open, what it must not do, and what of."""
 
     branch: Branch
     left_open: frozenset[str]
     constraints: tuple[Constraint, ...]
+    way: _Way
 
 
 def _objection(candidate: _Candidate, scene: SceneState) -> str | None:
@@ -117,9 +128,11 @@ def reached(goals: Sequence[Goal], scene: SceneState, first: SceneState) -> Bran
     Raises:
         InstructionError: the goals cannot be worked out in this scene.
     """
-    candidates = islice(_candidates(goals, scene, Course((first,), scene)), MAX_CHOICES)
-    branches = [found.branch for found in candidates if found is not None]
-    return min(branches, key=lambda branch: len(branch.actions), default=None)
+    course = Course((first,), scene)
+    candidates = islice(_candidates(goals, scene, course), MAX_CHOICES)
+    found = [candidate for candidate in candidates if candidate is not None]
+    least = min(found, key=lambda candidate: len(candidate.branch.actions), default=None)
+    return None if least is None else _shortest(least, scene, course).branch
 
 
 def _candidates(
@@ -137,28 +150,26 @@ def _candidates(
                 yield None
                 continue
             for selected in product(*poses):
-                yield _shortest(ordered, choice, selected, scene, course)
+                way = _Way(ordered, choice, selected)
+                branch, left_open = _branch(*way, scene, course)
+                constraints = tuple(
+                    item if item.referent is None else item.about(choice.things[item.referent])
+                    for item in goal.constraints
+                )
+                yield _Candidate(branch, left_open, constraints, way)
 
 
-def _shortest(
-    goal: Goal,
-    choice: Choice,
-    poses: Sequence[GraspPose | None],
-    scene: SceneState,
-    course: Course,
-) -> _Candidate:
-    """The branch of a choice in the order given, or in one that opens fewer parts again."""
-    constraints = tuple(
-        item if item.referent is None else item.about(choice.things[item.referent])
-        for item in goal.constraints
-    )
-    best = _Candidate(*_branch(goal, choice, poses, scene, course), constraints)
+def _shortest(candidate: _Candidate, scene: SceneState, course: Course) -> _Candidate:
+    """A branch in the order given, or in one that opens fewer parts again."""
+    best = candidate
     if not reopened(best.branch.actions):
         return best
+    goal, choice, poses = candidate.way
     left_open = _left_open(goal, choice, course.first)
     for visits in visiting_orders(goal.steps, choice, poses, scene, left_open):
-        other = _Candidate(*_branch(goal, choice, poses, scene, course, visits), constraints)
-        shorter = len(other.branch.actions) < len(best.branch.actions)
+        branch, open_at_last = _branch(*candidate.way, scene, course, visits)
+        other = candidate._replace(branch=branch, left_open=open_at_last)
+        shorter = len(branch.actions) < len(best.branch.actions)
         if shorter and _objection(other, scene) is None:
             best = other
     return best
