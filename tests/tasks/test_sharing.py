@@ -149,6 +149,32 @@ def test_several_things_share_one_opening(seed: int, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_each_drawer_is_opened_once(seed: int, tmp_path: Path) -> None:
+    """What leaves the upper one for the lower one waits on the desk while the upper one is filled,
+    though the goal names it last, or between the two that go down.
+    """
+    rng = random.Random(seed)
+    handle = {"width": 0.08, "depth": 0.035, "thickness": 0.01}
+    drawers = [{"name": name, "travel": 0.13, "handle": handle} for name in ("upper", "lower")]
+    chest = {
+        "kind": "drawer_unit", "at": [0.6, rng.uniform(-0.03, 0.03)], "yaw_deg": 180,
+        "size": [0.19, 0.22, 0.16], "mass": 2.0, "drawers": drawers,
+    }  # fmt: skip
+    block = {"kind": "box", "size": [0.035, 0.035, 0.035]}
+    objects = {
+        "chest": chest,
+        "nut": block | {"inside": "chest.upper"},
+        "key": block | {"at": [0.3, rng.uniform(0.25, 0.3)]},
+        "cap": block | {"at": [0.3, rng.uniform(-0.3, -0.25)]},
+    }
+    goal = [{"inside": [name, "chest.lower"]} for name in ("nut", "cap")]
+    goal.insert(rng.randint(0, 2), {"inside": ["key", "chest.upper"]})
+    goal += [{"closed": f"chest.{drawer['name']}"} for drawer in drawers]
+    assert len(planned("drawers", goal, objects, tmp_path).plan) == 12
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("swapped", [False, True])
 @pytest.mark.parametrize("seed", range(2))
 def test_what_would_be_covered_comes_out_first(seed: int, swapped: bool, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from etot_cli.errors import UnsatisfiableError
 from etot_cli.reasoning.builtin.choices import Choice, choices
 from etot_cli.reasoning.builtin.constraints import broken_constraint
+from etot_cli.reasoning.builtin.errands import Errand, Fetching, in_order, visiting_orders
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Constraint,
@@ -27,8 +28,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     in_final_order,
 )
-from etot_cli.reasoning.builtin.openings import closed_by_others, shared
-from etot_cli.reasoning.builtin.ordering import Placement, supports_first
+from etot_cli.reasoning.builtin.openings import closed_by_others, reopened, shared
 from etot_cli.reasoning.builtin.resuming import Course, what_is_left
 from etot_cli.reasoning.builtin.rules import check_plan
 from etot_cli.reasoning.builtin.sketch import PUT_DOWN, Sketch
@@ -82,8 +82,10 @@ def branches_of(
         if broken is not None:
             objection = broken
             continue
-        seen.add(candidate.branch.actions)
-        yield candidate.branch
+        branch = _shortest(candidate, scene, course).branch
+        if branch.actions not in seen:
+            yield branch
+        seen |= {candidate.branch.actions, branch.actions}
     if len(goals) > MAX_ALTERNATIVES:
         raise ReasonerStopped(
             StopReason.MAX_CHOICES,
@@ -93,12 +95,21 @@ def branches_of(
         raise UnsatisfiableError(f"no well-formed plan does what is asked for: {objection}")
 
 
+class _Way(NamedTuple):
+    """A way of resolving a goal."""
+
+    goal: Goal
+    choice: Choice
+    poses: tuple[GraspPose | None, ...]
+
+
 class _Candidate(NamedTuple):
-    """A branch, the parts that its insertions leave open, and what it must not do."""
+    """A branch, the parts that its insertions leave open, what it must not do, and what of."""
 
     branch: Branch
     left_open: frozenset[str]
     constraints: tuple[Constraint, ...]
+    way: _Way
 
 
 def _objection(candidate: _Candidate, scene: SceneState) -> str | None:
@@ -117,9 +128,11 @@ def reached(goals: Sequence[Goal], scene: SceneState, first: SceneState) -> Bran
     Raises:
         InstructionError: the goals cannot be worked out in this scene.
     """
-    candidates = islice(_candidates(goals, scene, Course((first,), scene)), MAX_CHOICES)
-    branches = [found.branch for found in candidates if found is not None]
-    return min(branches, key=lambda branch: len(branch.actions), default=None)
+    course = Course((first,), scene)
+    candidates = islice(_candidates(goals, scene, course), MAX_CHOICES)
+    found = [candidate for candidate in candidates if candidate is not None]
+    least = min(found, key=lambda candidate: len(candidate.branch.actions), default=None)
+    return None if least is None else _shortest(least, scene, course).branch
 
 
 def _candidates(
@@ -137,12 +150,29 @@ def _candidates(
                 yield None
                 continue
             for selected in product(*poses):
-                branch, left_open = _branch(ordered, choice, selected, scene, course)
+                way = _Way(ordered, choice, selected)
+                branch, left_open = _branch(*way, scene, course)
                 constraints = tuple(
                     item if item.referent is None else item.about(choice.things[item.referent])
                     for item in goal.constraints
                 )
-                yield _Candidate(branch, left_open, constraints)
+                yield _Candidate(branch, left_open, constraints, way)
+
+
+def _shortest(candidate: _Candidate, scene: SceneState, course: Course) -> _Candidate:
+    """A branch in the order given, or in one that opens fewer parts again."""
+    best = candidate
+    if not reopened(best.branch.actions):
+        return best
+    goal, choice, poses = candidate.way
+    left_open = _left_open(goal, choice, course.first)
+    for visits in visiting_orders(goal.steps, choice, poses, scene, left_open):
+        branch, open_at_last = _branch(*candidate.way, scene, course, visits)
+        other = candidate._replace(branch=branch, left_open=open_at_last)
+        shorter = len(branch.actions) < len(best.branch.actions)
+        if shorter and _objection(other, scene) is None:
+            best = other
+    return best
 
 
 def _branch(
@@ -151,15 +181,16 @@ def _branch(
     poses: Sequence[GraspPose | None],
     scene: SceneState,
     course: Course,
+    visits: Sequence[PartInfo] = (),
 ) -> tuple[Branch, frozenset[str]]:
     """The actions of one way of resolving a goal, as far as they are still to be done, and the
-    parts that insertions do not close again.
+    parts that insertions do not close again. ``visits``: an order in which parts are visited.
     """
     steps = goal.steps
     sketch = Sketch(scene)
     in_hand = [choice.object(step.what) for step in steps if isinstance(step, Pick)]
     words: list[str] = []
-    puts = deque(_in_order(steps, choice, poses, scene))
+    puts = deque(in_order(steps, choice, poses, scene, visits))
     left_open = _left_open(goal, choice, course.first)
     kept_open = set(left_open)
     behind = course.behind(steps, choice)
@@ -174,8 +205,9 @@ def _branch(
             words.append(f"take {name}" + (f" ({pose.value})" if pose else ""))
         elif isinstance(step, Put):
             for _ in choice.placements[index]:
-                place, placement, grasp = puts.popleft()
+                place, placement, grasp, before = puts.popleft()
                 name, relation, target, where = placement
+                _prepare(before, behind, choice, sketch, in_hand)
                 if (place, name) in behind or name in choice.left:
                     continue
                 if step.aside:
@@ -222,6 +254,23 @@ def _branch(
     kept_open.update(closed_by_others(actions, scene))
     reason = ", ".join(dict.fromkeys(words))
     return Branch(actions, reason), frozenset(kept_open)
+
+
+def _prepare(
+    before: Iterable[Fetching | PartInfo],
+    behind: Collection[tuple[int, str]],
+    choice: Choice,
+    sketch: Sketch,
+    in_hand: Sequence[str],
+) -> None:
+    """Takes things out of a part that is visited now and not again, and shuts what was visited."""
+    for item in before:
+        if isinstance(item, PartInfo):
+            sketch.close(item, in_hand)
+            continue
+        done = (item.place, item.name) in behind or item.name in choice.left
+        if not done and sketch.holds(item.name, Relation.INSIDE, item.part.address):
+            sketch.take_away(item.name, PUT_DOWN, item.grasp)
 
 
 def _bring_back(
@@ -305,7 +354,7 @@ def _is_closed_later(
     index: int,
     choice: Choice,
     sketch: Sketch,
-    following: Iterable[tuple[int, Placement, GraspPose | None]],
+    following: Iterable[Errand],
 ) -> bool:
     """Whether an insertion can leave the closing of a part to the words that follow: the part is
     open without it, and no other part of the same piece, which it could cover, is next.
@@ -315,31 +364,10 @@ def _is_closed_later(
     is_open = sketch.is_accessible(address)
     if not _last_words(steps[:index], choice, sketch.scene).get(address, is_open):
         return False
-    inside = (put.target for _, put, _ in following if put.relation is Relation.INSIDE)
+    puts = (errand.placement for errand in following)
+    inside = (put.target for put in puts if put.relation is Relation.INSIDE)
     same_piece = (target for target in inside if owner_of(target) == owner_of(address))
     return next(same_piece, address) == address
-
-
-def _in_order(
-    steps: Sequence[Step],
-    choice: Choice,
-    poses: Sequence[GraspPose | None],
-    scene: SceneState,
-) -> Iterator[tuple[int, Placement, GraspPose | None]]:
-    """All placements of a choice, each with its step's place and its grasp; of those
-    that no word puts in an order supports come before what stands on them.
-    """
-    runs: dict[int, list[tuple[int, Placement, GraspPose | None]]] = {}
-    for index, placements in choice.placements.items():
-        step = steps[index]
-        assert isinstance(step, Put)  # only these have placements
-        run = runs.setdefault(step.run, [])
-        run += [(index, placement, poses[index]) for placement in placements]
-    vessels = (name for name, info in scene.infos.items() if info.container)
-    nested = {(name, scene.states[name].inside) for name in vessels}
-    for given in runs.values():
-        order = supports_first([item for _, item, _ in given], nested)
-        yield from (given[index] for index in order)
 
 
 def _opened_anyway(address: str, index: int, choice: Choice) -> bool:

@@ -67,6 +67,17 @@ def reopened_at_once(actions: Sequence[Action]) -> frozenset[str]:
     )
 
 
+def reopened(actions: Sequence[Action]) -> bool:
+    """Whether a plan opens a part that it has closed."""
+    closed: set[str] = set()
+    for action in actions:
+        if action.verb is Verb.OPEN and action.target in closed:
+            return True
+        if action.verb is Verb.CLOSE:
+            closed.add(action.target)
+    return False
+
+
 def closed_by_others(actions: Sequence[Action], scene: SceneState) -> tuple[str, ...]:
     """Parts that some insertions into them leave open, and that the plan closes at last."""
     last = {action.target: action.verb for action in actions if action.verb in _TURNS}
