@@ -51,8 +51,7 @@ def needed_later(
     failed: FailedStep, name: str, besides: Collection[str] = ()
 ) -> tuple[Keepout, ...]:
     """Discs that a safe place for an object had better avoid: what the rest of the branch takes or
-    fills, some things apart (``besides``), and the way of a hand to it, and the points where it puts
-    something.
+    fills, some things apart (``besides``), the way of a hand to it, and points that it fills.
     """
     scene = failed.record.before
     needed = dict.fromkeys(
