@@ -1112,6 +1112,27 @@ def test_a_safe_place_keeps_clear_of_what_is_needed_later_where_it_can() -> None
     assert any(abs(disc.x + disc.y) < 2e-3 for disc in ways), "between the mug and the base"
 
 
+def test_a_safe_place_keeps_clear_of_points_that_are_still_to_be_filled_where_it_can() -> None:
+    """But not of the one where the thing itself goes later."""
+    start = scenes.scene(
+        scenes.item("tray", at=(0.5, 0.1)), scenes.item("vase", at=(0.4, 0.1)),
+        scenes.item("book", at=(0.5, -0.2)), scenes.item("tin", at=(0.3, -0.3)),
+    )  # fmt: skip
+    plan = (
+        "[PICK UP, tray] [PUT ON, desk] (at 0.450 0.120) [PICK UP, vase] [PUT ON, desk] "
+        "(at 0.350 -0.100) [PICK UP, tin] [PUT ON, desk] (at 0.300 0.300)"
+    )
+    step = failed(start, plan, 1, cause(CauseKind.NO_ROOM, "vase", "tray"), held(start, "tray"))
+    aside = [
+        branch.actions
+        for branch in BuiltinReasoner().reflect(step)
+        if any(action.safe for action in branch.actions)
+    ]
+    put = next(action for action in aside[0] if action.safe)
+    at = {(disc.x, disc.y) for disc in put.keepout if disc.soft}
+    assert {(0.45, 0.12), (0.3, 0.3)} <= at and (0.35, -0.1) not in at
+
+
 @pytest.mark.parametrize(
     ("where", "keeps"), [("not near wax", True), ("away from wax", True), ("near mug", False)]
 )

@@ -4,6 +4,7 @@ works, with them it fails.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -78,6 +79,67 @@ def test_no_room_names_who_fills_it(
     named = set(cause.objects) - {"held"}
     assert named and named <= guilty, cause
     assert outcome(action, **without(scene, tuple(named))) is None, "without them it works"
+
+
+POST = {"kind": "cylinder", "diameter": 0.044, "height": 0.09, "mass": 0.15}
+SLAB = {"kind": "box", "size": [0.07, 0.07, 0.03], "mass": 0.15, "at": [0.5, -0.28]}
+HEMMED = (0.4, 0.1)
+
+
+def hemmed_in(count: int, apart: float = 0.058) -> dict[str, dict[str, Any]]:
+    """A slab, posts around the place for it, and things that neither it nor a hand touches there:
+    a large one far off and a small one next to the posts.
+    """
+    turns = [0.4 + 2 * math.pi * index / count for index in range(count)]
+    posts = {
+        f"post{index}": POST
+        | {"at": [HEMMED[0] + apart * math.cos(turn), HEMMED[1] + apart * math.sin(turn)]}
+        for index, turn in enumerate(turns)
+    }
+    others = {
+        "far": BOWL | {"diameter": 0.16, "at": [0.33, -0.3]},
+        "beside": BLOCK | {"at": [0.4, 0.33]},
+        "small": BLOCK | {"at": [0.56, 0.25]},
+    }
+    return {"slab": SLAB, **posts, **others}
+
+
+def hemmed_outcome(seed: int, objects: dict[str, dict[str, Any]]) -> Cause | None:
+    run = episode(seed, **objects)
+    run.must("[PICK UP, slab]")
+    return run.do(f"[PUT ON, desk] (at {HEMMED[0]} {HEMMED[1]})").record.cause
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_of_those_around_a_place_a_least_set_is_named_and_nobody_farther_off(
+    count: int, seed: int
+) -> None:
+    objects = hemmed_in(count)
+    cause = hemmed_outcome(seed, objects)
+    assert cause is not None
+    assert cause.kind is CauseKind.NO_ROOM
+    blamed = [name for name in cause.objects if name != "slab"]
+    assert len(blamed) > 1 and all(name.startswith("post") for name in blamed), cause
+    assert hemmed_outcome(seed, without(objects, tuple(blamed))) is None, "without them it works"
+    for name in blamed:
+        others = tuple(other for other in blamed if other != name)
+        left = hemmed_outcome(seed, without(objects, others))
+        assert left is not None and name in left.objects, "each of them is needed for that"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+def test_what_has_been_put_aside_is_not_named_again(seed: int) -> None:
+    run = episode(seed, **hemmed_in(4))
+    for name in ("post0", "post1", "post2"):
+        run.must(f"[PICK UP, {name}]", "[PUT ON, desk] (left of beside)" if name == "post0"
+                 else "[PUT ON, desk] (right of far)" if name == "post1"
+                 else "[PUT INTO, far]")  # fmt: skip
+    run.must("[PICK UP, slab]")
+    cause = run.do(f"[PUT ON, desk] (at {HEMMED[0]} {HEMMED[1]})").record.cause
+    assert cause is not None and cause.objects == ("post3", "slab"), cause
 
 
 @pytest.mark.slow

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from etot_cli.reasoning.builtin.harm import displacement
 from etot_cli.reasoning.builtin.relations import radius
+from etot_cli.reasoning.builtin.rules import in_hand
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import PUTS, Action, Keepout, Verb
 from etot_cli.world.spatial import NEAR, Nearby
@@ -50,7 +51,7 @@ def needed_later(
     failed: FailedStep, name: str, besides: Collection[str] = ()
 ) -> tuple[Keepout, ...]:
     """Discs that a safe place for an object had better avoid: what the rest of the branch takes or
-    fills, some things apart (``besides``), and the way of a hand to it.
+    fills, some things apart (``besides``), the way of a hand to it, and points that it fills.
     """
     scene = failed.record.before
     needed = dict.fromkeys(
@@ -64,6 +65,12 @@ def needed_later(
         size, away = radius(scene.infos[other]), max(math.hypot(x, y), HAND)
         nearer = 1 - min((size + HAND) / away, 1.0)
         discs += [_disc(x, y, size + CLEARANCE), _disc(x * nearer, y * nearer, HAND)]
+    for held, action, _ in in_hand(failed.branch.actions[failed.index :], scene.holding):
+        if held is None or held in (name, *besides) or held not in scene.infos:
+            continue
+        points = (where.point for where in action.where if not where.denied)
+        size = radius(scene.infos[held])
+        discs += [_disc(*point, size + CLEARANCE) for point in points if point is not None]
     return tuple(replace(disc, soft=True) for disc in discs)
 
 

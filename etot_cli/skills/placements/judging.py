@@ -175,6 +175,9 @@ class Judge:
         self._on_desk = self._support.owner is None
         self._gap = DESK_GAP if self._on_desk else GAP
         self._extents: dict[bytes, tuple[Vector, Vector]] = {}
+        self._asked: tuple[Cells, Cells] | None = None
+        """The cells last looked at, and those of them that are asked for: a grid is judged anew for
+        every turn."""
 
     def grid(self) -> Cells:
         """Cells (m, 2) of the floor that are looked at, the middle among them."""
@@ -200,6 +203,9 @@ class Judge:
         """Those of cells (m, 2) where the object may stand as far as a few points of its underside
         tell.
         """
+        cells = self._asked_for(cells)
+        if not len(cells):
+            return cells
         few = self._undersides.of_object(rotation).outline(OUTLINE)
         bottom = self._extent(rotation)[0][2]
         lift = resting_heights(self.relief, few, cells) + bottom - self.relief.floor
@@ -208,13 +214,24 @@ class Judge:
         return np.asarray(cells[stands])
 
     def judge(self, rotation: Vector, cells: Cells) -> Judged:
-        """Judges cells (m, 2) for an orientation (3, 3) of the object's body."""
-        relief = self.relief
+        """Judges cells (m, 2) for an orientation (3, 3) of the object's body: those of them that
+        are asked for.
+        """
+        # On the desk itself nothing is piled: where it does not stand there is no place.
+        here = self.may_stand(rotation, cells) if self._on_desk else self._asked_for(cells)
+        relief, cells = self.relief, here
         low, high = self._extent(rotation)
         underside = self._undersides.of_object(rotation)
+        if not len(cells):
+            none = np.zeros(0)
+            height = float(high[2] - low[2])
+            places = Turned(
+                cells, relief.points(cells), rotation, underside, height, none, none, none, none
+            )
+            return Judged(places, np.zeros(0, dtype=np.int64), none)
         rest = resting_heights(relief, underside, cells)
         drop = np.zeros_like(rest)
-        if len(cells) and not self._request.bare:
+        if not self._request.bare:
             highest = float(relief.heights.max()) + HAND_MARGIN - float(rest.min())
             open_hand = self._undersides.of_hand(rotation).below(highest)
             drop = resting_heights(relief, open_hand, cells) - rest
@@ -231,6 +248,18 @@ class Judge:
             to_sweep = np.full(len(cells), np.inf)
         cost = self._costs(turned, kind, to_sweep)
         return Judged(turned, self._forbid(turned, kind, cost, to_sweep), cost)
+
+    def _asked_for(self, cells: Cells) -> Cells:
+        """Those of cells (m, 2) where the object may be at all: where a place is asked for, a few
+        of a whole desk.
+        """
+        preference = self._request.preference
+        if preference is None or not len(cells):
+            return cells
+        if self._asked is None or self._asked[0] is not cells:
+            wanted = np.isfinite(preference(self.relief.points(cells)))
+            self._asked = cells, np.asarray(cells[wanted])
+        return self._asked[1]
 
     def _extent(self, rotation: Vector) -> tuple[Vector, Vector]:
         """Bounds (3,), (3,) of the object turned to ``rotation`` (3, 3), around its origin [m]."""

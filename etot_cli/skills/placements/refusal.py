@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -12,13 +12,14 @@ from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Quality, Request
 from etot_cli.skills.placements.looking import ALL_TRIES, BEST_TRIES, MAX_TRIES, placements
 from etot_cli.skills.placements.placement import Placement, Tally, placement_at
-from etot_cli.skills.placements.places import PlaceFinder
-from etot_cli.skills.placements.relief import relief
+from etot_cli.skills.placements.places import Place, PlaceFinder
+from etot_cli.skills.placements.suspects import MAX_SUSPECTS, least, suspected
 from etot_cli.skills.placements.undersides import Stamps
 from etot_cli.world.state import CauseKind
 
-MAX_SUSPECTS = 5
-"""Objects that are taken away one at a time to see whether that helps."""
+MAX_KNOWN = 2
+"""Places with somebody away that are tried again with others away, exactly: height maps keep things
+farther apart than they have to be, so that with fewer away they may show none."""
 
 
 def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome | Placement:
@@ -44,32 +45,42 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             [*owner, name],
             f"the arm does not reach {address}{_at(request)} with {name} held as it is",
         )
-    suspects, fastened = _suspects(belief, request, tally)
     stamps: Stamps = {}
+    suspects, fastened = suspected(belief, request, tally, stamps)
     overlooked: list[Placement] = []
+    known: list[Place] = []
 
     def possible(other: Request) -> Placement | None:
         return next(placements(belief, other, Tally(belief.world), stamps), None)
 
     def helps(absent: Iterable[str]) -> bool:
         """Whether there is a place once some objects are taken away, and none there with them."""
-        found = possible(replace(request, absent=request.absent.union(absent)))
+        other = replace(request, absent=request.absent.union(absent))
+        still = (place for place in known if place.bearers.isdisjoint(other.absent))
+        if any(placement_at(belief, other, place) for place in still):
+            return True
+        found = possible(other)
         if found is None:
             return False
         as_it_is = placement_at(belief, request, found.place)
         if as_it_is is not None:
             overlooked.append(as_it_is)
+        elif len(known) < MAX_KNOWN:
+            known.append(found.place)
         return as_it_is is None
 
-    guilty = [one for one in suspects[:MAX_SUSPECTS] if helps([one])]
-    if not guilty and len(suspects) > 1 and helps(suspects):
-        guilty = _least(suspects, helps)
-    guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if helps([one])]
+    together = len(suspects) > 1 and helps(suspects)
+    if overlooked:
+        return overlooked[0]
     everybody = [*suspects, *fastened]
+    guilty = [one for one in suspects[:MAX_SUSPECTS] if helps([one])]
+    if together and not guilty:
+        guilty = least(suspects, helps)
+    guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if helps([one])]
     if overlooked:
         return overlooked[0]
     if not guilty and fastened and len(everybody) > 1 and helps(everybody):
-        guilty = _least(everybody, helps)
+        guilty = least(everybody, helps)
     if guilty:
         if tally.obstructed and (missed := _missed(belief, request, tally)) is not None:
             return missed
@@ -147,34 +158,6 @@ def _has_good_place(belief: Belief, request: Request, stamps: Stamps) -> bool:
     """Whether there is one as far as height maps tell."""
     places = PlaceFinder(belief, request, stamps).places(kinds=(Quality.GOOD,))
     return next(places, None) is not None
-
-
-def _suspects(belief: Belief, request: Request, tally: Tally) -> tuple[list[str], list[str]]:
-    """Movable objects that may be in the way, and fastened ones; what stands there first."""
-    name = request.attached.name
-    there: list[str] = []
-    while more := [
-        other
-        for other in relief(belief, request.support, {name, *request.absent, *there}).occupants()
-        if other not in there
-    ]:
-        there += more  # of a stack only the top is seen from above
-    met = tally.blockers.most(excluding=[name])
-    own = (name, request.support.owner)
-    found = [one for one in dict.fromkeys([*there, *met]) if one not in own]
-    entries = belief.world.entries
-    movable = [one for one in found if entries[one].info.movable]
-    return movable, [one for one in found if not entries[one].info.movable]
-
-
-def _least(suspects: list[str], helps: Callable[[Iterable[str]], bool]) -> list[str]:
-    """Of objects that help together those that are needed for it."""
-    needed = list(suspects)
-    for other in suspects[::-1][:MAX_SUSPECTS]:
-        fewer = [one for one in needed if one != other]
-        if fewer and helps(fewer):
-            needed = fewer
-    return needed
 
 
 def _preposition(request: Request) -> str:
