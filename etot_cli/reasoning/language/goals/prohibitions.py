@@ -31,7 +31,12 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import leaves_noun_out
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.lexicon import (
+    JOINT_NOUNS,
+    THING_NOUNS,
+    matches_any,
+    singular,
+)
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.world.state import DESK
 
@@ -119,8 +124,11 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         kept = [mention for mention in said if mention.role is Role.THEME and not before]
         targets = [replace(m, role=Role.ANY) for m in said if m.role in _TARGETS]
         kept += [replace(m, clause=0) for m in targets] if before else targets
-        # "Nothing but the cups may be there, so put them there"
-        spared = [t for m in said for t in context.discourse.left_out.get(m.referent, ())]
+        # "Nothing but the cups may be there, so put them there"; behind "no cup but the white one"
+        # "the other" is one of the cups.
+        general = all({*np.words} & {"", "anything", *THING_NOUNS} for np in clause.things.phrases)
+        left_out = context.discourse.left_out if general else {}
+        spared = [thing for m in said for thing in left_out.get(m.referent, ())]
         context.discourse.mentions[before:] = [] if spared else kept
         for thing in sorted(spared, key=attrgetter("address")):
             context.discourse.alone(thing, Role.THEME)

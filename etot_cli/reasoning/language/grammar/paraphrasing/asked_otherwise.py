@@ -8,7 +8,7 @@ from collections.abc import Callable
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import SIZES, THING_NOUNS, singular
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _THERE = r"(?:in|on|inside|into|onto|next to|beside|behind|between|under)\b"
@@ -41,7 +41,6 @@ _LEFT_THERE = re.compile(
     r"(?<!\bbe)(?<!\bis)(?<!\bare)(?<!\bthe)(?<!\bthat)(?<!\bhave)) left "
     r"(?=(?:in|on|inside) (?:the|my|our|it|them)\b)"
 )
-_MOST = "|".join(word for word in SIZES if word.endswith("est"))
 _NONE = re.compile(r"\b(?:nothing|none|no) (?:\w+ ){0,3}?left\b")
 _ONLY_WISH = r"(?:want|need|would like|care to have|wish)"
 _MOVED = r"(?:moved|put|placed|taken|brought|set|returned|transferred|dropped|to (?:go|be|end up))"
@@ -175,15 +174,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?:around |up )?(?=(?:so that|such that|in such a way that|so)\b)",
         r"\1arrange things ",
     ),
-    (
-        rf"^({ASKED})set (?:it|things|everything|this) up (?=(?:so that|such that|so)\b)",
-        r"\1arrange things ",
-    ),
-    (
-        rf"\b((?:that|which) is|whichever (?:\w+ ){{1,2}}?is) the (?=(?:{_MOST})"
-        rf"(?:[.,;!?]|$| and\b| {WHERE}))",
-        r"\1 ",
-    ),
     # What is asked of a thing that is named ahead
     (
         rf"(^|[.;!?] )(?:as (?:for|to)|regarding|concerning|with (?:regard|respect) to"
@@ -216,11 +206,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?:not|rather than|instead of) the other(?: one)?(?=[.;!?]|$)",
         r"\1",
     ),
-    # "Should it be in the way" is "if it is"
-    (
-        rf"(^|[.;!?,:] )should ({_ONE}|it) be (?=(?:in the way|needed|necessary|blocking)\b)",
-        r"\1if \2 is ",
-    ),
     (
         r"\b(put|place|store|stow|set) ([^.,;:]*?) where (?:the |other )?\w+s "
         r"(?:go|belong|live|are kept)[,:] (?:namely,? |that is,? )?(?=(?:in|into|on|onto) )",
@@ -250,7 +235,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"(?=(?:which|what|where|how|in which)\b)",
         ", no matter ",
     ),
-    (r"\bas you (?:see fit|think best|think fit|deem fit|please|find best)\b", "as you like"),
     (
         rf"^({_ONE}) (?:and|or) ({_ONE}) are the only (?:places|spots|containers|ones) "
         rf"(?:(?:where|in which|that|to which) ({_ONE}(?: and {_ONE})?) (?:may|can|could|should"
@@ -271,11 +255,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"\1put the \2s separately: ",
     ),
     (
-        rf"^({ASKED})(?:distribute|spread|divide|split(?: up)?) ({NAMED} [^.,;:]*?)"
-        r"(?: out| up)?: (?=one\b)",
-        r"\1put \2 separately: ",
-    ),
-    (
         r"\b(should|must|shall|have to|need to|are to) (all|both) "
         r"((?:be|go|end up|stand|lie)(?: (?:put|kept|stored|placed))?) together\b",
         r"\1 \3 \2 together",
@@ -288,17 +267,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"((?:the|my) (?:\w+ )?\w+ one)(?=(?:,? please)?(?:[.;!?]|$))",
         r"\1, but not \2",
     ),
-    # "Take it out and put in the pen in exchange" puts nothing in the pen
-    (
-        rf"\b(put|place|set|lay) (in|on) ({NAMED} [^.,;]*?) in (?:exchange|return)\b"
-        r"(?! for (?:the|my))",
-        r"\1 \3 \2 instead",
-    ),
-    (
-        r"\b((?:that|which) (?:is|are) (?:there|(?:in|on) (?:it|them))) "
-        r"(?:now|right now|already|at the moment|at present|currently)\b",
-        r"\1",
-    ),
     (r"\b(that|which) (?:occupies|sits on|takes up) (?=it\b|them\b)", r"\1 is on "),
     (r"\bwhat (?:lies|stands|sits|is lying) in there\b", "what is in it"),
     # "Here or, if you prefer, there" is a free choice
@@ -306,18 +274,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r",? or,? if you (?:prefer|like|wish|want|would rather|would prefer|find it easier),? "
         r"(?=(?:(?:in|on|into|onto|to|next|beside|the|my|a|an)\b))",
         " or ",
-    ),
-    (
-        r",? (or (?:in|on|into|onto|to|next to|beside|the|my|a|an)\b[^.;,]*?),? if you "
-        r"(?:prefer|like|wish|want|would rather|would prefer)(?: that| it)?(?=[.;,!]|$)",
-        r" \1",
-    ),
-    # "The cup has to come out first and go on the tray"
-    (
-        r"(^|[.;!?] |, )((?:but )?(?:the|my|our) [^.,;:]*?) (has to|needs to|must|should) come "
-        r"(?:out|off|away)(?: of (?:it|there))? (?:first|beforehand|before that) and (?:then )?"
-        r"(go|be put|be placed) ",
-        r"\1first, \2 \3 \4 ",
     ),
     # "The cup has to come out first and can go on the tray"
     (
@@ -335,11 +291,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"^({NAMED} [^.,;:]*? and [^.,;:]*?) (?:should|must|shall) not (?:both )?"
         r"(?:be(?: put)?|go|end up|stand|lie) (?:in|on|into|onto) the same \w+[:;,.] (?=one\b)",
         r"put \1 separately: ",
-    ),
-    # "The box, ball and all, onto the shelf"
-    (
-        rf", (?P<along>(?:the |my )?{_RIDER}), (?P<to>{WHERE}[^.;:,]*)",
-        lambda said: f" {said['to']}, {said['along']}",
     ),
     (_INCLUDED, _goes_along),
     # What stays in or comes out asks for nothing.

@@ -13,17 +13,9 @@ CORNERS_AND_SIDES: tuple[tuple[str, str], ...] = (
         r"the \2 \1 corner",
     ),
     (
-        r"\bthe (front|back|rear) corner,? (?:at|on|in|to|towards) the (left|right)(?: side)?\b",
-        r"the \1 \2 corner",
-    ),
-    (
         r"\b(in|at|to|into) the corner,? (?:at|on|in) the "
         r"((?:front|back|rear)(?: (?:left|right))?)\b",
         r"\1 the \2 corner",
-    ),
-    (
-        r"\bon the (left|right) side,? (?:at|in|towards) the (front|back|rear)\b(?! of the)",
-        r"in the \2 \1 part",
     ),
     # On a picture of the table its far side is on top.
     *(

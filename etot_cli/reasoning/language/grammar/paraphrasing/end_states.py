@@ -157,10 +157,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\b(?: (open|closed|shut)\b)?",
         _nor,
     ),
-    (
-        rf"\b({_MUST}), (?:in the end|ultimately|eventually|of course|please), (?=(?:{_BE})\b)",
-        r"\1 ",
-    ),
     # "The blue one, though, should lie there"
     (
         r", (?:though|however|on the other hand|in turn|for (?:its|their) part),"
@@ -294,13 +290,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?=(?:in|on|into|onto|inside|next to|beside|behind|between|in front of|to the) )",
         r"\1 should be ",
     ),
-    (
-        rf"(^|[.;] )(?:what|the (?:thing|one)(?: that)?) {_WISHED} (?:to (?:be|go) )?"
-        r"((?:in|on|into|onto|inside|next to|beside|behind|between) [^.,;]*?) is "
-        rf"({_SOME})(?=[.,;!]|$)",
-        r"\1\3 should be \2",
-    ),
-    (rf"\bit is ({_SOME}) (?:that |which )?({_WISHED})(?=[.;!]|$)", r"\2 \1"),
     # "The cup next to the mug, both of them on the tray"
     (
         rf"\b({_SOME}) ((?:(?:should|must) (?:be|stand|go)|goes|belongs) )?"
@@ -316,19 +305,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(^|[.;!,] |\band )(the|my|our) ((?:\w+ ){1,3})alone "
         r"(?=(?:goes|belongs|should|must|has to|is to|needs to|stays|remains|ends up)\b)",
         r"\1only \2 \3",
-    ),
-    # Of two there are no more to be told.
-    (r"\bneither of the (?:two|2) (?=\w)", "neither of the "),
-    # Which one it is not, said behind it
-    (
-        r"\b((?:an?|one|any) \w+(?: \w+)?), (?:but )?not one (that|which) "
-        r"(?:is|stands|lies|sits) ((?:in|on) [^.,;]*),?",
-        r"\1 \2 is not \3",
-    ),
-    (
-        r"\b((?:standing|lying|sitting|that is|which is) (?:in|on) [^.,;]*?), "
-        r"(?:and |but )?not one of (?:those|the ones)(?: that are)? (?=(?:in|on) )",
-        r"\1 and not ",
     ),
     # Places that are left open
     (
@@ -376,11 +352,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"|are back|look again)|(?:once|when) you are (?:done|finished)),? "
         r"(?:i|we) (?:would |should )?(?:want|like|expect|need|wish) to (?:see|find|have) ",
         r"\1i want ",
-    ),
-    (
-        rf"\b(i|we) (?:would )?(want|like|expect|wish) to find (?={_SOME} (?:on|in|inside|next to|"
-        r"beside|behind|closed|shut|open)\b)",
-        r"\1 would like to see ",
     ),
     # "A little tower"
     (

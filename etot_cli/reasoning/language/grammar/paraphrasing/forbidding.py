@@ -29,11 +29,6 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:dare(?: to)?|(?:think|dream) (?:of|about)) (?=\w)",
         r"\1 ",
     ),
-    (
-        r"\b(?:whatever you do|whatever happens|at all costs),? (?=(?:please )?(?:do not|never)\b)",
-        "",
-    ),
-    (r"\byou are not (?:allowed |supposed |permitted |meant )?to (?=\w)", "do not "),
     # "The cup and the pot on the tray, neither in the other"
     (
         r",? (?:and |with )?neither (?:of (?:them|the two) )?(?:one )?"
@@ -50,11 +45,6 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"\bwithout ({_IT}) (?:moving|budging|stirring|leaving (?:{_SPOT})){_ENDS}",
         r"without moving \1",
-    ),
-    (
-        rf"\b((?:keep|leave|keeping|leaving) {_IT}) (?:in|on|at) (?:its|their) (?:\w+ )?"
-        rf"(?:spot|spots|place|places|position|positions){_ENDS}",
-        r"\1 where it is",
     ),
 )
 """In order (see :mod:`etot_cli.reasoning.language.grammar.paraphrasing.paraphrases`)."""

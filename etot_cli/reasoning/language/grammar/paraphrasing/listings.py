@@ -120,15 +120,6 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"(?:they|these|those|them|all of (?:them|these))(?: all)? (?=\w)",
         r"\1\2 ",
     ),
-    (
-        r"(^|[.;!?] )((?:first,? )?[^.;:!?]*?\b(?:then|finally|lastly)\b[^.;:!?]*?)(?:[:,;.] | - )"
-        r"(?:that|this) is (?:the|my|our) (?:order|sequence) in which (?:you (?:should|must|have to"
-        r"|need to|can|are to)|to|i (?:want|would like) you to) "
-        r"(?:put|place|set|move|store|stow|pack|load|stack|insert|drop) "
-        r"(?:them|these|those)(?: all)? "
-        r"(?=(?:in|on|into|onto|to)\b)",
-        r"\1\2 go ",
-    ),
     # "Leave the cup for last: first the pen, …", "put all in the box, but leave the cup for last"
     (
         rf"(?P<begun>(?:^|[.;!] ){ASKED}){_FOR_LAST}[:;,.] (?P<rest>[^.;!]*)",
@@ -146,7 +137,6 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"one (?!by\b|after\b)(\w+) (?:after|by) (?:another|the other|one)\b(?! \1)",
         " one after another",
     ),
-    (r"\bone (\w+) (?:after|by) (?:another|the other|one) \1\b", "one after another"),
     (
         r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b"
         r"(?![^.;:]*\b(?:reverse|other way|opposite order)\b)",
@@ -158,10 +148,6 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
     ),
     (r"^(?:a )?(tower|stack) (?=from (?:bottom to top|top to bottom)\b)", r"build a \1 "),
     (r"\bpart of (?=the (?:tower|stack|pile)\b)", "in "),
-    (
-        r"\bthe (top|uppermost|highest) (\w+) off (?=(?:the|my) (?:tower|stack|pile)\b)",
-        r"the \1 \2 of ",
-    ),
     # What is stacked goes on what was put down just before, not beside it.
     (
         r"\b((?:put|place|set|lay) ((?:the|my) [^.,;]*?) (?:on|onto) (?:the|my) [^.,;]*?[,;.]? "
@@ -181,17 +167,6 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         rf"((?:in|on) it),? ({NAMED} [^,.;:]*)(?=[.;!]|$)",
         r"\2 \1, and \3 \4",
     ),
-    (
-        rf"\b(both|two things)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
-        rf"({NAMED} (?:(?!\b{WHERE}|\bbehind\b|\bbeside\b)[^,.;:])*? and "
-        rf"{NAMED} (?:(?!\b{WHERE}|\bbehind\b|\bbeside\b)[^,.;:])*)(?=[.;!]|$)",
-        r"\3 \2",
-    ),
-    (
-        rf"\b(?:both|two things)(?: of them| things)? ({WHERE} {NAMED} [^,.;:]*)[:,] "
-        rf"({NAMED} [^,.;:]*? with {NAMED} [^,.;:]* (?:in|on) it)(?=[.;!]|$)",
-        r"\2 \1",
-    ),
     # "Into one of these: bowl, box"
     (
         rf"\b(in|into|on|onto|inside) (?:either )?(?:one|any|either) of (?:the following|these)"
@@ -202,11 +177,6 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         rf"\beach of (?:these|the following)(?: (?:two|three))?(?: \w+)?[,:] "
         rf"({_ITEM}) and ({_ITEM}), (?={WHERE})",
         lambda said: f"each of {_named(said[1])} and {_named(said[2])} ",
-    ),
-    (
-        rf"^({ASKED}(?:put|place|move|set|store|stow) )each of (?:these|the following)"
-        rf"(?: (?:two|three))?(?: \w+)? ({WHERE} {_ONE}): ({_ITEM})(?:,| and) ({_ITEM})(?=[.;!]|$)",
-        lambda said: f"{said[1]}{_named(said[3])} and {_named(said[4])} {said[2]}",
     ),
     # "For each of the cup and the pen: in the box or in the bin"
     (

@@ -12,7 +12,6 @@ from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
 
 _WHAT = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
 _AWAY = r"(?:out of the way(?! of\b)|aside|away(?! from\b))"
-_FROM_THE_FRONT = r"(?:away )?from (?:in front|the front) of\b"
 _NOT_TO_BE = (
     r"(?:(?:must|should|may|can|shall) not (?:be|stand|get|stay|remain|lie)"
     r"(?: left| standing| lying)?|(?:is|are|has|have) not to be)"
@@ -41,12 +40,6 @@ _SOMETHING = r"(?:something|a thing|an object)"
 _THERE = r"(?:is |stands )?(?:standing |sitting |lying )?(?:in front of it|in the way|blocking it)"
 
 
-def _freed(said: re.Match[str]) -> str:
-    """What is to be done with what blocks something that is named before it."""
-    begun, one, two, three, doing = said.groups()
-    return f"{begun}{doing} the thing that is blocking {one or two or three} "
-
-
 OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         # Where to is not said
@@ -56,7 +49,6 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     (rf"\b(out of|in) ({_WHAT})(?:'s| 's) {_WAY}\b", r"\1 the way of \2"),
     (rf"\b(in|out of) its {_WAY}{_ENDS}", r"\1 the way of it"),
-    (rf"\b(?:out of|from) (?:the|its) {_WAY} of (?={_WHAT})", "out of the way of "),
     (
         rf"\b(?:clear|take|get|bring) ({_WHAT}|it|them) (?=out of the way of\b)",
         r"move \1 ",
@@ -66,7 +58,6 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf" (?:it|them)(?: down)? (?:elsewhere|somewhere else)(?: on (?:the|my) {TABLE})?{_ENDS}",
         r"\1",
     ),
-    (rf"\bclear ({_WHAT}|it|them) (?={_AWAY}{_ENDS}|{_FROM_THE_FRONT})", r"move \1 "),
     (
         rf"({_WHAT}) {_NOT_TO_BE} in the way(?= of (?:{_WHAT}|it)|{_ENDS})",
         r"move \1 out of the way",

@@ -21,15 +21,11 @@ from etot_cli.reasoning.language.grammar.text.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import LIDS, NUMBERS, SIZES
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 from etot_cli.reasoning.language.words.verbs import PAST
 
 HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
-_NOTHING_ELSE = Expression(
-    rf"((?:^|[.;\n])(?:(?!\b{WHERE})[^.;\n])*?),? (?:and|but) nothing else,? ({WHERE}[^,.;\n]*)"
-)
-"""Behind the things it stands for what is said of them behind their place."""
 _MAY_GO = Expression(
     r"(^|[.!?;]\s*)(?:could|can|may|might) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)"
     r"(?: please)? (go|come|move|return|end up|wind up|live)\b"
@@ -44,7 +40,6 @@ _ALL_DONE = Expression(
 _BESIDE = (
     r"(?:next to|beside|near|behind|in front of|between|(?:to the )?(?:left|right) of|on|in)\b"
 )
-_DOING = r"put|place|take|move|bring|open|close|shut|pick up|leave"
 _LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
 _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
 _NO_MORE_SAID = (
@@ -79,24 +74,13 @@ def _as_asked(wish: re.Match[str]) -> str:
     return re.sub(r"\bif you (?!(?:would|could|can|will)\b)", "if you would ", asked)
 
 
-def _in_turn(said: re.Match[str]) -> str:
-    """What goes "on" where something else went "off" of, or "in" where it went "out of"."""
-    away, where, joint, other, back = said.groups()
-    if LIDS & {*other.split()}:
-        return said[0]  # it goes on what was taken
-    place = {("off", "on"): f"on {where}", ("out of", "in"): f"in {where}"}.get((away, back), back)
-    return f"{away} {where}{joint} {other} {place}"
-
-
 _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
-    (r"\bpretty (?=please\b)", ""),
     # Behind what is asked for: "…, won't you?"
     (
         r", (?:(?:wo|would|could|ca|should|ought|must)n't|(?:would|could|should|ought|must) not"
         r"|will not|can not) (?:you|it|they|we|he|she)\b(?= ?[?.!]|$)",
         "",
     ),
-    (r"(?<=[.!] )(?:all )?done(?=[.!]*$)", "that is all"),
     (
         rf"(^|[.;!] )(?:how|what) about (?={NAMED} (?:\w+ ){{0,2}}?\w+ (?:in|on|into|onto|inside|"
         rf"next to|beside|on top of|behind|in front of|between|near|to the (?:left|right) of) "
@@ -133,12 +117,10 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"(?=(?:(?:any|some)where )?(?:on|in|next to|beside|near|behind|to the) )",
         r"\1 \2 ",
     ),
-    (rf"\b((?:on|in) {NAMED} [^.,;]*? and nothing else) (?:on|in) it\b", r"\1"),
     (r"^(please |(?:could|can) you )?(without \w+ing any other [^,.;]*), ([^.;]*)", r"\1\3 \2"),
     (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
     # A place behind what follows tells which that is: where it goes was said before
     (rf",? followed by (?={NAMED} (?:(?!and\b)\w+ )+{WHERE})", ", then likewise "),
-    (r",? followed by ", ", then "),
     (
         rf"\b(?:keep|leave) ({NAMED} [^.,;]*?) stacked(?=[.,;]| and\b|$)(?! on)",
         r"leave \1 as they are",
@@ -162,14 +144,9 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     # "The box itself" is the box; "by itself" and "inside itself" are something else.
     (rf"\b({NAMED}(?: (?!(?:{_NO_NOUN})\b)\w+){{0,3}}) (?:itself|themselves)\b", r"\1"),
     (rf"\bbut none of (?={NAMED})", "but not "),
-    (r", (?:but )?only not (?=(?:in|on|into|onto|to|the|an?|next|beside|near)\b)", ", just not "),
     (r"\bthe pair of them\b", "both of them"),
     (r"\b(?:trade|swap|switch|exchange) places between ", "swap "),
     (r",? (?:anywhere|wherever) (?:there is (?:room|space)|it fits)(?=[.;]|$)", ""),
-    (
-        r"\b(take|grab|pick up|get) ([^.,;]*?) (?:in|into|with) your (?:gripper|hand|fingers)\b",
-        r"\1 \2",
-    ),
     (
         rf"\bi (?:want|would like) ({NAMED} [^.,;]*?) to have nothing (?:in|on) it\b",
         r"\1 should be empty",
@@ -179,23 +156,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"put \1 ",
     ),
     (
-        r"\bat the (?:foot|base) of (?=(?:the|that) (?:tower|stack|pile)\b)",
-        "at the bottom of ",
-    ),
-    (r"\bat its (?:foot|base)(?=[.,;!?]| and\b|$)", "at its bottom"),
-    (
         rf"\b(the|that) ({'|'.join(NUMBERS)})[{HYPHENS} ](\w+)[{HYPHENS} ](stack|tower|pile)\b"
         r"(?! of\b)",
         r"\1 \4 of \2 \3s",
     ),
-    (r"\bnext too (?=the|a|my|it\b)", "next to "),
     (r"\bthe other way round\b", "the other way around"),
-    (
-        r"\b((?:get|take|fetch|move) [^.;]*? (?:from|out of|off) [^.;]*?and (?:please )?"
-        r"(?:put|place) (?:it|them) (?:in|on|into|onto) [^.,;]*?) instead(?=[.;!?]|$)",
-        r"\1",
-    ),
-    (r"\bleave no (?=\w)", "do not leave any "),
     (
         r"\b((?:need|want|have|like|love|is|are) (?:[^.,;]* )?)out "
         rf"(?=on(?:to)? (?:the|my) {TABLE})",
@@ -205,10 +170,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\b((?:what|whatever|everything|all)(?: that)? is (?:in|on)) there "
         r"(?=(?:on|in|into|onto|goes|to)\b)",
         r"\1 it ",
-    ),
-    (
-        r"\b((?:shift|move|put) [^.,;:]*?) a (?:little )?bit: (?=put (?:it|them)\b)",
-        r"\1: ",
     ),
     (rf"^({ASKED}(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
     # To a thing, not to somebody
@@ -223,12 +184,10 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"put \1 ",
     ),
     (r"\b(like|love|prefer) for (?=(?:the|my|both|all) )", r"\1 "),
-    (r"\b(standing|lying|sitting) over (?=(?:on|in|next|by) )", r"\1 "),
     (
         r"\b(once|after|when) you (?:have|(?:have )?got) (it|them) out\b",
         r"\1 you have taken \2 out",
     ),
-    (r"\b(bring|get) (?:me|us) (?=(?:the|my) [^.,;]*? (?:onto|into) )", r"\1 "),
     (
         r"\b(?:leave|keep) (the [^.,;]*?) (closed|shut|open) "
         r"(?:afterwards|(?:at|in) the end|(?:when|once) you are (?:done|finished))\b",
@@ -241,20 +200,10 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r",? from now on\b", ""),
     (r"(?<=\w) by (?:tonight|noon|bedtime|dinnertime|lunchtime|tomorrow)(?=, )", ""),
     (
-        r"\b((?:clear|empty|tidy) (?:the|my) [^.,;:]*?[,;:.] (?:and |then )*"
-        r"(?:(?:put|move|bring) )?)"
-        r"(?:what|whatever|everything|all)(?: that)? is (?:still )?there\b",
-        r"\1everything from it",
-    ),
-    (
         rf"\b(open (?:the|my) [^.,;]*?), (?!(?:and|then|{'|'.join(VERB_WORDS)})\b)"
         r"([^.,;]*?) (in|inside)(?=,? (?:and )?(?:close|shut)\b)",
         r"\1, put \2 \3",
     ),
-    (r"\b((?:tidy|clean|clear) up) a (?:little|bit)\b", r"\1"),
-    (r"\b(is|are) (?:up|down|over) (?=(?:on|in) (?:the|my|our)\b)", r"\1 "),
-    (r"(^|[.;!?] )(?=(?:need|want|have|going) to [^.,;]*, (?:so|please|can|could)\b)", r"\1i "),
-    (r"\binside (?=with (?:the|my|our)\b)", "in "),
     (
         rf"\bthe ((?:{_COMPARED}) (?:{'|'.join(CATEGORIES)}))\b(?! (?:ones|things)\b)",
         r"the 1 \1",
@@ -287,25 +236,14 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(?<=\w),? (?:please|pls|plz)(?= ?:)", ""),
     (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe) (?:please|pls|plz)(?=, |[.!;?]|$)", ""),
     (r"(?<! of )(?<!between )\bthe two of (?=(?:them|these|those)\b)", "both of "),
-    (r"(?<! of )(?<!between )\bthe (three|four) of (?=(?:them|these|those)\b)", r"all \1 of "),
     (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"whichever \1 that is "),
     (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
-    (
-        r"\b((?:that|which) (?:is|are) (?:in|on)) there"
-        r"(?: (?:now|already|at the moment|right now))?\b",
-        r"\1 it",
-    ),
     (
         rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {WHERE}|[,.;!?]|$)",
         r"\1 in it",
     ),
     (r"\bback (?=(?:(?:in|on) )?there\b)", ""),
-    (rf"(^|[.!?;,]\s*|\band )({_DOING}) (?:also|please) (?={NAMED})", r"\1\2 "),
-    (r"\b(left|right) from (?=(?:the|my|that|this|it)\b)", r"\1 of "),
-    (r"(^|[.!?;]\s*)would be (?=(?:good|nice|great|lovely) to have\b)", r"\1it would be "),
     (r"\bhidden (?=(?:in|inside|behind) )", ""),
-    (r"\bstacked (?:on|upon)(?: top of)? (?:each other|one another)\b", "stacked"),
-    (r"\bone (?:beside|next to) the other\b", "next to each other"),
     (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
     # What "should first be taken out", and put elsewhere then
     (
@@ -313,39 +251,20 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"is to|are to)) first (?=be\b)",
         r"first, \1 ",
     ),
-    # What alone "needs to go" there says nothing of what is there.
-    (
-        r"(^|[.;,] )only ((?:the|my) [^.,;]*?) (?:needs? to|has to|have to|should|must) go "
-        r"(?=(?:in|on|into|onto|to)\b)",
-        r"\1put just \2 ",
-    ),
-    (
-        r"(,?)(?: and)? (?:once|when|as soon as) (?:it is|they are) "
-        r"(?:there|in there|inside|in place),? "
-        rf"(?=(?:please )?(?:{_DOING})\b)",
-        r"\1 then ",
-    ),
     (
         r"\b((?:next to|beside|behind|in front of|on top of) (?:it|them)) there"
         r"(?=[.,;!?]| and\b| then\b|$)",
         r"\1",
     ),
-    (r"\bno ((?:\w+ )?\w+) left (?=(?:in|on) )", r"no \1 "),
     (
         r"\b((?:that|which) (?:is|are) (?:still |already |just )?)(?:lying |standing |sitting )?"
         rf"out (?:here|there)\b(?! on (?:the|my) {TABLE}\b)",
         r"\1outside",
     ),
-    (r"(\bnot (?:in|on|inside) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
     (
         r"(^|[.;] )(?:since|because|as) ((?:the|my|one) (?:\w+ ){1,3}?(?:is|are) (?:already )?"
         r"(?:taken|occupied|in use|used)(?: by (?:the|a|my) [^.,;]*)?), ",
         r"\1\2, so ",
-    ),
-    (
-        r"(?<=\w )(?<!that )(?<!which )(?<!and )(?<!so )(?<!but )(?<!as )(?<!since )(?<!because )"
-        r"(?=(?:nobody|no one) (?:uses|is using)\b)",
-        "that ",
     ),
     (
         r"\b(that|which) (?:is (?:not (?:currently |yet |already )?(?:being )?"
@@ -359,80 +278,31 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"(?=\w)(?!(?:should|may|can|could|must|shall|will|is|are|has|have|does|do)\b)",
         r"\1then ",
     ),
-    (
-        r"\bthe (middle|left|right|\w+most|\w+est|first|second|third|last) (\w+) of the "
-        r"(two|three|four|five)\b(?! \w+s\b)",
-        r"the \1 of the \3 \2s",
-    ),
     (r"\b(mrs?|ms|dr)\. ", r"\1 "),
     (
         r"\b(?:(?:my|our|the) )?(?:gran(?:ny|dma|dpa|d)?|grand(?:mother|father)|mum|mom|dad|sister|"
         r"brother|mother|father|wife|husband|teacher|nurse|guest|boss) 's (?=\w+)",
         "my ",
     ),
-    (r"\b(is|are) (open|closed|shut) again(?=,| and|[.;])", r"\1 \2"),
     (
         r"\b(?:everything|anything|all things|the things) (?:(?:that )?(?:you|one|i|we) can "
         r"write with|(?:that|which) writes|(?:that is )?for writing)\b",
         "all the writing utensils",
     ),
     (r"(\bthe|\bits|\btheir|'s) content\b(?! with)", r"\1 contents"),
-    (r"\b(the|its) foot of (?=(?:the|that|this) (?:tower|stack|pile)\b)", r"\1 bottom of "),
     # A chest's top is where things stand on it
     (r"\b(on|onto|to) the top surface of (?!(?:the|my) (?:desk|table)\b)", r"\1 the top of "),
-    # "The mug off the tray, the glass on" it, "take the mug out of the box and put the cup in"
-    (
-        r"\b(off|out of) ((?:the|my|our) (?:\w+ ){0,2}?\w+?)((?: first)?(?:,? and|,)(?: then)?) "
-        r"((?:(?:put|place) )?[^.,;]*?) (on|in)(?=[,.;!?]| and\b|$)",
-        _in_turn,
-    ),
-    # What stands beside a place and says nothing of it: "back out of", "there on the table"
-    (r"\bback (?=(?:out of|off) )", ""),
-    (r"\bup(?: there)? (?=in its place\b)", ""),
-    (r"\b(?:up|down|over) there, (?=(?:on|in|next to) )", ""),
-    (
-        r"(?<!in )(?<!on )(?<!is )(?<!are )(?<!from )(?<!of )\b(?:here|there) "
-        r"(?=(?:on|in) (?:the|my|our)\b)",
-        "",
-    ),
     (
         r"\b(?:to|in|on|at) (?:a|some|the) (?:free )?(?:spot|place|position|location) "
         r"(?=(?:right |just |directly )?(?:between|next to|beside|near|behind|in front of|on|in"
         r"|close to|(?:to the )?(?:left|right) of)\b)",
         "",
     ),
-    (
-        r"(^|[.;,] )((?:just |please )*(?:open|close|shut) [^.;,]*?) over there(?=[.;,!?]|$)",
-        r"\1\2",
-    ),
-    (r"\b(first|second|third|fourth) (drawer|shelf|board|level) down\b", r"\1 \2 from the top"),
-    (
-        r"(?<!is )(?<!are )(?<!was )(?<!were )\balready (?=(?:in|on|inside) (?:the|my|it|there)\b)",
-        "",
-    ),
     (r", (?:you choose|i do not (?:care|mind)|it does not matter) which(?: one)?(?=[,.;!?]|$)", ""),
-    (
-        r"\b((?:belongs?|goes|go|lives?) [^.;]*?), (?:so |and |please )*put (?:it|them) away"
-        r"(?=[.;!?]|$)",
-        r"\1",
-    ),
-    # "Everything in the box or in the bin" is everything in either.
-    (
-        r"\b(everything|all) (?:(?:that|which) is )?(in|on|from) ((?:the|my) (?:\w+ ){0,2}\w+) "
-        r"(?:and|or) (in|on|from) (?=(?:the|my)\b)",
-        r"\1 \2 \3 and everything \4 ",
-    ),
     (rf"\bthe (?:piece|item) of (?=(?:{'|'.join(CATEGORIES)})\b)", "the 1 "),
     (r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", ""),
-    (rf"\b(over|down|up) (?:here|there) (?={WHERE})", r"\1 "),
     (r"\bback down (?=(?:on|onto)\b)", "down "),
     (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
-    # A thing that "should stay away from the cup" stands so; the robot keeps away.
-    (
-        r"(^|[.;!?] )((?:but |and |also |please )*)stay "
-        r"(?=(?:well |far )?(?:away from|clear of)\b)",
-        r"\1\2keep ",
-    ),
     # "Open the drawer, but not with the cup inside": it is not in there by then
     (
         r",? (?:but )?not with ((?:the|my|our) (?:\w+ ){0,2}?\w+) "
@@ -466,7 +336,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1 that is empty",
     ),
     (r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", ""),
-    (r"\b(there (?:is|are) [\w ]+? lying) (?:around|about) (?=(?:on|in|inside)\b)", r"\1 "),
     (rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose"),
     (rf"(?<!is )(?<!are )(?<!is just )(?<!are just )\b{_ABOUT}", "that are loose"),
     (_ALL_DONE, r"\1 all of that \2 \3"),
@@ -479,7 +348,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         "",
     ),
     (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
-    (r"\b((?:not|except|without) (?:\w+ ){1,4})(?:itself|themselves)\b", r"\1"),
     (
         r"(?:^|(?<=[.!?;]\s))(?:(?:(?:do|can) you )?see|(?:have you|has any(?:one|body)) seen) "
         r"(?=the |that |those )([^.!?;]*?)"
@@ -488,7 +356,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     (r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just "),
     (r"(?<!not )\bonly (?=(?:lift|raise|grab|grasp|fetch|get|pick up|hold) )", "just "),
-    (r"\bonly (open|close|shut) ([^.,;]*?) (after|once|when)\b", r"\1 \2 only \3"),
     # What alone is asked for; with how or until when, "only" is said of that.
     (
         rf"(^|[.;] )(please )?only (?=(?:open|close|shut) {NAMED}"
@@ -496,7 +363,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\w+){1,4}(?:[.;!]|$))",
         r"\1\2just ",
     ),
-    (_NOTHING_ELSE, r"\1 \2, and nothing else"),
     (r",\s*(?:please\s*,|right (?=at\b))", ", "),
     (rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1"),
     # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.

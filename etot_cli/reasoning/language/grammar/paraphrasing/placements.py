@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.grammar.paraphrasing.turns_of_phrase import TURNS_OF_PHRASE
-from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 from etot_cli.reasoning.language.words.small_words import NAMED
@@ -80,7 +79,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf" (?:just |also )?(?:leave|keep) ({NAMED} [^.,;]*?|it|them) (?=(?:open|closed|shut)\b)",
         r"\1 may stay ",
     ),
-    (r"\b(?:can|may|could) be (?:left|kept) (?=(?:open|closed|shut)\b)", "may stay "),
     # Who is left out, told behind what is done with the others
     (
         rf",? (?:with )?({NAMED} (?:(?!and\b|or\b)\w+ ){{1,3}}?)"
@@ -141,7 +139,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\b(?:everything|anything|whatever)(?: (?:that|which))?(?: is)? (?:edible|eatable)\b",
         "all the food",
     ),
-    (r"\b(all|every|each)(?: (?:of )?the)? edible (?:things?|items?|objects?)\b", r"\1 food"),
     # Two headlines of one request ("toy out. then close the drawer")
     (
         r"(^|[.;!]\s+)((?:the |my )?(?:\w+ )?\w+ out)[.;!]\s+"
@@ -150,11 +147,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (r"\bone (\w+|\w+ \w+) only(?=[.,;!?]|$)", r"only one \1"),
     (r"\bno longer (?=(?:in|on|inside) )", "not "),
-    (
-        r"\bwherever you (?:like|want),? (?:either )?(?:in )?(?:the )?(\w+(?: \w+)?)"
-        r" or (?:in )?(?:the )?(\w+(?: \w+)?)(?=[,.;]|$)",
-        r"in the \1 or the \2",
-    ),
     # What a set of things "needs on the tray" is needed there by whoever asks for it.
     (
         r"(^|[.;!] )(?:this|the|each|our|my) (?:kit|set|assembly|order|customer|guest|recipe) "
@@ -180,11 +172,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\bone (?:(of the (?:two |2 )?)(\w{3,}s)|(\w{3,})) or (?:the )?other(?: one)?"
         r"(?=[.,;!?]|$| (?:and|then|with|please)\b)",
         lambda said: f"either {said[1] or ''}{said[2] or said[3]}",
-    ),
-    (
-        r"\bone or (?:the )?other (of the (?:two |2 )?\w{3,}s|\w{3,})"
-        r"(?=[.,;!?]|$| (?:and|then|with|please)\b)",
-        r"either \1",
     ),
     # Of two things that are named there "one" is either, "the other one" the other.
     (
@@ -214,7 +201,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1\5 \2 \3 \4",
     ),
     (rf", (?=(?:anywhere|somewhere) [^.,:;]* {_FINE}[.!]?$)", ". "),
-    (r"\bwith the (\w+s) still in it\b", r"with the \1 that are in it in it"),
     # Of several of which any will do "one" is what is spoken of.
     (
         r"\b((?:either|any)(?: one)? of the [^.,;]*? (?:will do|would do|works|"
@@ -222,26 +208,9 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?! of\b)",
         r"\1 it",
     ),
-    # The rest of some things, of which one is where they go
-    (
-        r"\b(?:the rest of the|the (?:other|remaining)) (\w+s) "
-        rf"((?:in|into|on|onto) {NAMED} \w+(?: \w+)?) with the (\w+) one\b(?! (?:in|on)\b)",
-        r"all the \1 except the \3 one \2 with the \3 one in it",
-    ),
-    (
-        rf"\b(?:the|these|those) ({'|'.join(NUMBERS)}) (?:{'|'.join(CATEGORIES)})s?,? "
-        rf"(?=((?:the|my) [\w ]+?)(?:, (?:the|my) [\w ]+?)*,? and (?:the|my) [\w ]+,)",
-        r"all \1 things, ",
-    ),
-    (r"\b((?:after|once|when) the (?:\w+ )?\w+s are) all (?=(?:in|on)\b)", r"\1 "),
     (rf"^({ASKED})(just|only) ({NAMED} [^.,:;]*? (?:in|into|on|onto) {NAMED} [^.,:;]*?),? "
      r"(?:and )?nothing else\b", r"\1put just \3, nothing else"),
     (r"\bwill have to (?=(?:go|be)\b)", "must "),
-    (
-        r"\bthere (?:is|should be|must be) neither an? (\w+(?: \w+)?) nor an? (\w+(?: \w+)?) "
-        rf"(?=(?:in|on) {NAMED})",
-        r"neither the \1 nor the \2 should be left ",
-    ),
     # What a pronoun means, said behind it
     (
         r"\b(?:it|them)((?: (?!it\b|them\b)[^.,; ]+)*), ((?:the|my) (?:\w+ ){0,2}?\w+),? i mean"

@@ -40,8 +40,6 @@ def _of_one_sort(said: re.Match[str]) -> str:
 
 
 ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
-    # "There is fruit in the bowl; the bigger piece …"
-    (rf"\b(the (?:{_COMPARED}) )(?:piece|item|article) of (?=(?:{_CATEGORY})\b)", r"\1"),
     (
         rf"\b((?P<sort>{_CATEGORY})\b[^.;]*[.;] [^.;]*?\bthe (?:{_COMPARED}) )(?:piece|one)\b"
         r"(?! of\b)",
@@ -120,18 +118,7 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?:facing|faces|nearest to|closest to|toward|towards|near) {_YOU}{_END}",
         r"\1",
     ),
-    (
-        rf"\b(behind {_NOUN}),? (?:on|at) the side (?:that is |that )?"
-        rf"(?:facing|faces|pointing) away from {_YOU}{_END}",
-        r"\1",
-    ),
-    (
-        rf"\b(?:on|at) the side of ({_NOUN}) (?:that is |that )?"
-        rf"(?:facing|faces|nearest to|closest to) {_YOU}{_END}",
-        r"in front of \1",
-    ),
     # Whatever is put down goes where there is room.
     (rf",? {_FREE},? (?=(?:on|at|in|next to|beside|near) {NAMED})", " "),
-    (rf"(\b(?:on|onto) (?:the|my) (?:{TABLE})),? {_FREE}{_END}", r"\1"),
 )
 """In order."""

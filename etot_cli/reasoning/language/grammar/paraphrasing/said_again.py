@@ -65,29 +65,20 @@ SAID_AGAIN = (
         r"\1 side",
     ),
     (r", all in (?=(?:exactly |precisely )?(?:that|this) order\b)", ", in "),
-    (r"\bbring over ((?:the|my|a|an|one|all|both) [^.,;:]*?) (?=(?:to|onto|into) )", r"bring \1 "),
-    (
-        rf", {_TO_BE_EXACT} (?P<again>the \w+)(?=[.,;!?]|$)",
-        lambda said: f", {_without_assurance(said)}",
-    ),
     (rf", {_TO_BE_EXACT} (?=(?:the|a|an|one|my|in|on|into|onto|to|next)\b)", ", "),
     (r"(?P<again>\b(?:one|an?) \w+, the \w+)(?=[.,;!?]|$)", _without_assurance),
-    (r", that is, (?=(?:the|my) )", ", "),
     (
         r"(?P<again>, (?:the|my) (?:\w+ ){0,2}\w+)(?<! one)(?<! ones),? (?:that is|i mean)"
         r"(?=[.,;!?]|$)",
         _without_assurance,
     ),
     (r"(, (?:the|my) (?:\w+ ){0,2}ones?),? (?:that is|i mean)(?=[.,;!?]|$)", r"\1"),
-    (r", (?:and )?none of (?=(?:those|these)\b)", ", not one of "),
     (
         r", whose (door|lid|drawer) (?:you|should|must|is to)(?: be)?(?: (?:then|afterwards))? "
         r"(close|shut|open)(?:d|ed|ned)?(?: (?:then|afterwards|again|in the end))?(?=[.,;!?]|$)",
         r", then \2 its \1",
     ),
     (r"(\bwhat(?:ever)? was on (?:top of )?(it|them)\b[^.,;]*? back on top)(?! of)", r"\1 of \2"),
-    (r", though not (?=one\b)", ", but not "),
-    (r"(?<=\w)(?<!one), that is(?=[.!?]|$)", ""),
     (
         rf"(?P<before>^|[.;,] )(?:{_SO_MANY}) (?P<noun>\w+(?: \w+)?), {_WHICH},? "
         rf"(?P<rest>{_SHOULD})",

@@ -14,7 +14,6 @@ _SO_PUT_IT = r"so (?:please )?(put|place|set|lay|stand) (?:it|them) (?:in )?ther
 
 _END = r"(?=[.,;!?]|$)"
 _STACK = r"(?:pile|stack|tower)"
-_IS_NOW = r"(?:(?:now|currently) )?(?:is|was|stands|lies|sits)(?: now)?"
 _ALL_ELSE_THERE = (
     r"(?:the rest(?: of it)?|everything else(?: (?:in|on) it)?|all else|the others"
     r"|(?:whatever|what) else (?:is|there is|was) (?:there|in it|on it|in there|on there))"
@@ -40,32 +39,15 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"\1",
     ),
     (
-        r"\bthere is nothing (?:left )?(?:in|on|inside) ((?:the|my) \w+(?: \w+)?) (?=and its\b)",
-        r"\1 is empty ",
-    ),
-    (
         r"\bon the (?:\w+ )?(?:shelf|bookcase|rack|unit), "
         r"(?=on the same (?:level|board|shelf) as\b)",
         "",
     ),
     (_TAKES_PLACE, r"\1 go in place of"),
-    (r"\b(that|which) (?:has|have) been left (?=open\b)", r"\1 is "),
     (
         rf"\breach (?:in|into|inside) ({NAMED} [^.,;]*?) and (grab|take|get|pick up) "
         r"([^.,;]*?)(?=[.,;!?]| and\b|$)",
         r"\2 \3 from \1",
-    ),
-    (rf"\band in (its|their) place (put|place) ({NAMED} [^.,;]*)", r"and \2 \3 in \1 place"),
-    (
-        r"^(next to|beside|behind|in front of|to the (?:left|right) of|where) "
-        rf"({NAMED} [^.,;]*?)(?: is where)?,? "
-        rf"(?:i (?:want|would like|need)|there (?:should|must) be) ({NAMED} [^.,;]*)",
-        r"put \3 \1 \2",
-    ),
-    (
-        r"(\b(?:and|then)\b[^.;]*?\b)a different "
-        r"(?=(?!colou?r|size|kind|way|place|spot|order|one from)\w)",
-        r"\1another ",
     ),
     (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
     (rf"(^|[.;!] )({_AT} [^.,;]*?),? {_ROOM} for ({NAMED} [^.,;]*), {_SO_PUT_IT}", r"\1\4 \3 \2"),
@@ -97,7 +79,6 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"where \1 was",
     ),
     (r"\bfrom one (\w+) (?:in)?to the other(?=[.,;!?]|$| and\b)", r"to the other \1"),
-    (r"\b(what is (?:in|on) [^.,;]*?) now (?=(?:should|goes|must|is to)\b)", r"\1 "),
     (r"\b(?:to )?somewhere (?=(?:behind|next to|beside|near|in front of|between)\b)", ""),
     # "It" is the stack that something goes onto; one that goes somewhere itself is moved
     (
@@ -112,12 +93,6 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"(?: off| out| completely| entirely)*[:;,.] ({NAMED} [^.;:!?,]*?,? and )"
         rf"{_ALL_ELSE_THERE} (?=(?:goes|go|belongs|should|must|has to|needs to|in|into|on|onto)\b)",
         r"\1\2\4everything else from \3 ",
-    ),
-    # Each of two things where the other one is: the second by then was there
-    (
-        rf"\b((?:put|place|move|set) ({NAMED} (?:\w+ )??\w+) where ({NAMED} (?:\w+ )??\w+) "
-        rf"{_IS_NOW},? and (?:(?:then )?(?:put|place|move|set) )?\3 where \2) {_IS_NOW}{_END}",
-        r"\1 was",
     ),
     # Somewhere "there", told next
     (

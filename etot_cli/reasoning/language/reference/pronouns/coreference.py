@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.reference.pronouns.plural_pronouns import (
     meant_by_them,
 )
 from etot_cli.reasoning.language.words import categories
+from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import owner_of
 
@@ -300,7 +301,7 @@ def _stood_on(discourse: Discourse, theme: int, furniture: int) -> bool:
 
 def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
     """Whether one thing is a support by its looks, and another one neither that nor a vessel which
-    may hold what is put there.
+    may hold what is put there, or be closed by it.
     """
     infos = discourse.scene.infos
     here = (m for m in discourse.mentions if m.clause == discourse.clause and m.role is Role.THEME)
@@ -308,7 +309,8 @@ def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
         [infos[thing.name] for thing in discourse.things(*indices) if thing.name in infos]
         for indices in ((referent,), (other,), [mention.referent for mention in here])
     )
-    widest = max((min(info.size[:2]) for info in placed), default=0.0)
+    lid = any(matches_any(info.label.split()[-1], LIDS) for info in placed)
+    widest = 0.0 if lid else max((min(info.size[:2]) for info in placed), default=0.0)
     return all(map(is_flat, own)) and not any(
         is_flat(info) or (info.container and widest < min(info.size[:2])) for info in rivals
     )
