@@ -29,6 +29,7 @@ from etot_cli.reasoning.language.start_told import without_start
 from etot_cli.reasoning.language.viewpoint import without_viewpoint
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, opening_words
 from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
@@ -43,8 +44,8 @@ from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import OPEN_AT, SceneState
 
 _HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
-_POLITE = re.compile(rf"^(?:kindly )?{ASKED}(?:kindly )?")
-_TABLE_SET = re.compile(
+_POLITE = Expression(rf"^(?:kindly )?{ASKED}(?:kindly )?")
+_TABLE_SET = Expression(
     r"((?:please )?(?:set|lay) the table(?: for [^,.:;!?\n]+)?)[,.]\s+(\S.*)",
     re.IGNORECASE | re.DOTALL,
 )
@@ -72,7 +73,7 @@ _BUILT = words_of((verbs.BUILD,)) - {"them"} | {"on", "in", "onto"}
 _ALSO_VERBS = frozenset({"open", "please", "first", "empty", "free", "you"})
 """They begin a request, too, though things are told by them."""
 _DECLARED = word_set("is are sits sit stands stand lies lie rests rest")
-_OF_ITS_OWN = re.compile(
+_OF_ITS_OWN = Expression(
     r"\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
     r"|(?<= )(?:all|both) (?=(?:go|are|should|belong|must|need)\b)"
     r"|(?:when|once|after) (?:you have done (?:that|this|it)|(?:that|this) is done)\b"
@@ -82,7 +83,7 @@ asked for before.
 """
 
 
-_OF_SEVERAL_PARTS = re.compile(
+_OF_SEVERAL_PARTS = Expression(
     r"^(?:(?!\bone\b).)*\b(?:board|drawer|shelf|level|compartment)\b"
     rf"(?:(?!\bone\b).|\b(?:{'|'.join(LEVELS)}) one\b)*$"
 )

@@ -5,17 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular, word_set
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 
-_OWNED = re.compile(
+_OWNED = Expression(
     r"(?<=[\w,] )(?P<who>[A-Z][a-z]+)['\N{RIGHT SINGLE QUOTATION MARK}]s"
     r"(?= (?P<first>\w+)(?: (?P<second>\w+))?)"
 )
 """Within a sentence; what it begins with has a capital anyway."""
-_WANTS = re.compile(
+_WANTS = Expression(
     r"(?:^|(?<=[.!?;,] )|(?<=\b(?:so|as) ))(?P<who>[A-Z][a-z]+)"
     r"(?= (?:wants|needs|would like|asked for|asks for) (?:to have )?"
     r"(?:the|my|his|her|both|all|an?)\b)"

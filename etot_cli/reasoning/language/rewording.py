@@ -13,6 +13,7 @@ from itertools import takewhile
 from etot_cli.reasoning.language.grammar.paraphrasing.normalizing import normalized
 from etot_cli.reasoning.language.grammar.text.splitting import sentences_of
 from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import LINKS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
@@ -32,12 +33,12 @@ MAX_TRIES = 16
 Reads = Callable[[str, SceneState], bool]
 
 _OPENING, _CLOSING = words_of((verbs.OPEN,)) - {"up"}, words_of((verbs.CLOSE,)) - {"up"}
-_DENYING = re.compile(
+_DENYING = Expression(
     r"\b(?:not|never|neither|nor|no|non|none|nothing|without|except|but|instead|\w+n't|only|if"
     r"|unless|when|while|once|until|free|clear|empty|least|most|same|different|matching|other|respectively|colou?rs?|versa|twice|times|again)\b"
 )
 """Words that turn a meaning round or bound it: they stay, and no plain request says the same."""
-_ASKED = re.compile(r"(?:is|are|was|were|has|have|does|did|where|what|which|who|how|why)\b")
+_ASKED = Expression(r"(?:is|are|was|were|has|have|does|did|where|what|which|who|how|why)\b")
 """Questions, which ask for nothing to be done."""
 _BOUND = r"\b(?:every|all|each|any)(?: the)?"
 """Words behind which none can be left out without asking for more."""
@@ -84,8 +85,8 @@ def rewordings(refused: Refused, scene: SceneState, reads: Reads) -> Iterator[st
     for near in (*_changed(refused, text, kept, names), *_plain(text, names)):
         plain = _sentence(near)
         told = names.told(plain)
-        unmade = _DENYING.findall(near) != _DENYING.findall(text)
-        if unmade or plain in tried or not (told and least <= told <= most):
+        denials, before = ([word[0] for word in _DENYING.finditer(t)] for t in (near, text))
+        if denials != before or plain in tried or not (told and least <= told <= most):
             continue
         tried.add(plain)
         if len(tried) > MAX_TRIES:

@@ -5,19 +5,21 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from etot_cli.reasoning.language.words.expressions import Expression
+
 _STATE = "(?:state|configuration|situation|set-?up|scene|conditions?|arrangement|layout)"
 _GOAL = (
     r"(?:the )?(?:[a-z]+ )?(?:goal|desired|target|final|end|task|required|wanted|intended)"
     rf"(?: {_STATE})?(?: is)?\s*:"
 )
-_START = re.compile(
+_START = Expression(
     r"(?P<before>^|[.;!\n]\s*)(?:the )?"
     rf"(?:(?:initial|start(?:ing)?|current|present|original) {_STATE}|start|initially|currently)"
-    rf"\s*:\s*(?P<told>.+?)(?:[.;!\n]\s*(?=(?P<goal>{_GOAL}))|[.;!\s]*$)",
-    re.IGNORECASE | re.DOTALL,
+    rf"\s*:\s*(?P<told>[\s\S]+?)(?:[.;!\n]\s*(?=(?P<goal>{_GOAL}))|[.;!\s]*$)",
+    re.IGNORECASE,
 )
 """How things are up to where it is said how they are to be, or to the end."""
-_GOAL_BEFORE = re.compile(rf"(?:^|[.;!\n]\s*){_GOAL}", re.IGNORECASE)
+_GOAL_BEFORE = Expression(rf"(?:^|[.;!\n]\s*){_GOAL}", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from contextlib import suppress
 from dataclasses import replace
 
@@ -35,6 +34,7 @@ from etot_cli.reasoning.language.reference.memory.antecedents import (
     AmbiguousReference,
     UnclearLandmark,
 )
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.reasoning.protocol import ReasonerStopped
 
@@ -42,7 +42,7 @@ MAX_COMPARED = 6
 """Different goals of one sentence that are compared; more are too many to name."""
 
 
-_APPOSED = re.compile(r", the (?:\w+ ){0,2}ones?\b")
+_APPOSED = Expression(r", the (?:\w+ ){0,2}ones?\b")
 """Behind a place, of what goes there or of the place."""
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from contextlib import suppress
 from dataclasses import replace
 
@@ -55,10 +54,11 @@ from etot_cli.reasoning.language.reference.memory.by_now import note_placed, not
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 
-_RELATIVE_PLACE = re.compile(
+_RELATIVE_PLACE = Expression(
     r"\b(?:that|which) (?:is|are|stands?|sits?|lies?)"
     r" (?:in|on|at|next|beside|near|behind|left|right|there)\b"
     r"|\b(?:standing|lying|sitting|located|placed)\b"

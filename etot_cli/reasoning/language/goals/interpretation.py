@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import (
@@ -41,9 +40,10 @@ from etot_cli.reasoning.language.reference.choosing.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.world.state import SceneState
 
-_BACK = re.compile(
+_BACK = Expression(
     r"\b(?:put|place|return|bring|set|move)\b[^.,;]*(?<!the )\bback\b(?! (?:of|left|right)\b)"
 )
 """What is said of what is to be returned to where it was taken from."""
@@ -90,7 +90,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     return without_needless(goal)
 
 
-_ARTICLE = re.compile(
+_ARTICLE = Expression(
     r"\b(?:the|an?|my|our|your|this|that|these|those|both|all|one|it|them|its|their|every|each)\b"
 )
 

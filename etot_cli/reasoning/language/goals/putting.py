@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -91,13 +90,14 @@ from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import is_distributive, quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, LIDS, matches_any, singular
 from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
-_HOLDS_SOME = re.compile(
+_HOLDS_SOME = Expression(
     r"\b(?:that|which) (?:has|have|holds?|contains?) (?:an?|the|some|one|two|its) \w+(?: \w+)?$"
 )
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -27,11 +26,12 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import STATES
 from etot_cli.reasoning.language.words.places import Prep
 
 _HOLDING = {Prep.CONTAINING: Toward.INSIDE, Prep.BEARING: Toward.ON}
-_CONTAINING = re.compile(r" (?:containing|holding) ")
+_CONTAINING = Expression(r" (?:containing|holding) ")
 
 
 def closed_with(context: Context, clause: MoveClause) -> tuple[MoveClause, list[State]]:

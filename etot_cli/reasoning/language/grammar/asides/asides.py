@@ -71,6 +71,7 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     spaced,
     words_in,
 )
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
@@ -85,23 +86,23 @@ ASIDE = "~aside"
 MOST = 4
 """Remarks of one instruction; who has more to tell may be asking for something by it."""
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
-_LEADING = re.compile(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
+_LEADING = Expression(rf"^(?:and so|so|and|but|that is why|therefore|hence|{COMMA}) ")
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 _PARTS = frozenset(noun for nouns in JOINT_NOUNS.values() for noun in nouns)
 _LIKED = [["favourite"], ["favorite"], ["best"]]
-_IS_ONE = re.compile(
+_IS_ONE = Expression(
     r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like) an? "
 )
 """Before what is no other thing ("the vase was a gift")."""
-_ASKED_ABOUT = re.compile(rf"(?:can|could|is it possible|would it be possible)\b.*{QUESTION}")
-_CONFIRMED = re.compile(
+_ASKED_ABOUT = Expression(rf"(?:can|could|is it possible|would it be possible)\b.*{QUESTION}")
+_CONFIRMED = Expression(
     r"(?:(?:then|so|if (?:so|yes|it can|possible|you can)|well|ok|okay|good|please),? )*"
     r"(?:please )?do (?:it|that|so)(?:,? (?:then|please|now|right away|for me))*"
 )
-_WHICH_ONE = re.compile(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
+_WHICH_ONE = Expression(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
-_OF_A_KIND = re.compile(
+_OF_A_KIND = Expression(
     r" (?:(?:allergic|partial|addicted) to|(?:afraid|scared|fond|sick|tired) of"
     r"|likes?|loves?|hates?|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"
 )

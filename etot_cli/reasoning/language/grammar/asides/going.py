@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 
@@ -15,7 +13,7 @@ _AT = (
 _GOING = Expression(rf"(?:and )?(?:then )?{_GO}{_AT}")
 _GOING_FIRST = Expression(rf"(?:please )?(?:{_GO}|move){_AT}")
 """After "pick up the cup" who is to "move to the shelf" rather brings it there."""
-_THERE = re.compile(
+_THERE = Expression(
     r"\b(?:there|here|down|away|back|in|inside|off|out)$|\b(?:there|here|down|away) and\b"
 )
 """Such a place depends on where that is done."""

@@ -36,12 +36,12 @@ _WISH = Expression(
     r"(?:would )?(?:really |just )?(?:want|need|like|prefer)\b[^.;!?]* left (?:in|on|inside)\b"
     r"[^.;!?]*"
 )
-_LEFT_THERE = re.compile(
+_LEFT_THERE = Expression(
     r"(?P<with>\bwith (?=(?:the|my|our|both|all)\b))?(?P<what>(?:(?!\bwith\b)[^,;])*?"
     r"(?<!\bbe)(?<!\bis)(?<!\bare)(?<!\bthe)(?<!\bthat)(?<!\bhave)) left "
     r"(?=(?:in|on|inside) (?:the|my|our|it|them)\b)"
 )
-_NONE = re.compile(r"\b(?:nothing|none|no) (?:\w+ ){0,3}?left\b")
+_NONE = Expression(r"\b(?:nothing|none|no) (?:\w+ ){0,3}?left\b")
 _ONLY_WISH = r"(?:want|need|would like|care to have|wish)"
 _MOVED = r"(?:moved|put|placed|taken|brought|set|returned|transferred|dropped|to (?:go|be|end up))"
 _FROM = Expression(
@@ -49,7 +49,7 @@ _FROM = Expression(
     r"(?: to (?:the )?(?:left|right))?,? ((?:[^.;]*?\b)?the (?:first|second|third|last) [^.;]*)"
 )
 _NOUN = r"(?!(?:in|on|to|into|onto|one|goes|go|should|belongs)\b)\w+"
-_NTH = re.compile(
+_NTH = Expression(
     rf"\bthe (first|second|third|fourth|last)(?: ({_NOUN}(?: {_NOUN})?))?(?: one)?"
     r"(?= (?:in|on|into|onto|to|inside|goes|should|belongs|next)\b)"
 )

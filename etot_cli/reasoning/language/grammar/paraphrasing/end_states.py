@@ -42,14 +42,14 @@ _IMPERATIVE = {
     "carrying": "carry", "bringing": "bring",
 }  # fmt: skip
 _MOVED = f"(?:{'|'.join((*_IMPERATIVE, *_IMPERATIVE.values(), 'take', 'stand'))})"
-_ASKED = re.compile(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
+_ASKED = Expression(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
 _ALL_OF = {"any": "none", "either": "neither"}
 _LATTER = Expression(
     rf"({_SOME}) and ({_SOME})(?= (?:on|in|onto|into|to|both|should|must|have|need|belong|go|are)\b"
     r"|[.,;])[^!?]*?\bthe (?:former|latter)\b[^!?]*"
 )
 """Two things, and what is said of either by which was named first."""
-_SITS = re.compile(
+_SITS = Expression(
     r"\b((?:former|latter)(?: one)?) (?:sits|stands|lies|rests|is) (?=(?:in|on|inside)\b)"
 )
 

@@ -34,12 +34,12 @@ def _named(item: str) -> str:
     return item if re.match(r"(?:the|my|our)\b", item) else f"the {item}"
 
 
-_NTH = re.compile(
+_NTH = Expression(
     r"\b(?:the (first|second|third|fourth)(?: one)?|(first|second|third|fourth) one)"
     r"(?= (?:in|on|into|onto|to|inside|next|beside|goes|should|must|belongs|has to|is to)\b)"
 )
 _ORDINALS = ("first", "second", "third", "fourth")
-_OF_OTHERS = re.compile(r"\b(?:rest|others?|remaining|last|it|them|both|all)\b")
+_OF_OTHERS = Expression(r"\b(?:rest|others?|remaining|last|it|them|both|all)\b")
 
 
 def _by_their_place(said: re.Match[str]) -> str:
@@ -86,7 +86,7 @@ _FOR_LAST = (
     r"(?:leav|sav|keep)(?:e|ing)? (?P<what>(?:the|my|our|that) (?:\w+ ){0,2}?\w+) "
     r"(?:for|until|till) (?:last|the (?:very )?end)"
 )
-_LAST_TURN = re.compile(r"\b(?:then|finally|lastly|last)\b,? (?!.*\b(?:then|finally|lastly)\b)(.*)")
+_LAST_TURN = Expression(r"\b(?:then|finally|lastly|last)\b,? (?!.*\b(?:then|finally|lastly)\b)(.*)")
 
 
 def _left_for_last(said: re.Match[str]) -> str:

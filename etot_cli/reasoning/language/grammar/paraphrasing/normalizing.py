@@ -24,7 +24,7 @@ _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
     r"(?: the following| these)? ?(?:steps)?:\s*)?"
 )
-_UH = re.compile(
+_UH = Expression(
     r"(?P<before>\w+)(?P<comma>,?)\s+(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+(?P<after>\w+)",
     re.IGNORECASE,
 )
@@ -35,16 +35,16 @@ _RIGHT = Expression(
     r"|(?!.*\bleft,)(?:(?:the|my|both|all|your|every) )?\w+ (?:\w+ )?"
     r"(?:in|on|into|onto|goes|go|belongs?|has to|needs to|should|must)\b)"
 )
-_WELL = re.compile(
+_WELL = Expression(
     r"(^|[.!?;\n]\s*)(?:"
     r"(?:yes|yeah|er|erm|uh|ah|hm+|anyway|next up)(?:,\s*| )(?=[a-z])"
     rf"|step (?:\d{{1,2}}|{'|'.join(NUMBERS)})\s*[:.)]\s*)"
 )
 """What begins a sentence and says nothing, such as the number of a step alone."""
-_BRACKETED = re.compile(r"\b([a-z]{2,}) \(([a-z]+)\)")
+_BRACKETED = Expression(r"\b([a-z]{2,}) \(([a-z]+)\)")
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
-_QUOTES = re.compile('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')
-_ITEMS = re.compile(r"[.)]\s|\bstep\b")
+_QUOTES = Expression('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')
+_ITEMS = Expression(r"[.)]\s|\bstep\b")
 """Without such signs nothing is listed by numbers or letters."""
 _ARTICLE_LEFT_OUT = Expression(
     r"\b(?:(out of) (?=way\b)|((?<!start )(?<!starting )(?:at|by)) (?=end\b)|"
@@ -54,7 +54,7 @@ _ARTICLE_LEFT_OUT = Expression(
     r"(in) (?=(?:middle|cent(?:re|er))(?:$|[,.:;!?\n]| (?:of|and|in|into)\b)))"
 )
 """Fixed phrases as they are typed in haste ("out of way", "at end", "on right")."""
-_COUNTED_OFF = re.compile(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
+_COUNTED_OFF = Expression(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
 """The number of a step, in words ("One, open the drawer. Two, …")."""
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
@@ -77,7 +77,7 @@ def of_each(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
     )
 
 
-_ARE = re.compile(r"\b(?:that|which) (?:are|stand|lie|sit)\b")
+_ARE = Expression(r"\b(?:that|which) (?:are|stand|lie|sit)\b")
 
 
 def told_together(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...]:

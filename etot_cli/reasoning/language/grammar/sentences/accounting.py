@@ -7,7 +7,6 @@ left no trace in the syntax tree was read over, by whatever rule, and the readin
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
@@ -45,6 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     stance_in,
 )
 from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -131,19 +131,19 @@ _SAY_NOTHING = phrase(
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
     f", {SAFELY}, {A_SAFE_PLACE}, {verbs.OUT_OF_THE_WAY}"
 )
-_NOT_BOTH = re.compile(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
+_NOT_BOTH = Expression(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
 
 
-_ACROSS = re.compile(r"\b(other|opposite) side of\b")
-_FROM_ITS_SIDE = re.compile(
+_ACROSS = Expression(r"\b(other|opposite) side of\b")
+_FROM_ITS_SIDE = Expression(
     r"(?:away )?from (?:the )?(in front|(?:left |right )?side|front|back|rear|left|right) of\b"
 )
-_DOES_NOT = re.compile(r"[^~]*? (?:it|they) \w+ not\b")
+_DOES_NOT = Expression(r"[^~]*? (?:it|they) \w+ not\b")
 """What is away from a thing, told by where it stood, or by what it does not do to that."""
-_LAST_FIRST = re.compile(r"\b(first|before|beforehand)(?: that)?(?: ~comma| please)*$")
+_LAST_FIRST = Expression(r"\b(first|before|beforehand)(?: that)?(?: ~comma| please)*$")
 
 
-_ALLOWED_LATER = re.compile(
+_ALLOWED_LATER = Expression(
     r"(?:^|~comma |\b(?:and|but|then) )later(?: on)? (?:~comma )?(?:(?!~comma|\band\b|\bbut\b).)*"
     r"\b(?:may|can|could|might)\b(?! (?:you|i|we)\b)"
     r"|\b(?:may|can|could|might)\b(?! (?:you|i|we)\b)"

@@ -54,7 +54,7 @@ _MARK = Expression(
     rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{_PLACES}) )"
     rf")(?:[\s,]*\b(?:no|sorry|wait|actually|{_AGAIN})\b)*[\s,.!?;]*"
 )
-_ALL_OF_IT = re.compile(r"\b(?:never mind|forget|scratch that|on second thoughts?)\b")
+_ALL_OF_IT = Expression(r"\b(?:never mind|forget|scratch that|on second thoughts?)\b")
 """What takes back a whole clause, whatever comes in its place."""
 MOST_WAYS = 5
 """Phrases that may be taken back at once; of more nobody knows which one is."""

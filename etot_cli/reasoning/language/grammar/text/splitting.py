@@ -22,10 +22,10 @@ QUESTION = "~question"
 """Behind a question: it may be a request, but not one without a verb."""
 
 _SENTENCE_END = re.compile(r"[.!?;\n]+(?:\s+|$)")
-_NUMBERING = re.compile(r"(^|[.!?;\n]\s*)\(?\d{1,2}[.)]\s+")
+_NUMBERING = Expression(r"(^|[.!?;\n]\s*)\(?\d{1,2}[.)]\s+")
 
 
-_PAIR = re.compile(r"(?:\w+ ){0,2}\w+, (?:\w+ ){0,2}\w+")
+_PAIR = Expression(r"(?:\w+ ){0,2}\w+, (?:\w+ ){0,2}\w+")
 
 
 def _paired(parts: list[str]) -> list[str]:
@@ -41,7 +41,7 @@ def _paired(parts: list[str]) -> list[str]:
 
 
 _LOOK_FOR = Expression(rf"\b(?:{'|'.join(spellings(small_words.LOOK_FOR))}) [^,]*$")
-_OF_A_CHOICE = re.compile(
+_OF_A_CHOICE = Expression(
     r"(?:and |but )?(?:it (?:must|should|has to|needs to)(?: not)?"
     r"|(?:neither|none of (?:them|these|those)|neither of (?:them|these|those)) "
     r"(?:may|must|should|can)) be (?:an?|the) [\w ]+ one"

@@ -7,7 +7,6 @@ to be understood; what is taken for something near it is noted.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -53,6 +52,7 @@ from etot_cli.reasoning.language.reference.naming.usual_form import (
     usual_form,
 )
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import (
     SAID_OF_BOARDS,
     SIDES,
@@ -69,7 +69,7 @@ BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 _PLACES = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 _INCOMPLETE = frozenset({*THE_WORDS, "", "a", "an"})
 """Determiners that do not stand without a noun."""
-_WHATEVER = re.compile(r"\b(?:that|which|still|lying|standing|sitting)\b")
+_WHATEVER = Expression(r"\b(?:that|which|still|lying|standing|sitting)\b")
 """In "any cup that is red" and "any cup still on the desk" it makes "any" speak of all of them."""
 
 
