@@ -9,6 +9,7 @@ from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Goal,
+    Keep,
     Open,
     Pick,
     Put,
@@ -127,13 +128,21 @@ def _only_one_that_asks(
     state: Understanding, sentence: Sentence, found: dict[Goal, Understanding]
 ) -> Understanding:
     plans: dict[tuple[Moves, ...], Understanding] = {}
+    unclear = False
     scene = state.context.discourse.scene
     for attempt in found.values():
         with suppress(InstructionError, ReferenceProblem, ReasonerStopped):
             ordered = any(item.order is not Order.SAID for item in attempt.timed)
             plan = plans_of(attempt.goal(), scene, ordered=ordered)
-            if plan or holds_roughly(attempt.goal()):
-                plans.setdefault(plan, attempt)
+            known = plans.get(plan)
+            if not (plan or holds_roughly(attempt.goal())):
+                continue
+            if known is None or _kept(known.goal()) < _kept(attempt.goal()):
+                plans[plan] = attempt
+            else:
+                unclear |= not _kept(attempt.goal()) <= _kept(known.goal())
+    if unclear:
+        raise ReferenceProblem(sentence.text, "say what is to stay as it is", 4)
     alike = {formal(attempt.goal()): key for key, attempt in reversed(plans.items())}
     plans = {key: attempt for key, attempt in plans.items() if key in alike.values()}
     for key in [*plans]:
@@ -146,6 +155,16 @@ def _only_one_that_asks(
             sentence.text, f"it can be read in {len(plans)} ways: {'; '.join(ways)}", 4
         )
     return next(iter((plans or found).values()))
+
+
+def _kept(goal: Goal) -> frozenset[tuple[Keep, str | int | None]]:
+    """What must not happen on the way to what, so that a word for it is lost in no reading. What is
+    to be empty in the end takes nothing in meanwhile either way.
+    """
+    kept = (item for item in goal.constraints if item.keep is not Keep.AWAY)
+    return frozenset(
+        (item.keep, about) for item in kept for about in item.names or (item.referent,)
+    )
 
 
 def _meaning(goal: Goal) -> Goal:
