@@ -264,7 +264,7 @@ AVOID = either(
     sequence(optional(verbs.ENSURE), either(NOT_MET, UNHARMED)),
     sequence(
         # "Mind the apple"
-        "mind, watch out for, (be|being) (careful|gentle|cautious) with",
+        "mind, watch out for, [be|being] (careful|gentle|cautious) with",
         THINGS,
         build=not_dropped,
     ),
