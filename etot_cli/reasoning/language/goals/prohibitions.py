@@ -59,6 +59,10 @@ _TARGETS = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 def avoid(context: Context, clause: AvoidClause) -> None:
     """Adds what a clause forbids, or calls needless, to the constraints."""
     before = len(context.constraints)
+    things = clause.things
+    if things and things.either and clause.avoid in _LEAVING:
+        # Neither "the cup or anything on it": the one after the other, as "it" may be the first.
+        clause = replace(clause, things=replace(things, either=False))
     _forbid(context, clause)
     if clause.needless:
         new = context.constraints[before:]

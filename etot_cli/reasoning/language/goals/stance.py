@@ -68,6 +68,9 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             named = (*context.phrases.things(clause.things, Role.ANY),)
             context.discourse.is_about(named)
             _tell_where(context, clause.things, named)
+        if clause.not_yet and {*context.discourse.placed} & {*context.discourse.things(*named)}:
+            why = "it was to be moved before that; say first what is done first"
+            raise ReferenceProblem(clause.things.text, why, 3)
         if clause.remark:
             context.discourse.remarked |= {*named}
             said = clause.remark.split()

@@ -131,7 +131,11 @@ ANY_ONE = "(either|any) [one] [of (them|these|those)]"
 WHILE = "while [you [are]], whilst [you [are]], as you [are]"
 ANNOUNCED = "(two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)]"
 """Before what is to be done."""
-TIDYING = "[it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time"
+TIDYING = """
+    [it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time,
+    [(can|could|will|would) you] [please] help (me|us)
+    [[to] (tidy|clean|clear) up] [here]
+"""
 LIKE_THIS = "(set|lay|arrange|prepare|organise|organize) [up], i (want|would like)"
 """Before what is to be as the words behind a colon say."""
 TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"

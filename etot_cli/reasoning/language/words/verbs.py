@@ -186,7 +186,7 @@ NOTHING_MAY_BE = """
 _BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|stowed|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|
-    set out|laid out|lowered|collected|gathered
+    set out|laid out|lowered|collected|gathered|tidied|tidied away|tidied up
 """ + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
 BROUGHT = _BROUGHT
 """What was taken from one place is then, to another one."""

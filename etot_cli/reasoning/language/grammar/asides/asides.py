@@ -58,6 +58,7 @@ from etot_cli.reasoning.language.grammar.asides.telling import (
     goes_there_later,
     goes_with_somebody,
     is_about_to,
+    stranger_is_there,
     tells_of_others,
     there_is_such,
 )
@@ -107,6 +108,7 @@ _OF_A_KIND = Expression(
     r"|likes?|loves?|hates?|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"
 )
 _PRONOUNS = word_set("it they them that this those these he him she her")
+_OF_SEVERAL = word_set("they them those these")
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,6 +239,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or (
         aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
     )
+    told = told or stranger_is_there(aside.said, is_name)
     told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
     told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
     told = told or wants_such_a_thing(aside.said, is_name)
@@ -260,16 +263,17 @@ def _is_of_own_body(said: str, is_name: IsName) -> bool:
 
 def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
     """Whether a pronoun may mean what only an aside before it names."""
-    stranger = False
+    meaning = frozenset[str]()
     for part in parted:
-        stranger = stranger or any(
-            _names_stranger(item.said, is_name) or wants_such_a_thing(item.said, is_name)
-            for item in part.asides
-        )
+        for item in part.asides:
+            if _names_stranger(item.said, is_name) or wants_such_a_thing(item.said, is_name):
+                # "My teeth are in the cup, so do not touch it": the cup.
+                several = stranger_is_there(item.said, is_name) and " are " in item.said
+                meaning |= _OF_SEVERAL if several else _PRONOUNS
         if part.rest:
-            if stranger and _refers_back(part.rest.split(), is_name):
+            if _refers_back(part.rest.split(), is_name, meaning):
                 return True
-            stranger = False
+            meaning = frozenset()
     return False
 
 
@@ -345,6 +349,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         is_desk_wish(clause.said)
         or is_plan(clause.said, is_name)
         or goes_there(clause.said, is_name)
+        or stranger_is_there(clause.said, is_name)
     )
     if at == 0 and exclaims(clause.said, is_name):
         return True
@@ -462,6 +467,6 @@ def _names_stranger(said: str, is_name: IsName) -> bool:
     )
 
 
-def _refers_back(words: Sequence[str], is_name: IsName) -> bool:
-    """Whether a pronoun comes before anything that is named."""
-    return next((word in _PRONOUNS for word in words if word in _PRONOUNS or is_name(word)), False)
+def _refers_back(words: Sequence[str], is_name: IsName, meaning: frozenset[str]) -> bool:
+    """Whether one of some pronouns comes before anything that is named."""
+    return next((word in meaning for word in words if word in _PRONOUNS or is_name(word)), False)

@@ -85,6 +85,14 @@ _HABIT = Expression(
     r"^(?:take|have|drink|eat|like|love|prefer)s? (?:my|our|his|her|their) (?P<what>\w+) "
 )
 """What somebody has as he likes it, which is no thing of the scene ("I take my tea with lemon")."""
+_TAKES = Expression(
+    r"^(?!you\b)[^~]+? (?:(?:always|usually|only) )?"
+    r"(?:takes?|has|have|drinks?|eats?) (?!(?:the|an?|it|them|that|this|these|those|to)\b)"
+    r"(?:no |some |lots of |plenty of )?\w+(?: (?:and|or|but no) (?:no )?\w+)?"
+    r"(?: (?:in|with|on|for) (?:(?:his|her|my|our|their) )?(?:tea|coffee|cereal|porridge|toast"
+    r"|breakfast|lunch|dinner|everything))?$"
+)
+"""What somebody takes in general ("my husband takes sugar in his tea")."""
 _UNUSED = Expression(
     r"^(?:nobody|no one) (?:is going to |will |would |ever |really )*"
     r"(?:use|need|drink|eat|read|wear)s? "
@@ -364,7 +372,8 @@ def is_remark(said: str, is_name: IsName) -> bool:
         return lacks_room(said)
     if person:
         happened, habit = _HAPPENED.match(person["did"]), _HABIT.match(person["did"])
-        if _UNUSED.match(said) or (habit and _is_of_no_thing(habit, words, is_name)):
+        takes = _TAKES.match(said) and not (ASKING | REFERRING | WORK - {"take"}) & {*words[2:]}
+        if _UNUSED.match(said) or takes or (habit and _is_of_no_thing(habit, words, is_name)):
             return True
         if happened is None:
             verb, *more = person["did"].split()

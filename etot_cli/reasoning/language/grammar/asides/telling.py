@@ -139,6 +139,24 @@ def there_is_such(said: str, is_name: IsName) -> bool:
     )
 
 
+_STANDS_THERE = Expression(
+    r"(?:my|our|his|her|some|(?:the|my|our) \w+ ?'s) (?P<what>(?:\w+ )?\w+) "
+    r"(?:is|are) (?:(?:still|already|soaking|kept|stored) )?(?:in|inside|on)"
+    r" (?:the|my|our|that|this) (?:\w+ ){0,2}?(?P<where>\w+)"
+)
+
+
+def stranger_is_there(said: str, is_name: IsName) -> bool:
+    """Whether a clause tells what is in or on something of the scene, of which it has no such thing
+    ("my teeth are in the cup"); a wish for that has no "so" behind it.
+    """
+    found = _STANDS_THERE.fullmatch(said)
+    if found is None or not is_name(found["where"]):
+        return False
+    what = found["what"].split()
+    return not any(is_name(word) or word in _NO_SUBJECT for word in what)
+
+
 _ABOUT_TO = Expression(
     r"(?P<who>(?!it\b|they\b|this\b|that\b|these\b|those\b)\w+) (?:is|am|are) (?:just )?"
     r"(?:about|going) to (?P<does>\w+)(?: (?:soon|now|today|tonight|later|it|there))?"

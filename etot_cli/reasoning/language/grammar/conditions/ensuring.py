@@ -8,6 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -19,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST,
+    OPTIONAL_COMMA,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import disagrees, said_of_all
@@ -119,7 +121,13 @@ _BE_TOGETHER = silent(phrase(verbs.TO_BE_THERE))
 
 _TOGETHER = either(
     sequence(NP_LIST, _BE_TOGETHER, optional(_ALL, ""), build=said_of_all),
-    sequence(NP_LIST, _ALL, optional(_BE_TOGETHER), build=said_of_all),
+    sequence(
+        NP_LIST,
+        OPTIONAL_COMMA,
+        one_of({said: f"{said} [of them]" for said in ("both", "all")}),
+        optional(_BE_TOGETHER),
+        build=said_of_all,
+    ),
 )
 
 

@@ -106,7 +106,9 @@ KEEP_STILL = either(
     sequence(
         optional("let"), THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)
     ),
-    sequence("let[ting], leav(e|ing)", THINGS, "be", build=partial(AvoidClause, Avoid.MOVE)),
+    sequence(
+        "let[ting], leav(e|ing)", THINGS, "be, in peace", build=partial(AvoidClause, Avoid.MOVE)
+    ),
     OTHERS_STILL,
     sequence(
         either(

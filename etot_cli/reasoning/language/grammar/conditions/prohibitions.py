@@ -213,6 +213,14 @@ _FORBIDDEN = either(
     sequence("let[ting]", THINGS, forbidden.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
     sequence(
+        # "Do not take the cup anywhere"
+        phrase(f"{verbs.SET_DOWN}, {verbs.FETCH}", Avoid.MOVE),
+        THINGS,
+        "anywhere, away",
+        optional(small_words.TRAILING_THEN),
+        build=_avoid,
+    ),
+    sequence(
         "leav(e|ing)",
         THINGS,
         silent(optional("lying, standing, sitting")),
@@ -256,7 +264,7 @@ AVOID = either(
     sequence(optional(verbs.ENSURE), either(NOT_MET, UNHARMED)),
     sequence(
         # "Mind the apple"
-        "mind, watch out for, (be|being) (careful|gentle|cautious) with",
+        "mind, watch out for, [be|being] (careful|gentle|cautious) with",
         THINGS,
         build=not_dropped,
     ),

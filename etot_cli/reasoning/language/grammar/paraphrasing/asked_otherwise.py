@@ -8,7 +8,12 @@ from collections.abc import Callable
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
+from etot_cli.reasoning.language.words.lexicon import (
+    KIND_NOUNS,
+    OPEN_VESSELS,
+    THING_NOUNS,
+    singular,
+)
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _THERE = r"(?:in|on|inside|into|onto|next to|beside|behind|between|under)\b"
@@ -54,11 +59,12 @@ _NTH = Expression(
     r"(?= (?:in|on|into|onto|to|inside|goes|should|belongs|next)\b)"
 )
 
-_RIDER = r"((?!and\b|the\b)\w+(?: \w+)?) (?:included|and all)"
+_RIDER = r"(?:the |my )?((?!and\b|the\b)\w+(?: \w+)?) (?:included|and all)"
+_VESSELS = OPEN_VESSELS.union(KIND_NOUNS["cup"], KIND_NOUNS["bowl"])
 _INCLUDED = Expression(
-    rf"^({ASKED}(?:put|place|move|get|take|bring|set) (?:the|my) ((?:\w+ ){{0,2}}?\w+)"
-    rf"(?= (?:and|with|{WHERE})[^,;:]*)[^.;:]*?), (?:the |my )?"
-    rf"{_RIDER}(?=[.;!?]|$)"
+    rf"^({ASKED})((?:put|place|move|get|take|bring|set|stand) (?:the|my) ((?:\w+ ){{0,2}}?\w+))"
+    rf"(?:, {_RIDER},(?= {WHERE})([^.,;:]*)|(?= (?:and|with|{WHERE})[^,;:]*)([^.;:]*?), {_RIDER})"
+    r"(?=[.,;!?]|$)"
 )
 
 
@@ -87,12 +93,14 @@ def _counted_from(said: re.Match[str]) -> str:
 
 
 def _goes_along(said: re.Match[str]) -> str:
-    """What stands on a thing that goes somewhere "included": it stays there."""
-    asked, thing, rider = said.groups()
-    noun = thing.rpartition(" ")[2]
+    """What stands in or on a thing that goes somewhere "included": it stays there."""
+    please, asked, thing, ahead, where, there, behind = said.groups()
+    noun, rider = thing.rpartition(" ")[2], ahead or behind
     if singular(noun) != noun or is_category(noun) or noun in THING_NOUNS:
         return said[0]
-    return f"{asked} and keep the {rider} that is on the {thing} on the {thing}"
+    at = f"{'in' if noun in _VESSELS else 'on'} the {thing}"
+    kept = f"keep the {rider} that is {at} {at}"
+    return f"{please}{asked}{there} and {kept}" if behind else f"{please}{kept} and {asked}{where}"
 
 
 ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     one_of,
@@ -9,7 +11,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     spanned,
     word,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.naming import LEVEL
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -18,22 +20,48 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import places
-from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS
+from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS, STATES
 from etot_cli.reasoning.language.words.places import Prep
 
 THAT = NounPhrase(pronoun="it", text="where it is")
 """What is to go to another level, which is counted from where it is."""
+_LEVEL_NOUNS = (*BOARD_NOUNS, "drawer")
+
+
+def _level_of(owner: NounPhrase, toward: Toward, level: NounPhrase) -> Destination | None:
+    """A level of what is named before it; "on the tray, on the shelf" is on what is there."""
+    if owner.modifiers or owner.pronoun or owner.head in DESK_NOUNS or level.owner:
+        return None
+    return Destination(toward, (replace(level, owner=owner, text=level.text or owner.text),))
+
+
+def _told_level(np: NounPhrase) -> NounPhrase | None:
+    """One that is told by what is on it or how it is, not by where it is."""
+    *said, noun = np.words or ("",)
+    told = all(item.prep in _TELLING for item in np.modifiers) and all(w in STATES for w in said)
+    return np if noun in _LEVEL_NOUNS and (np.modifiers or said) and told else None
+
+
+_TELLING = (Prep.QUALITY, Prep.WITH, Prep.BEARING, Prep.CONTAINING)
 AT_LEVEL = sequence(
-    # "In the safe on the bottom shelf"
     f"{places.INTO}, {places.ONTO}",
     noun_phrase,
-    one_of({Toward.ON: "on the", Toward.INSIDE: "in the"}),
-    LEVEL,
-    build=lambda owner, toward, level: (
-        None
-        if owner.modifiers or owner.pronoun or owner.head in DESK_NOUNS
-        else Destination(toward, (NounPhrase("the", level[0], owner=owner, text=owner.text),))
+    either(
+        # "In the safe on the bottom shelf"
+        sequence(
+            one_of({Toward.ON: "on the", Toward.INSIDE: "in the"}),
+            sequence(LEVEL, build=lambda level: NounPhrase("the", level[0])),
+            build=lambda *said: said,
+        ),
+        # "On the shelf, on whichever board has nothing on it"
+        sequence(
+            OPTIONAL_COMMA,
+            one_of({Toward.ON: "on[to]", Toward.INSIDE: "in[to]"}),
+            sequence(noun_phrase, build=_told_level),
+            build=lambda *said: said,
+        ),
     ),
+    build=lambda owner, level: _level_of(owner, *level),
 )
 
 
@@ -44,7 +72,7 @@ def _level_by(text: str, said: tuple[str, Prep]) -> Destination:
     return Destination(Toward.TO, (NounPhrase("the", (noun,), (aside,), text=text),))
 
 
-_LEVEL_NOUN = word(lambda _, text: text in (*BOARD_NOUNS, "drawer"))
+_LEVEL_NOUN = word(lambda _, text: text in _LEVEL_NOUNS)
 NEXT_LEVEL = spanned(
     # "One board up", "to the shelf below"
     either(

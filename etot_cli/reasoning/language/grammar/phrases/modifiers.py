@@ -346,13 +346,15 @@ _LEVEL = sequence(
     word(lambda given, text: text in LEVELS),
     build=lambda level: Modifier(Prep.QUALITY, words=(level,)),
 )
+_COMMA_NEXT = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] == "~comma" else [])
+"""It belongs to what comes next, too ("the ball, that round thing, put it in the box")."""
 APPOSED = either(
     sequence(
         COMMA,
-        phrase("the, the only"),
+        phrase("the, the only, that, this"),
         noun_phrase,
         silent(optional("here")),
-        either(COMMA, at_end),
+        either(COMMA, at_end, _COMMA_NEXT),
         build=_said_again,
     ),
     sequence(

@@ -272,6 +272,8 @@ def _said(node: object) -> Iterator[str]:
         case PutGroup(stance=stance) | ReorientClause(stance=stance) if stance is not None:
             yield _SAID_OF_STANCE[stance]
             yield from (_DENIAL,) if isinstance(node, ReorientClause) else ()  # "not tilted"
+        case ReorientClause(not_yet=True):
+            yield "any"
         case ReorientClause(meanwhile=True):  # "after rotating it"
             yield _ORDER
         case State(denied=True):

@@ -384,13 +384,6 @@ WITH_MORE_BEFORE_IT = either(
         build=about,
     ),
     sequence(
-        "before [you] touch[ing], before [you] do[ing] anything (to|with)",
-        NAMED,
-        OPTIONAL_COMMA,
-        CHAIN,
-        build=add,
-    ),
-    sequence(
         verbs.SWAP,
         THINGS,
         silent(optional(verbs.SWAPPED_ROUND)),

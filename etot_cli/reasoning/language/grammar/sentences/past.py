@@ -50,7 +50,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -261,7 +261,12 @@ def _done_with(clause: Clause) -> list[tuple[tuple[NounPhrase, ...], tuple[Desti
             return [(group.things.phrases, group.destinations) for group in groups]
         case EnsureClause(states=states):
             return [(state.subjects, state.destinations) for state in states]
-        case MoveClause(things=things) | PickClause(things=things) | RemoveClause(things=things):
+        case (
+            MoveClause(things=things)
+            | PickClause(things=things)
+            | RemoveClause(things=things)
+            | ReorientClause(things=things, not_yet=True)
+        ):
             return [(things.phrases, ())]
     return []
 
@@ -342,7 +347,19 @@ DONE_BY_THEN = valued(
     _by_then,
 )
 """What has been done by then, behind "until" or "before"."""
-LATER = sequence(small_words.BEFORE, either(LED_CLAUSE, plain(_SO_BY_THEN)))
+
+
+def _not_touched_yet(nps: tuple[NounPhrase, ...]) -> ReorientClause:
+    """What is but named; who is not to touch "any cup" yet touches none of them."""
+    every = (replace(np, determiner="every") if np.determiner == "any" else np for np in nps)
+    return ReorientClause(Things((*every,)), only_named=True, not_yet=True)
+
+
+_TOUCHED = sequence(
+    f"{forbidden.TOUCH}, do[ing] anything (to|with)", NP_LIST, build=_not_touched_yet
+)
+"""What is not touched before the rest is done, which asks for nothing of it yet."""
+LATER = sequence(small_words.BEFORE, either(LED_CLAUSE, plain(_SO_BY_THEN), plain(_TOUCHED)))
 """What comes after the rest of a sentence ("before the drawer is closed")."""
 ALL_LATER = sequence(
     LATER,

@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     MAX_CHARACTERS,
     MAX_SENTENCES,
     MAX_WORDS,
+    QUESTION,
     sentences_of,
     spaced,
     words_in,
@@ -121,7 +122,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
     sentences: list[Sentence] = []
     corrections: dict[Correction, None] = {}
     for part in parts:
-        if len(parts) > 1 and says_nothing(part):
+        if len(parts) > 1 and says_nothing(part.removesuffix(QUESTION).strip()):
             continue
         before = ". ".join(parts[: len(sentences)])
         words: list[str] = []

@@ -162,6 +162,8 @@ class ReorientClause:
     """
     only_named: bool = False
     """It is but named, or looked for, before something is asked of it."""
+    not_yet: bool = False
+    """It is not touched before what was asked for is done."""
     remark: str = ""
     """What is said of it that is neither known of a thing nor asked for."""
 

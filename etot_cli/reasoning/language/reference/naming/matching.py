@@ -280,7 +280,8 @@ def _match_in(
         ] or called_so
     if not any(entry.is_plainly_called(head) for entry, _ in called_so):
         # Beside an exercise book "the book" may be a textbook.
-        sorts = [item[0] for item in sifted.graded if item[0].is_sort_named(head)]
+        others = (item[0] for item in sifted.graded if item not in called_so)
+        sorts = [entry for entry in others if entry.is_sort_named(head)]
         called_so += [(entry, HEAD) for entry in sorts if called_so]
     sifted.graded = called_so or sifted.graded
     for word in adjectives:
