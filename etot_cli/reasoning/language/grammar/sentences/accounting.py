@@ -131,7 +131,7 @@ _SAY_NOTHING = phrase(
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
     f", {SAFELY}, {A_SAFE_PLACE}, {verbs.OUT_OF_THE_WAY}"
 )
-_NOT_BOTH = Expression(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
+_NOT_BOTH = Expression(r"\b(?:not|never)\b(?:(?!~comma|~colon|\bbut\b).)*\bboth\b")
 
 
 _ACROSS = Expression(r"\b(other|opposite) side of\b")

@@ -84,6 +84,7 @@ from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
 from etot_cli.reasoning.language.grammar.sentences.which_clauses import (
+    THAT,
     WHICH_FIRST_GETS,
     WHICH_GOES_ON,
     WHICH_IN_TURN_IS,
@@ -143,11 +144,13 @@ def joint(name: str, *parts: Part) -> Parser:
 
 
 _SO = sequence(
-    # "…, which should be closed afterwards", "…, which I want closed": what was named last
-    "which [then] (should|must|has to|needs to|is to) [then] be [left|kept],"
-    " which (i|we) (want|need|would like) [to (be|have)] [left|kept]",
+    # "…, which should be closed afterwards", "…, whose door I want closed": what was named last
+    THAT,
+    "[then|itself] (should|must|has to|needs to|is to) [then|itself] be [left|kept],"
+    " (i|we) (want|need|would like) [to (be|have)] [left|kept],"
+    " [itself] ((should|must|has to|needs to|is to) (stay|remain)|stays|remains)",
     OPEN_OR_CLOSED,
-    build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
+    build=lambda which, word: left_so((which,), word),
 )
 ENDING_WITH = "(end|ending|finish|finishing) [up] [~comma] with"
 WITH_MORE_SO = either(
