@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     one_of,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     silent,
@@ -241,11 +242,13 @@ _AVOIDED = sequence(
 )
 AVOID = either(
     _AVOIDED,
-    sequence(
-        # "Touching nothing else"
-        _TOUCHED_OR_MOVED,
-        "nothing else",
-        build=lambda avoid: AvoidClause(avoid, None, negated=True),
+    quiet(
+        sequence(
+            # "Touching nothing else"
+            _TOUCHED_OR_MOVED,
+            "nothing else",
+            build=lambda avoid: AvoidClause(avoid, None, negated=True),
+        )
     ),
     sequence(
         # "No contact with the vase", "there must be no collision with the vase"

@@ -65,6 +65,7 @@ from etot_cli.reasoning.language.grammar.sentences.not_before import NOT_BEFORE
 from etot_cli.reasoning.language.grammar.sentences.passives import (
     ALSO_DONE,
     BEFORE_PLACED,
+    NARRATED,
     THEN_HELD,
     THEN_PLACED,
     THEN_TURNED,
@@ -219,7 +220,7 @@ JOINED = either(
                 }
             ),
             OPTIONAL_COMMA,
-            either(PLACED, plain(sequence(THINGS, build=once_more))),
+            either(PLACED, plain(either(sequence(THINGS, build=once_more), NARRATED))),
             # "…, last, the cup in the box first" is two orders for one thing.
             build=lambda order, placed: (
                 None
@@ -245,7 +246,7 @@ JOINED = either(
         small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        either(plain(sequence(THINGS, build=once_more)), HEADLINE),
+        either(plain(either(sequence(THINGS, build=once_more), NARRATED)), HEADLINE),
     ),
     joint(
         "then",
