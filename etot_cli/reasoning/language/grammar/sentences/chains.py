@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
     SHUT,
     ensured,
     holding_only,
+    kept_so,
     states,
 )
 from etot_cli.reasoning.language.grammar.requests.arrangements import (
@@ -144,14 +145,21 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
-_SO = sequence(
-    # "…, which should be closed afterwards", "…, whose door I want closed": what was named last
-    THAT,
-    "[then|itself] (should|must|has to|needs to|is to) [then|itself] be [left|kept],"
-    " (i|we) (want|need|would like) [to (be|have)] [left|kept],"
-    " [itself] ((should|must|has to|needs to|is to) (stay|remain)|stays|remains)",
-    OPEN_OR_CLOSED,
-    build=lambda which, word: left_so((which,), word),
+_SO = either(
+    sequence(
+        # "…, which should be closed afterwards", "…, whose door I want closed": what was named last
+        THAT,
+        "[then|itself] (should|must|has to|needs to|is to) [then|itself] be [left|kept],"
+        " (i|we) (want|need|would like) [to (be|have)] [left|kept]",
+        OPEN_OR_CLOSED,
+        build=lambda which, word: left_so((which,), word),
+    ),
+    sequence(
+        THAT,
+        "[itself] ((should|must|has to|needs to|is to) (stay|remain)|stays|remains)",
+        OPEN_OR_CLOSED,
+        build=lambda which, word: kept_so((which,), word, always=False),
+    ),
 )
 ENDING_WITH = "(end|ending|finish|finishing) [up] [~comma] with"
 WITH_MORE_SO = either(
