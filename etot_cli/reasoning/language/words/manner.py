@@ -131,7 +131,7 @@ KEPT_HELD = """
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
 _HAND = "(hand|gripper|grasp|grip|fingers|robot hand|claw|jaws)"
 IN_HAND = f"""
-    [held] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}, held
+    [held|ready] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}, held
 """
 """Where what is picked up is in the end."""
 THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, gripper, the robot, you"

@@ -25,6 +25,7 @@ ANY_WILL_DO = f"""
 _HOLDING = """
     (approach|grasp|grip|gripper|grasping) (direction|pose|orientation|angle|side)
 """
+_I_ASK = "[that] (i|we) (ask [for|of you]|want|need|wish|wanted|would like|am asking [for])"
 WITHOUT_MEANING = f"""
     [pretty] please, kindly, ta,
     ~comma there is a ((good|dear|clever) (boy|girl|lad|lass|chap|robot)|dear|love|darling),
@@ -41,9 +42,7 @@ WITHOUT_MEANING = f"""
     at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
-    [and] that is (it|all|everything)
-    [[that] (i|we) (ask [for|of you]|want|need|wish|wanted|would like|am asking [for])|
-    [that] there is [to it]],
+    [and] that is (it|all|everything) [{_I_ASK}|[that] there is [to it]], is all {_I_ASK},
     ~comma (choose|pick|take|use) (whichever|whatever) [one] (you (like|want|prefer|choose|fancy)|
     suits you [best]|is (easier|easiest|best)),
     [just|simply] choose (whichever|whatever) [one] (you (like|want|prefer|fancy)|suits you),
@@ -212,7 +211,15 @@ I_THINK = """
     (i|we) (think|believe|guess|suppose|reckon|feel) [that], i was thinking [that]
 """
 """Before what would be good to do."""
-WISH_IF = f"({WOULD_BE_NICE}) if, (i|we) wish [that]"
+IS_ENOUGH = """
+    (i|we) (am|are|will be|shall be|would be) [very|quite|perfectly]
+    (happy|glad|content|satisfied|pleased), (it|that) (is|will be|would be) enough [for (me|us)],
+    that (will|would) do [for (me|us)]
+"""
+"""Behind or before how things are to be."""
+WISH_IF = f"""
+    ({WOULD_BE_NICE}) if, (i|we) wish [that], ({IS_ENOUGH}) (if|as long as|so long as|when|once)
+"""
 """Before how things are to be."""
 FRAMES = f"""
     ({WISH_IF}) (you|someone|somebody) (would|could|can|might),
@@ -256,8 +263,8 @@ FRAMES = f"""
     be a (good|kind|nice|clever) (boy|girl|lad|lass|dear|robot|fellow|sport|chap|soul) and
 """
 _AT_END = """
-    (at|by) the end [of (it all|this|(the|this|your) (episode|task|run|job|turn|day|session|shift|
-    experiment|exercise|game|lesson|test|demo|process))], in the end,
+    (at|by) the [very] end [of (it all|this|(the|this|your) (episode|task|run|job|turn|day|session|
+    shift|experiment|exercise|game|lesson|test|demo|process))], in the end,
     in the (final|end|target|goal) (state|configuration|arrangement)
 """
 _WHEN_DONE = f"""

@@ -273,7 +273,7 @@ WANT = """
     (would|is) it [be] possible to have,
     it would be [really|so] (great|nice|lovely|good) to (see|have),
     (i|we) would rather (have|see),
-    (what|all [that]) (i|we) [really|just] (want|need) [to (have|see)] is,
+    (what|all [that]) (i|we) [really|just] (want|need|ask [for]) [to (have|see)] is,
     (what|all [that]) (i|we) would [really|just] (like|love) [to (have|see)] is,
     [what] (i am|we are) [really|just] after [is]
 """
@@ -375,7 +375,7 @@ TO_BE_THERE = f"to (be [found]|end up|go|stand|sit|lie|stay|remain), {DONE}"
 PICKED_UP = "picked up, grabbed, lifted [up], fetched, took"
 WERE = f"""
     (is|are|was|were|[could|would] be) [{_BROUGHT}|{_BEING}|found|to be],
-    [could|would] (go|stand|sit|lie), (ended|finished|wound|could (end|finish|wind)) up,
+    [could|would] (go|stand|sit|lie), (end[s]|ended|finished|wound|could (end|finish|wind)) up,
     went, stood, lay, sat
 """
 """What it would be nice if things were."""

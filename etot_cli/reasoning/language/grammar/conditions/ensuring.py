@@ -350,9 +350,10 @@ ENSURE = either(
             NP_LIST,
             either(
                 sequence(
-                    "should, must, shall, can, could, may",
+                    # "Must both be put", "are both to go"
+                    "should, must, shall, can, could, may, are, are to, have [to], need [to]",
                     _EACH,
-                    "be, go, stand, lie, sit, end up, (be|get) (put|placed|moved)",
+                    f"[[meant|supposed] to] (be|go|stand|lie|sit|end up|(be|get) ({verbs.DONE}))",
                 ),
                 sequence(_EACH, verbs.MODAL),
             ),

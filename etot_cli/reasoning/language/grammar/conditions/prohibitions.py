@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     one_of,
     optional,
     phrase,
+    quiet,
     separated,
     sequence,
     silent,
@@ -157,6 +158,9 @@ _DOING = sequence(
 """Several such things behind "do not" or "without" ("lift or move")."""
 
 
+_TOUCHED_OR_MOVED = one_of(
+    {Avoid.TOUCH: forbidden.TOUCH, Avoid.MOVE: forbidden.DISTURB, Avoid.HIT: forbidden.HIT}
+)
 _FORBIDDEN = either(
     sequence(_DOING, THINGS, build=_avoid),
     sequence(
@@ -232,9 +236,7 @@ _FORBIDDEN = either(
     sequence("tak(e|ing), pull[ing]", THINGS, "apart", build=_left_stacked),
     sequence(verbs.USE, NP_LIST, optional(sequence("for", THINGS), None), build=_unused),
     sequence(
-        one_of(
-            {Avoid.TOUCH: forbidden.TOUCH, Avoid.MOVE: forbidden.DISTURB, Avoid.HIT: forbidden.HIT}
-        ),
+        _TOUCHED_OR_MOVED,
         forbidden.ANYTHING_ELSE,
         build=lambda avoid: AvoidClause(avoid, None),
     ),
@@ -248,6 +250,14 @@ _AVOIDED = sequence(
 )
 AVOID = either(
     _AVOIDED,
+    quiet(
+        sequence(
+            # "Touching nothing else"
+            _TOUCHED_OR_MOVED,
+            "nothing else",
+            build=lambda avoid: AvoidClause(avoid, None, negated=True),
+        )
+    ),
     sequence(
         # "No contact with the vase", "there must be no collision with the vase"
         "[there (must|should|shall|may|is to|has to) be] no",

@@ -17,7 +17,10 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhr
 from etot_cli.reasoning.language.words import nouns, places
 from etot_cli.reasoning.language.words.places import Prep
 
-_INSIDE_IT = "[still] inside, [still] in there, in, [still] (inside|in) (it|them|which)"
+_INSIDE_IT = """
+    [still|safely] inside, [still|safely] in there, in,
+    [still|safely] [lying|standing|sitting] (inside|in) (it|them|which)
+"""
 _UPON_IT = "on [top of] (it|them), on top"
 _POSED = "currently|now|standing|lying|sitting|resting"
 _HAVING = f"with, {nouns.CONTAINING}"

@@ -85,9 +85,19 @@ def other_sides(groups: tuple[PutGroup, ...]) -> tuple[PutGroup, ...]:
     if len(groups) > 1:
         found = [told_beside(groups[0], beside_what(groups[1]))]
     for group in groups[1:]:
-        group = told_beside(group, beside_what(found[-1]))
+        group = told_beside(_but_there(group, found[-1]), beside_what(found[-1]))
         found.append(group)
     return tuple(found)
+
+
+def _but_there(group: PutGroup, before: PutGroup) -> PutGroup:
+    """A group that goes "anywhere but there" does not go where the one before it does."""
+    (*there, last) = group.destinations
+    named = last.denied and (last.toward, last.word) == (Toward.HERE, "there")
+    if not (there and named) or any(item.beside for item in before.destinations):
+        return group
+    out = (replace(item, denied=True) for item in before.destinations if not item.denied)
+    return replace(group, destinations=(*there, *out))
 
 
 def beside_what(group: PutGroup) -> tuple[Beside, ...]:

@@ -369,6 +369,14 @@ MEANWHILE_SO = either(
         small_words.ALL_ALONG,
         build=lambda nps, where: ensured(_staying(nps, "", where, True)),
     ),
+    # "…, the pen not in the cup"
+    sequence(
+        COMMA,
+        silent(optional("but")),
+        NP_LIST,
+        _NOT_SO,
+        build=lambda nps, so: ensured(state_of(nps, so)),
+    ),
 )
 """What stays as it is while something else is done, which no comma has to set apart."""
 BESIDES_SO = either(
@@ -383,7 +391,11 @@ BESIDES_SO = either(
     sequence(
         "with",
         NP_LIST,
-        silent(optional(f"[still|left] (lying|standing|sitting|resting), staying, {verbs.DONE}")),
+        silent(
+            optional(
+                f"[still|left] (lying|standing|sitting|resting), safely, staying, {verbs.DONE}"
+            )
+        ),
         ALL_SO,
         silent(optional("instead")),
         build=lambda nps, said: ensured(*said(nps)),

@@ -29,13 +29,14 @@ from etot_cli.reasoning.language.words.nouns import THE_WORDS
 
 
 def _in_this_order(first_said: bool, first: NounPhrase, more: tuple[Any, ...]) -> Any:
-    """Things one after the other; what stands before "then" with a place was rather put there, and
-    "the cup, the left one" is one thing.
+    """Things one after the other; what stands before "then" with a place was rather put there, or
+    taken off it, and "the cup, the left one" is one thing.
     """
     before = (first, *(np for _, np in more[:-1]))
     placed = any(item.phrases for np in before for item in np.modifiers)
+    taken = any({"off", "out"} & {*np.text.split()[1:]} for np in before)
     apposed = any(not then and np.head == "one" for then, np in more)
-    if (placed and not first_said) or apposed or not any(then for then, _ in more):
+    if (placed and not first_said) or taken or apposed or not any(then for then, _ in more):
         return None
     nps = coordinated(first, tuple(np for _, np in more))
     return None if nps is None else Things(nps)

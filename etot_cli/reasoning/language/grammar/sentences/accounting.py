@@ -93,7 +93,7 @@ _FIXED = """
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
     back on [the] top of, right (next|by|behind|beside|in front|after|once|when),
-    not both [of them],
+    not both [of them], (as|so) long as,
     right (above|below|under|underneath|beneath),
     at the very, (first|last) of all, last but not least,
     one (by|after) (one|the other|another), in back, at last,
@@ -112,7 +112,7 @@ _FIXED = """
     open (only|just) [slightly|partly|partially|halfway], a little bit,
     before (you touch|touching|you do anything|doing anything) [to|with],
     (i|we) do not want anything [to be] [left|lying|standing|sitting] (in|on),
-    all [that] (i|we) [really|just] (need|want|would like), all that (should|must) be,
+    all [that] (i|we) [really|just] (need|want|would like|ask), all that (should|must) be,
     (thing|things|one|ones|object|objects|item|items) (left|remaining),
     all [that] (i|we) (need|want) (left|remaining), the right (way|side) up, right (way|side) up,
     all (the (way|time|while)|along), at all times,
@@ -131,7 +131,7 @@ _SAY_NOTHING = phrase(
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
     f", {SAFELY}, {A_SAFE_PLACE}, {verbs.OUT_OF_THE_WAY}"
 )
-_NOT_BOTH = Expression(r"\b(?:not|never)\b(?:(?!~comma|\bbut\b).)*\bboth\b")
+_NOT_BOTH = Expression(r"\b(?:not|never)\b(?:(?!~comma|~colon|\bbut\b).)*\bboth\b")
 
 
 _ACROSS = Expression(r"\b(other|opposite) side of\b")

@@ -203,17 +203,26 @@ def _of_one_thing(denied: Reading) -> Reading | None:
 
 
 def _holding(content: NounPhrase, toward: Toward, rest: Reading) -> Reading | None:
-    """What something is to hold that is told next to be somewhere ("with the pen in it, the mug
-    should stand on the tray"); of what was spoken of before, "it" rather is that.
+    """What something is to hold that is told next to be somewhere, or is closed then ("with the pen
+    in it, the mug should stand on the tray"); of what was spoken of before, "it" rather is that.
     """
     clause = rest[0].clause
-    if not (isinstance(clause, EnsureClause) and clause.states and clause.states[0].destinations):
-        return None
-    (first, *more) = clause.states[0].subjects
+    match clause:
+        case EnsureClause(states=(State(subjects=(first, *more), destinations=(_, *_)), *_)):
+            closed = False
+        case (
+            MoveClause(things=Things(phrases=(first, *more)), opens=False)
+            | EnsureClause(states=(State(subjects=(first, *more), word="closed"),))
+        ):
+            closed = True
+        case _:
+            return None
     known = first.words and first.determiner in ("the", "") and not first.modifiers
     if more or not known or content.pronoun:
         return None
     held = EnsureClause((State((content,), (Destination(toward, (first,)),)),))
+    if closed:
+        return once_done((Spoken(held, rest[0].position, far_fetched=1),), rest)
     return (rest[0], Spoken(held, rest[0].position, far_fetched=1), *rest[1:])
 
 
@@ -248,7 +257,7 @@ _SO_BY_THEN = plain(
         sequence(ALL_THINGS, build=taken_out),
         sequence(
             ALL_THINGS,
-            optional(f"{verbs.BE}, out of the way, staying, {verbs.DONE}"),
+            optional(f"{verbs.BE}, out of the way, staying, safely, {verbs.DONE}"),
             DESTINATIONS,
             build=put_to,
         ),
@@ -447,8 +456,8 @@ WITH_MORE_BEFORE_IT = either(
         noun_phrase,
         one_of(
             {
-                Toward.INSIDE: "[already] (in|inside) it, inside",
-                Toward.ON: "on [top of] it, on top",
+                Toward.INSIDE: "[already|safely] (in|inside) it, [safely] inside",
+                Toward.ON: "[already|safely] on [top of] it, on top",
             }
         ),
         COMMA,

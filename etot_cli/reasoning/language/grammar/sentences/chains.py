@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
     SHUT,
     ensured,
     holding_only,
+    kept_so,
     states,
 )
 from etot_cli.reasoning.language.grammar.requests.arrangements import (
@@ -65,6 +66,7 @@ from etot_cli.reasoning.language.grammar.sentences.not_before import NOT_BEFORE
 from etot_cli.reasoning.language.grammar.sentences.passives import (
     ALSO_DONE,
     BEFORE_PLACED,
+    NARRATED,
     THEN_HELD,
     THEN_PLACED,
     THEN_TURNED,
@@ -84,6 +86,7 @@ from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
 from etot_cli.reasoning.language.grammar.sentences.which_clauses import (
+    THAT,
     WHICH_FIRST_GETS,
     WHICH_GOES_ON,
     WHICH_IN_TURN_IS,
@@ -142,12 +145,21 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
-_SO = sequence(
-    # "…, which should be closed afterwards", "…, which I want closed": what was named last
-    "which [then] (should|must|has to|needs to|is to) [then] be [left|kept],"
-    " which (i|we) (want|need|would like) [to (be|have)] [left|kept]",
-    OPEN_OR_CLOSED,
-    build=lambda word: left_so((NounPhrase(pronoun="it", text="which"),), word),
+_SO = either(
+    sequence(
+        # "…, which should be closed afterwards", "…, whose door I want closed": what was named last
+        THAT,
+        "[then|itself] (should|must|has to|needs to|is to) [then|itself] be [left|kept],"
+        " (i|we) (want|need|would like) [to (be|have)] [left|kept]",
+        OPEN_OR_CLOSED,
+        build=lambda which, word: left_so((which,), word),
+    ),
+    sequence(
+        THAT,
+        "[itself] ((should|must|has to|needs to|is to) (stay|remain)|stays|remains)",
+        OPEN_OR_CLOSED,
+        build=lambda which, word: kept_so((which,), word, always=False),
+    ),
 )
 ENDING_WITH = "(end|ending|finish|finishing) [up] [~comma] with"
 WITH_MORE_SO = either(
@@ -216,7 +228,7 @@ JOINED = either(
                 }
             ),
             OPTIONAL_COMMA,
-            either(PLACED, plain(sequence(THINGS, build=once_more))),
+            either(PLACED, plain(either(sequence(THINGS, build=once_more), NARRATED))),
             # "…, last, the cup in the box first" is two orders for one thing.
             build=lambda order, placed: (
                 None
@@ -242,7 +254,7 @@ JOINED = either(
         small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        either(plain(sequence(THINGS, build=once_more)), HEADLINE),
+        either(plain(either(sequence(THINGS, build=once_more), NARRATED)), HEADLINE),
     ),
     joint(
         "then",

@@ -6,6 +6,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    one_of,
     optional,
     phrase,
     sequence,
@@ -27,6 +28,7 @@ from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
+    MoveClause,
     PickClause,
     PutClause,
     RemoveClause,
@@ -142,6 +144,19 @@ ALSO_DONE = sequence(
     ),
 )
 """What else is to be done, the verb left out ("…, the pen taken out of it"), or wished."""
+
+
+NARRATED = either(
+    sequence(
+        ALL_THINGS,
+        "is, are",
+        one_of({True: "opened [up]", False: "closed [up], shut"}),
+        build=MoveClause,
+    ),
+    sequence(ALL_THINGS, "is, are", _TAKEN, build=_taken),
+    sequence(ALL_THINGS, "is, are", verbs.BROUGHT, DESTINATIONS, build=put_to),
+)
+"""What is done with something then ("… and finally the drawer is closed")."""
 
 
 def goes_on(before: Any, clause: Any) -> bool:

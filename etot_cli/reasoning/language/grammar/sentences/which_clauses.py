@@ -47,7 +47,7 @@ from etot_cli.reasoning.language.words.nouns import THE_WORDS
 
 WHICH = NounPhrase(pronoun="it", text="which")
 """What was named last; "open" and "close" are only said of what can be."""
-_THAT = either(phrase("which", WHICH), phrase("whose (door|doors|flap)", WHICH))
+THAT = either(phrase("which", WHICH), phrase("whose (door|doors|flap)", WHICH))
 _AFTERWARDS = "then, afterwards, after that, later, in the end, finally, after use"
 _WHEN = one_of(
     {
@@ -89,7 +89,7 @@ def _moved(np: NounPhrase, *said: Order | bool) -> Spoken | None:
 
 _OPENED_OR_CLOSED = either(
     sequence(
-        _THAT,
+        THAT,
         either(
             sequence("you", _ANY_TIME, optional(_OUGHT)),
             "(i|we) (want|need|would like) you to [please]",
@@ -101,7 +101,7 @@ _OPENED_OR_CLOSED = either(
         build=_moved,
     ),
     sequence(
-        _THAT,
+        THAT,
         either(
             sequence(_OUGHT_TO_BE, _ANY_TIME),
             # "which is then to be closed", "which must first be opened"
@@ -118,7 +118,7 @@ _OPENED_OR_CLOSED = either(
     ),
     sequence(
         # "which needs opening first"
-        _THAT,
+        THAT,
         either("needs, requires, wants", sequence("will, would", "need, require")),
         _TO_BE_MOVED,
         _AGAIN,
@@ -127,14 +127,14 @@ _OPENED_OR_CLOSED = either(
     ),
     # "which is closed" rather tells which; "which is then closed" asks for it.
     sequence(
-        _THAT,
+        THAT,
         "is",
         either(sequence(_WHEN, _MOVED, _AGAIN), sequence(_MOVED, _AGAIN, _WHEN)),
         build=lambda np, said: _moved(np, *said),
     ),
 )
 _NEEDLESS = sequence(
-    _THAT,
+    THAT,
     either(
         sequence(
             "you (need not|do not (need|have) to)",

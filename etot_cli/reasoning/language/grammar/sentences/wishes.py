@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     some,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
@@ -182,9 +183,7 @@ WANTED = either(
     ),
 )
 _WERE_SO = either(being(verbs.WERE), containing(verbs.CONTAINED))
-WISHED = sequence(
-    small_words.WISH_IF,
-    EMPTY_WORDS,
+_SO_WISHED = sequence(
     _WERE_SO,
     some(
         sequence(
@@ -199,6 +198,19 @@ WISHED = sequence(
         most=5,
     ),
     build=lambda first, more: EnsureClause((first, *more)),
+)
+WISHED = either(
+    sequence(small_words.WISH_IF, EMPTY_WORDS, _SO_WISHED),
+    quiet(
+        sequence(
+            # "As long as the pen is in a cup, I am happy"
+            "if, as long as, so long as, once, when",
+            _SO_WISHED,
+            silent(optional(small_words.BY_THE_END)),
+            COMMA,
+            f"[then] ({small_words.WOULD_BE_NICE}|{small_words.IS_ENOUGH})",
+        )
+    ),
 )
 """How it would be nice for things to be."""
 _THING = "(thing|things|one|ones|object|objects|item|items)"
