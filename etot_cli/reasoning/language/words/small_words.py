@@ -41,7 +41,7 @@ WITHOUT_MEANING = f"""
     at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
-    [and] that is (it|all|everything)
+    [[and] that] is (it|all|everything)
     [[that] (i|we) (ask [for|of you]|want|need|wish|wanted|would like|am asking [for])|
     [that] there is [to it]],
     ~comma (choose|pick|take|use) (whichever|whatever) [one] (you (like|want|prefer|choose|fancy)|

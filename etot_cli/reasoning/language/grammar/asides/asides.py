@@ -307,8 +307,10 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "provided", _:
             return False
         case (("reason" | "meanwhile"), _):
-            reason = is_reason(clause.said, is_name) or goes_there(
-                clause.said, is_name, whose=BEFORE_NAMES
+            reason = (
+                is_reason(clause.said, is_name)
+                or may_befall(clause.said)
+                or goes_there(clause.said, is_name, whose=BEFORE_NAMES)
             )
             return reason and (trailing or (at == 0 and clauses[1:] != []))
         case "comment", "who":

@@ -449,7 +449,7 @@ def _named_until(words: Sequence[str], is_name: IsName) -> int:
 
 def _is_idle(predicate: str, is_name: IsName) -> bool:
     """Whether a predicate is such a one."""
-    if _TOO_BIG.match(predicate):
+    if _TOO_BIG.match(predicate) or _TOO_SO.fullmatch(predicate):
         return True
     predicate = _TOO_SO.sub("is so", _A_BIT.sub("", predicate))
     needed = _NEEDED.match(predicate)

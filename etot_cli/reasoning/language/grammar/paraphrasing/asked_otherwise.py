@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
+from etot_cli.reasoning.language.words.verbs import DOING_OF, PERFORMED
 
 _THERE = r"(?:in|on|inside|into|onto|next to|beside|behind|between|under)\b"
 _ONE = r"(?:the|my|our) (?:(?!and\b|or\b|in\b|on\b|to\b)\w+ ){0,3}?\w+"
@@ -60,6 +61,12 @@ _INCLUDED = Expression(
     rf"(?= (?:and|with|{WHERE})[^,;:]*)[^.;:]*?), (?:the |my )?"
     rf"{_RIDER}(?=[.;!?]|$)"
 )
+
+
+def _as_verb(said: re.Match[str]) -> str:
+    """What is asked for by a noun, by its verb."""
+    doing = DOING_OF.get(said["noun"]) or (PERFORMED.get(said["noun"]) if said["does"] else None)
+    return f"{said[1]}{doing} " if doing else said[0]
 
 
 def _stays(wish: re.Match[str]) -> str:
@@ -134,6 +141,13 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         lambda said: f"{said[1]}{said[3]} should {_HOLD.get(said[4], said[4])} ",
     ),
     (r"\b(turn(?:ed|ing)?|swivel(?:led|ling)?)( (?:it|them))? round\b", r"\1\2 around"),
+    # "The opening of the drawer", "do a pick of the cup"
+    (
+        r"(^|[.;:,!?\n] ?|\b(?:and|then|is|after|before|by|without|with|first) )"
+        r"(?P<does>(?:do|perform|execute|make|attempt|carry out)(?:ing)? (?:an?|one|the) )?"
+        r"(?:the )?(?P<noun>(?!of\b)\w+(?: up| out| and place)?) (?:of|(?<!ing )on) (?=\w)",
+        _as_verb,
+    ),
     # What has to be turned "first" is what goes somewhere, not where that goes
     (
         r"(?:[,;.]|,?(?= but\b| and\b))(?: but| and)? "

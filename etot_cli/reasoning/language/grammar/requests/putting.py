@@ -433,14 +433,6 @@ PUT = either(
         sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away), rather_laid_down
     ),
     sequence(ALL_THINGS, "need[s]", verbs.SET_DOWN, DESTINATIONS, build=put_to),
-    sequence(
-        # "Do a placement of the cup on the tray"
-        either(sequence(verbs.PERFORM, verbs.A_PUT), verbs.PUTTING),
-        "of",
-        THINGS,
-        DESTINATIONS,
-        build=put_to,
-    ),
     LAID_DOWN,
     THROWN,
     INSERTED,
