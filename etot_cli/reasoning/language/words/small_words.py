@@ -66,7 +66,8 @@ WITHOUT_MEANING = f"""
     [whether] (together or (apart|separately)|(apart|separately) or together),
     (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
     (whichever|whatever) [one|of (them|these|the two)]
-    (is (easier|easiest|better|best) [for you]|suits you [best|better]|it is),
+    (is (easier|easiest|better|best) [for you]|suits you [best|better]|it is|
+    [will] (stay|stays|remain|remains) (standing|upright)),
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
     however you (like|can|want), as you (like|wish|prefer|please),
@@ -144,6 +145,7 @@ FROM_HERE = """
 """Before what is to be done; nobody starts from anything else."""
 TASK = f"""
     {ANNOUNCED} ~comma,
+    [this is] what (i|we) (want|need|would like) [to (see|have)] [is (this|the following)] ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
     [the|a] [desired|required|intended]
     (desired|final|goal|target|end|wanted|required|termination|success)

@@ -337,7 +337,12 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             kept = any(item.comma for item in clauses[at + 1 : at + 2]) and is_kept_well(
                 clause.said
             )
-            return (trailing or (kept and at > 0)) and is_purpose(clause.said, is_name, where=where)
+            # "So that you can open it, …" and "so that it stands, …" may ask for that.
+            ahead = at == 0 and clause.joint == "so that" and clauses[1:] != []
+            ahead = ahead and is_of_people(clause.said) and not clause.said.startswith("you ")
+            return (trailing or ahead or (kept and at > 0)) and is_purpose(
+                clause.said, is_name, where=where
+            )
         case "purpose", _:
             return trailing and is_warning(clause.said)
         case "comment", _:

@@ -8,6 +8,7 @@ from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -19,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST,
+    OPTIONAL_COMMA,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import disagrees, said_of_all
@@ -70,7 +72,7 @@ def _borne_by(np: NounPhrase, below: NounPhrase) -> EnsureClause | None:
     return None if vague else EnsureClause((State((np,), (Destination(Toward.ON, (below,)),)),))
 
 
-_EACH = phrase("each, both, all")
+_EACH = one_of({said: f"{said} [of them]" for said in ("each", "both", "all")})
 
 
 def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
@@ -347,6 +349,7 @@ ENSURE = either(
                     "be, go, stand, lie, sit, end up, (be|get) (put|placed|moved)",
                 ),
                 sequence(_EACH, verbs.MODAL),
+                sequence(verbs.MODAL, OPTIONAL_COMMA, _EACH),
             ),
             PREDICATE,
             build=lambda *said: ensured(each_so(*said)),

@@ -50,6 +50,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Modifier,
     NounPhrase,
     Toward,
+    has_choice,
     in_a_stance,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
@@ -329,18 +330,27 @@ destination = Rule(
 _any_of_them = separated(destination, small_words.OR, most=5)
 STANCE = either(phrase(manner.STANDS, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING))
 """How things are to be where they go, before that place."""
+
+
+def _if_several(found: tuple[Destination, ...]) -> tuple[Destination, ...] | None:
+    """Places, one of which is meant."""
+    return found if has_choice(found) else None
+
+
 DESTINATIONS = Rule(
     either(
         _any_of_them,
         sequence(STANCE, _any_of_them, build=in_a_stance),
         sequence(
-            small_words.EITHER, _any_of_them, build=lambda found: found if found[1:] else None
+            small_words.EITHER,
+            _any_of_them,
+            build=_if_several,
         ),
         sequence(
             _any_of_them,
             OPTIONAL_COMMA,
             manner.NOT_BOTH,
-            build=lambda found: found if sum(len(item.targets) for item in found) > 1 else None,
+            build=_if_several,
         ),
     )
 )
