@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from operator import add
 from typing import Any
 
@@ -33,7 +34,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.abreast import ABREAST, ABREAST_SO, EACH_OTHER
 from etot_cli.reasoning.language.grammar.phrases.colors import ONE_OF_A_COLOR
-from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
+from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated, with_noun_of
 from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     BETWEEN,
@@ -327,7 +328,18 @@ destination = Rule(
         ),
     )
 )
-_any_of_them = separated(destination, small_words.OR, most=5)
+
+
+def of_one_noun(found: tuple[Destination, ...]) -> tuple[Destination, ...]:
+    """Places of which the last one's noun is said for all ("in the red or in the blue box")."""
+    *before, last = found
+    if not before or not last.targets:
+        return found
+    lent = (item.going_to(partial(with_noun_of, named=last.targets[-1])) for item in before)
+    return (*lent, last)
+
+
+_any_of_them = sequence(separated(destination, small_words.OR, most=5), build=of_one_noun)
 STANCE = either(phrase(manner.STANDS, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING))
 """How things are to be where they go, before that place."""
 
@@ -457,4 +469,8 @@ _directed = either(
         build=lambda surface, found: replace(surface, beside=found),
     ),
 )
-DIRECTED = sequence(optional(small_words.EITHER), separated(_directed, small_words.OR, most=5))
+DIRECTED = sequence(
+    optional(small_words.EITHER),
+    separated(_directed, small_words.OR, most=5),
+    build=lambda *found: of_one_noun(found[-1]),
+)

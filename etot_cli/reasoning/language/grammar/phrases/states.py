@@ -29,6 +29,7 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import (
     DESTINATIONS,
     WHERE,
     destination,
+    of_one_noun,
 )
 from etot_cli.reasoning.language.grammar.phrases.gapping import other_sides
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
@@ -67,7 +68,8 @@ _NEITHER_THERE = sequence(
     "neither",
     either(
         sequence(
-            separated(destination, "nor", most=3), build=lambda found: found if found[1:] else None
+            separated(destination, "nor", most=3),
+            build=lambda found: of_one_noun(found) if found[1:] else None,
         ),
         # Nothing ever goes there.
         sequence(DESTINATIONS, "nor on the (floor|ground)"),
