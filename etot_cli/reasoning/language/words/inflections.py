@@ -47,7 +47,10 @@ def participles(patterns: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(done for _, _, done in _inflected(patterns)))
 
 
-def gerunds(*patterns: str) -> tuple[str, ...]:
-    """What somebody is doing, of each verb of patterns."""
+def gerunds(*patterns: str) -> dict[str, str]:
+    """Verbs by what somebody does who is at it ("moving")."""
     found = (item for each in patterns for item in _VERB.finditer(each))
-    return tuple(dict.fromkeys(f"{verb['stem']}{verb['doubled'] or ''}ing" for verb in found))
+    return {
+        f"{verb['stem']}{verb['doubled'] or ''}ing": f"{verb['stem']}{verb['e'] or ''}"
+        for verb in found
+    }

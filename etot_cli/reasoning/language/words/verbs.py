@@ -451,19 +451,18 @@ PAST = past_tenses(
     *(REORIENT, TURN, THROW, THROW_AWAY, COVER, UNCOVER),
 )
 """How a wish puts what is to be done ("I'd be glad if you took it out")."""
-DOING_OF = {doing: doing for doing in gerunds(
+DOING_OF = gerunds(
     *(PICK, SHIFT, SET, REMOVE, CLEAR, FILL, STACK, SWAP, OPEN, CLOSE, REORIENT, TURN)
-)} | {
-    "picking up": "picking up", "lifting up": "lifting up", "taking out": "taking out",
-    "closure": "closing", "extraction": "removing", "insertion": "inserting",
-    "placement": "placing", "relocation": "relocating", "removal": "removing",
-    "reorientation": "reorienting", "retrieval": "retrieving", "storage": "storing",
-    "transfer": "transferring", "transport": "transporting",
+) | {
+    "picking up": "pick up", "lifting up": "lift up", "taking out": "take out", "closure": "close",
+    "exchange": "swap", "extraction": "remove", "insertion": "insert", "placement": "place",
+    "relocation": "relocate", "removal": "remove", "reorientation": "reorient",
+    "retrieval": "retrieve", "return": "return", "storage": "store", "transfer": "transfer",
+    "transport": "transport",
 }  # fmt: skip
-"""Nouns for what is done, before "of" ("removal of the cup"), with what that is."""
+"""Nouns for what is done, before "of" ("removal of the cup"), with their verbs."""
 PERFORMED = {
-    "pick": "picking up", "pick up": "picking up", "pickup": "picking up", "grasp": "grasping",
-    "grip": "gripping", "lift": "lifting", "place": "placing", "put": "putting", "move": "moving",
-    "pick and place": "placing",
+    "pick": "pick up", "pick up": "pick up", "pickup": "pick up", "grasp": "grasp", "grip": "grip",
+    "lift": "lift", "place": "place", "put": "put", "move": "move", "pick and place": "place",
 }  # fmt: skip
 """Likewise, where it is performed ("do a pick of the cup"); else they name places and the like."""

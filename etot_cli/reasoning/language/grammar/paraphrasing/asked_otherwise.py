@@ -65,8 +65,12 @@ _INCLUDED = Expression(
 
 def _as_verb(said: re.Match[str]) -> str:
     """What is asked for by a noun, by its verb."""
-    doing = DOING_OF.get(said["noun"]) or (PERFORMED.get(said["noun"]) if said["does"] else None)
-    return f"{said[1]}{doing} " if doing else said[0]
+    verb = DOING_OF.get(said["noun"]) or (PERFORMED.get(said["noun"]) if said["does"] else None)
+    if not verb:
+        return said[0]
+    wish = said["who"] and f"{said['who']} want you to"
+    when = said["when"] and f"{said['when']} you"
+    return f"{said['ahead'] or ''}{wish or when or (said['is'] and 'is to') or ''} {verb} ".lstrip()
 
 
 def _stays(wish: re.Match[str]) -> str:
@@ -143,7 +147,8 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     (r"\b(turn(?:ed|ing)?|swivel(?:led|ling)?)( (?:it|them))? round\b", r"\1\2 around"),
     # "The opening of the drawer", "do a pick of the cup"
     (
-        r"(^|[.;:,!?\n] ?|\b(?:and|then|is|after|before|by|without|with|first) )"
+        r"(?:(?P<ahead>^|[.;:,!?\n] ?|\b(?:and|then|first) )|\b(?P<when>after|before) "
+        r"|\b(?P<is>is) |\b(?P<who>i|we) (?:want|need|would like|request|ask for) )"
         r"(?P<does>(?:do|perform|execute|make|attempt|carry out)(?:ing)? (?:an?|one|the) )?"
         r"(?:the )?(?P<noun>(?!of\b)\w+(?: up| out| and place)?) (?:of|(?<!ing )on) (?=\w)",
         _as_verb,
