@@ -225,7 +225,9 @@ FRAMES = f"""
     (the|your) (task|goal|job|aim) is to, your task is,
     (all|what|the only thing) ([that] you (have|need) to do|
     [that] (i|we) (want|need|would like) you to do|[[that] there is] to do) is [to],
-    i [only] (want|need|would like|d like) you to,
+    (all|what|the only thing) [that] (i|we) [really|just|only]
+    (want|need|would like|ask [for|of you]) is (to|for you to|that you),
+    (i|we) [only] (want|need|would like|d like) you to,
     i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
     (find|work out|figure out|think of|come [up] with) (a|some|any) way (to|of),
     (work|figure|find) out how to,
