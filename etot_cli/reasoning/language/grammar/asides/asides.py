@@ -310,6 +310,8 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             reason = (
                 is_reason(clause.said, is_name)
                 or may_befall(clause.said)
+                or lacks_room(clause.said)
+                or bool(told_of_thing(clause.said, is_name))
                 or goes_there(clause.said, is_name, whose=BEFORE_NAMES)
             )
             return reason and (trailing or (at == 0 and clauses[1:] != []))
