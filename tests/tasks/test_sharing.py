@@ -293,6 +293,26 @@ def test_what_made_room_in_a_drawer_comes_back_and_leaves_that_open(
     stands_open: bool, seed: int, tmp_path: Path
 ) -> None:
     """It stands open and nobody speaks of that, or it is to be open."""
+    report = bar_and_ball([] if stands_open else [{"open": "chest"}], stands_open, seed, tmp_path)
+    assert sum("bar" in action for action in report.plan) == 2, "it made room"
+    assert "[CLOSE, chest]" not in report.plan
+    assert len(report.plan) == 6 + (not stands_open)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("stands_open", [False, True])
+def test_what_leans_in_a_drawer_that_does_not_close_gets_another_place(
+    stands_open: bool, seed: int, tmp_path: Path
+) -> None:
+    """Beside the ball in the middle the bar finds no floor, and keeps the drawer from closing."""
+    report = bar_and_ball([{"closed": "chest"}], stands_open, seed, tmp_path)
+    assert any("bar blocks it" in node.cause.text for node in report.tree.nodes if node.cause)
+    assert report.plan[-1] == "[CLOSE, chest]"
+
+
+def bar_and_ball(door: list[Any], stands_open: bool, seed: int, tmp_path: Path) -> PlanReport:
+    """Both are to be in a drawer that just takes them, the bar is in its middle."""
     y, travel = random.Random(seed).uniform(0.25, 0.27), 0.14
     unit = chest(y, 0.20)
     unit["size"] = [0.20, 0.16, 0.10]
@@ -306,9 +326,6 @@ def test_what_made_room_in_a_drawer_comes_back_and_leaves_that_open(
         "ball": {"kind": "sphere", "diameter": 0.072, "at": [0.44, -0.18], "mass": 0.035},
     }  # fmt: skip
     goal: list[Any] = [{"inside": [name, "chest"]} for name in ("bar", "ball")]
-    goal += [] if stands_open else [{"open": "chest"}]
-    report = planned("room_in_a_drawer", goal, objects, tmp_path)
+    report = planned("room_in_a_drawer", goal + door, objects, tmp_path)
     assert report.success is not None and report.success.holds
-    assert sum("bar" in action for action in report.plan) == 2, "it made room"
-    assert "[CLOSE, chest]" not in report.plan
-    assert len(report.plan) == 6 + (not stands_open)
+    return report

@@ -104,7 +104,9 @@ class _Way(NamedTuple):
 
 
 class _Candidate(NamedTuple):
-    """A branch, the parts that its insertions leave open, what it must not do, and what of."""
+    """A branch, the parts that its insertions leave open, what it must not do, and the way that it
+    follows.
+    """
 
     branch: Branch
     left_open: frozenset[str]

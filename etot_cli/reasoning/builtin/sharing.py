@@ -12,7 +12,6 @@ from etot_cli.reasoning.builtin.relations import (
     bearers,
     contents,
     enclosing,
-    is_inside,
     radius,
 )
 from etot_cli.reasoning.builtin.relocation import Correction, relocated
@@ -81,7 +80,8 @@ def _point_of(put: Action) -> tuple[float, float] | None:
 
 
 def lowered(failed: FailedStep, placed: int, name: str, part: PartInfo) -> Iterator[Correction]:
-    """The branch without what an object that it puts into a part comes to stand on in there.
+    """The branch without what an object that it puts into a part comes to stand on in there, or
+    leans on, which nothing tells apart from what lies beside it.
 
     Args:
         failed: the failed step, in which the object blocks the part.
@@ -91,9 +91,9 @@ def lowered(failed: FailedStep, placed: int, name: str, part: PartInfo) -> Itera
     """
     actions, scene = failed.branch.actions, failed.record.before
     wanted = owner_of(actions[placed + 1].target)
-    for under in sorted(bearers(scene, name) - {wanted}):
-        if not is_inside(scene, under, part.address):
-            continue
+    there = [other for other in contents(scene, part.address) if other != name]
+    bearing = bearers(scene, name) - {wanted}
+    for under in sorted(bearing.intersection(there)) or there:
         if placed_by(actions, under, placed) is None:
             yield from relocated(failed, under, None, placed)
         else:
