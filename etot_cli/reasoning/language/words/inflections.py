@@ -1,4 +1,4 @@
-"""Past tenses and participles of verbs, from the patterns that they are listed in.
+"""Past tenses, participles and gerunds of verbs, from the patterns that they are listed in.
 
 A pattern says how its verb takes an ending ("grab[bing]", "mov(e|ing)"), which is how it takes that
 of the past, too; verbs of other forms are told one by one.
@@ -45,3 +45,12 @@ def past_tenses(*patterns: str) -> dict[str, str]:
 def participles(patterns: str) -> tuple[str, ...]:
     """What has been done, of each verb of patterns."""
     return tuple(dict.fromkeys(done for _, _, done in _inflected(patterns)))
+
+
+def gerunds(*patterns: str) -> dict[str, str]:
+    """Verbs by what somebody does who is at it ("moving")."""
+    found = (item for each in patterns for item in _VERB.finditer(each))
+    return {
+        f"{verb['stem']}{verb['doubled'] or ''}ing": f"{verb['stem']}{verb['e'] or ''}"
+        for verb in found
+    }

@@ -166,10 +166,12 @@ IS_LEFT = """
     (there|here|put|where (it is|they are)|as (it is|they are)) [~comma]
 """
 ANYHOW = """
+    one in each if (need be|necessary|needed|you (like|must|want)),
     [both|all] in (one|one of them|the same one) or [in] one [of them] in each,
     one in each or [both|all] in (one|one of them|the same one),
     [either] [both] together or (separately|apart|individually|one by one),
-    [either] (separately|apart|individually) or together, in any combination
+    [either] (separately|apart|individually) or together,
+    in (any|whichever|whatever) combination [you (like|want)|[that] (works|fits|suits you) [best]]
 """
 TOGETHER = "[all|both] together, [all|both] (in|on) the same (one|place)"
 SEPARATELY = """

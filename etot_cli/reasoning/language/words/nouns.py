@@ -40,7 +40,9 @@ EXCEPT = """
     aside from, save [for], bar, barring,
     [in|of] any (color|colour) (except|but|other than|apart from)
 """
-CONTRAST = "not, just not, only not, and not, but not, rather than, instead of, as opposed to"
+CONTRAST = """
+    not, just not, only not, (and|but|though|although) not, rather than, instead of, as opposed to
+"""
 """Before what is not meant, behind what is."""
 AS_YOU_LIKE = """
     [that|which] you (like|want|prefer|wish|please|choose),

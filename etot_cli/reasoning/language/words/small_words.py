@@ -42,7 +42,7 @@ WITHOUT_MEANING = f"""
     at the moment, at present, for now,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
-    [and] that is (it|all|everything) [{_I_ASK}|[that] there is [to it]], is all {_I_ASK},
+    [[and] that] is (it|all|everything) [{_I_ASK}|[that] there is [to it]],
     ~comma (choose|pick|take|use) (whichever|whatever) [one] (you (like|want|prefer|choose|fancy)|
     suits you [best]|is (easier|easiest|best)),
     [just|simply] choose (whichever|whatever) [one] (you (like|want|prefer|fancy)|suits you),
@@ -65,7 +65,8 @@ WITHOUT_MEANING = f"""
     [whether] (together or (apart|separately)|(apart|separately) or together),
     (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
     (whichever|whatever) [one|of (them|these|the two)]
-    (is (easier|easiest|better|best) [for you]|suits you [best|better]|it is),
+    (is (easier|easiest|better|best) [for you]|suits you [best|better]|it is|
+    [will] (stay|stays|remain|remains) (standing|upright)),
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
     however you (like|can|want), as you (like|wish|prefer|please),
@@ -147,6 +148,7 @@ FROM_HERE = """
 """Before what is to be done; nobody starts from anything else."""
 TASK = f"""
     {ANNOUNCED} ~comma,
+    [this is] what (i|we) (want|need|would like) [to (see|have)] [is (this|the following)] ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
     [the|a] [desired|required|intended]
     (desired|final|goal|target|end|wanted|required|termination|success)
@@ -234,7 +236,9 @@ FRAMES = f"""
     (the|your) (task|goal|job|aim) is to, your task is,
     (all|what|the only thing) ([that] you (have|need) to do|
     [that] (i|we) (want|need|would like) you to do|[[that] there is] to do) is [to],
-    i [only] (want|need|would like|d like) you to,
+    (all|what|the only thing) [that] (i|we) [really|just|only]
+    (want|need|would like|ask [for|of you]) is (to|for you to|that you),
+    (i|we) [only] (want|need|would like|d like) you to,
     i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
     (find|work out|figure out|think of|come [up] with) (a|some|any) way (to|of),
     (work|figure|find) out how to,

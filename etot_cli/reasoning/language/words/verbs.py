@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.words.inflections import participles, past_tenses
+from etot_cli.reasoning.language.words.inflections import gerunds, participles, past_tenses
 
 PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
@@ -46,13 +46,6 @@ PERFORM = """
     do, doing, perform[ing], execut(e|ing), mak(e|ing), attempt[ing], (carry|carrying) out,
     appl(y|ying)
 """
-A_PICK = "(a|one|the) (pick [up]|pickup|grasp|grip|lift)"
-A_PUT = """
-    (a|an|one|the) (place|placement|placing|put|pick and place|insertion|transfer|relocation|move)
-"""
-"""What is performed on a thing ("do a pick of the cup")."""
-PUTTING = "[the] (placement|placing|insertion|transfer|relocation)"
-"""Likewise, as a heading ("placement of the cup on the tray")."""
 OUT_OF_THE_WAY = """
     (is|are) [safely] (out of the way|no longer in the way|not in the way [any more]|to one side),
     (is|are|has been|have been) [safely] (moved|put|set|taken|brought|cleared|pushed)
@@ -458,3 +451,18 @@ PAST = past_tenses(
     *(REORIENT, TURN, THROW, THROW_AWAY, COVER, UNCOVER),
 )
 """How a wish puts what is to be done ("I'd be glad if you took it out")."""
+DOING_OF = gerunds(
+    *(PICK, SHIFT, SET, REMOVE, CLEAR, FILL, STACK, SWAP, OPEN, CLOSE, REORIENT, TURN)
+) | {
+    "picking up": "pick up", "lifting up": "lift up", "taking out": "take out", "closure": "close",
+    "exchange": "swap", "extraction": "remove", "insertion": "insert", "placement": "place",
+    "relocation": "relocate", "removal": "remove", "reorientation": "reorient",
+    "retrieval": "retrieve", "return": "return", "storage": "store", "transfer": "transfer",
+    "transport": "transport",
+}  # fmt: skip
+"""Nouns for what is done, before "of" ("removal of the cup"), with their verbs."""
+PERFORMED = {
+    "pick": "pick up", "pick up": "pick up", "pickup": "pick up", "grasp": "grasp", "grip": "grip",
+    "lift": "lift", "place": "place", "put": "put", "move": "move", "pick and place": "place",
+}  # fmt: skip
+"""Likewise, where it is performed ("do a pick of the cup"); else they name places and the like."""

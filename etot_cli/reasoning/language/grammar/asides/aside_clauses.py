@@ -25,7 +25,8 @@ from etot_cli.reasoning.language.words.small_words import (
 _DOING = "|".join(sorted(VERB_WORDS | {"open", "close", "shut"}))
 _WITHIN = Expression(
     r"(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
-    r"|(?P<reason>because|since|now that|although|even though|even if|in case"
+    r"|(?P<reason>because|since|now that|given that|seeing (?:as|that)|considering that"
+    r"|although|even though|even if|in case"
     rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
     rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
     rf"|before(?= {BEFORE_IT_DOES}(?:$| {COMMA}))|or(?= (?:{PEOPLE}|it|they) \w+)"

@@ -311,8 +311,12 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "provided", _:
             return False
         case (("reason" | "meanwhile"), _):
-            reason = is_reason(clause.said, is_name) or goes_there(
-                clause.said, is_name, whose=BEFORE_NAMES
+            reason = (
+                is_reason(clause.said, is_name)
+                or may_befall(clause.said)
+                or lacks_room(clause.said)
+                or bool(told_of_thing(clause.said, is_name))
+                or goes_there(clause.said, is_name, whose=BEFORE_NAMES)
             )
             return reason and (trailing or (at == 0 and clauses[1:] != []))
         case "comment", "who":
@@ -339,7 +343,12 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             kept = any(item.comma for item in clauses[at + 1 : at + 2]) and is_kept_well(
                 clause.said
             )
-            return (trailing or (kept and at > 0)) and is_purpose(clause.said, is_name, where=where)
+            # "So that you can open it, …" and "so that it stands, …" may ask for that.
+            ahead = at == 0 and clause.joint == "so that" and clauses[1:] != []
+            ahead = ahead and is_of_people(clause.said) and not clause.said.startswith("you ")
+            return (trailing or ahead or (kept and at > 0)) and is_purpose(
+                clause.said, is_name, where=where
+            )
         case "purpose", _:
             return trailing and is_warning(clause.said)
         case "comment", _:

@@ -71,11 +71,11 @@ _NEAR = r"(?:close to|near(?: to)?|by|at|on)"
 _MISPLACED = Expression(
     rf"(?:(?:{I_SAY}) )?(?!.*\b(?:not|never|must|should|may|can|that)\b){_thing('k')} "
     rf"{_STANDING}{_VERY} "
-    r"(?:too (?:close|near|far)(?: \w+)*"
+    r"(?:too \w+(?: \w+)*"
     rf"|(?:right|almost|nearly|dangerously|precariously|very|too) {_NEAR} the (?:very )?"
     r"(?:edge|rim|border|brink)(?: of (?:the|my|our) \w+)?)(?P<l>)"
 )
-"""Where something is not to be left."""
+"""Where something is not to be left, or for what it is too big."""
 _MOVED_NEXT = Expression(
     r"(?:(?:please|but|and|so|just|rather|instead|then|(?:can|could|would|will) you) )*"
     r"(?:open|close|shut) (?:it|them|that)\b(?! one\b)"
@@ -94,7 +94,7 @@ def dislikes(said: str) -> bool:
 
 
 def is_misplaced(said: str) -> bool:
-    """Whether a clause tells where something is not to be left."""
+    """Whether a clause tells where something is not to be left, or for what it is not fit."""
     return bool(_MISPLACED.fullmatch(said))
 
 

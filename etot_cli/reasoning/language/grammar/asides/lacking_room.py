@@ -13,7 +13,7 @@ _ROOM = (
 )
 _WHERE = (
     r"(?: (?:left|to (?:work|write|cook|eat|play|breathe)|(?:over |in )?here|there|now"
-    r"|(?:in|on|for) (?:the|a|an|my|our|this|some|another) (?:\w+ )?\w+"
+    r"|(?:in|on|for) (?:the|a|an|my|our|this|some|another) (?:\w+ ){0,2}?\w+"
     r"|for (?:something|other things|more things|(?:something|anything) else|\w+ing)))*"
 )
 _LACKING = Expression(

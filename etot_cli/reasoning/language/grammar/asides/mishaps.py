@@ -25,7 +25,13 @@ BEFALLS = (
 )
 """As a regular expression, behind what it happens to."""
 _THING = r"(?:it|they|something|anything|(?:the|my|our) (?:\w+ )?\w+)"
-THING_WILL = rf"{_THING} (?:will|might|may|could|is going to|are going to) (?:{BEFALLS})"
+_MIGHT = r"(?:will|would|might|may|could|can|is going to|are going to)"
+_KNOCKED = (
+    r"(?:hit|struck|swept|knocked|pushed|dragged|bumped|caught|crushed|squashed|damaged|broken)"
+    r"(?: (?:off|over|down|away|out)(?: of)?(?: (?:the|my|our) (?:\w+ )?\w+)?)?"
+    r"(?: by (?:it|(?:the|my|our) (?:\w+ )?\w+))?"
+)
+THING_WILL = rf"{_THING} {_MIGHT} (?:{BEFALLS}|(?:be|get) {_KNOCKED})"
 """What is only told of things: nobody asks for that, nor for the contrary alone."""
 BEFORE_IT_DOES = rf"{_THING} (?:{BEFALLS})"
 _FULL = Expression(rf"(?:{BEFORE_IT_DOES}|{THING_WILL})")
@@ -36,11 +42,18 @@ def befalls(said: str) -> bool:
     return bool(_FULL.fullmatch(said))
 
 
-_WILL = Expression(THING_WILL)
+_WILL = Expression(
+    rf"{THING_WILL}|{_THING} {_MIGHT} (?:hit|strike|sweep|knock|push|drag|bump into|catch|crush"
+    r"|squash|damage|break) (?:it|them|(?:the|my|our) (?:\w+ )??\w+)"
+    r"(?: (?:off|over|down|away|out)(?: of)?(?: (?:the|my|our) (?:\w+ )?\w+)?)?"
+    rf"|{_THING} can not (?:yet )?be (?:reached|seen|found|got at|gripped|grasped|lifted)"
+)
 
 
 def may_befall(said: str) -> bool:
-    """Whether a clause tells what might happen to a thing by itself ("the cup might fall")."""
+    """Whether a clause tells what might happen to a thing that nobody asks for ("it might fall",
+    "the door would hit it").
+    """
     return bool(_WILL.fullmatch(said))
 
 

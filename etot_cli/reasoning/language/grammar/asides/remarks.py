@@ -341,8 +341,16 @@ def is_comment(said: str, is_name: IsName) -> bool:
 _YOU_DO = Expression(r"^you (?:then )?(\w+)")
 
 
+_IS_OPEN = Expression(
+    rf"(?:it|they|{_THING}) (?:is|are|stands?)(?: (?:still|already|now|currently|just|wide|half))* "
+    r"(?:open|closed|shut|ajar)"
+)
+
+
 def is_reason(said: str, is_name: IsName) -> bool:
     """Whether this may stand behind "because" and asks for nothing itself."""
+    if _IS_OPEN.fullmatch(said):
+        return True
     said = _GONE_WRONG.sub(" fails", said)
     words = {*said.split()}
     asked = _YOU_DO.match(said)  # "even if you have to move it" asks for nothing
@@ -458,7 +466,7 @@ def _named_until(words: Sequence[str], is_name: IsName) -> int:
 
 def _is_idle(predicate: str, is_name: IsName) -> bool:
     """Whether a predicate is such a one."""
-    if _TOO_BIG.match(predicate):
+    if _TOO_BIG.match(predicate) or _TOO_SO.fullmatch(predicate):
         return True
     predicate = _TOO_SO.sub("is so", _A_BIT.sub("", predicate))
     needed = _NEEDED.match(predicate)

@@ -72,7 +72,7 @@ def _borne_by(np: NounPhrase, below: NounPhrase) -> EnsureClause | None:
     return None if vague else EnsureClause((State((np,), (Destination(Toward.ON, (below,)),)),))
 
 
-_EACH = phrase("each, both, all")
+_EACH = one_of({said: f"{said} [of them]" for said in ("each", "both", "all")})
 
 
 def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
@@ -356,6 +356,7 @@ ENSURE = either(
                     f"[[meant|supposed] to] (be|go|stand|lie|sit|end up|(be|get) ({verbs.DONE}))",
                 ),
                 sequence(_EACH, verbs.MODAL),
+                sequence(verbs.MODAL, OPTIONAL_COMMA, _EACH),
             ),
             PREDICATE,
             build=lambda *said: ensured(each_so(*said)),

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
+from etot_cli.reasoning.language.words.verbs import DOING_OF, PERFORMED
 
 _THERE = r"(?:in|on|inside|into|onto|next to|beside|behind|between|under)\b"
 _ONE = r"(?:the|my|our) (?:(?!and\b|or\b|in\b|on\b|to\b)\w+ ){0,3}?\w+"
@@ -66,6 +67,16 @@ _INCLUDED = Expression(
     rf"(?:, {_RIDER},(?= {WHERE})([^.,;:]*)|(?= (?:and|with|{WHERE})[^,;:]*)([^.;:]*?), {_RIDER})"
     r"(?=[.,;!?]|$)"
 )
+
+
+def _as_verb(said: re.Match[str]) -> str:
+    """What is asked for by a noun, by its verb."""
+    verb = DOING_OF.get(said["noun"]) or (PERFORMED.get(said["noun"]) if said["does"] else None)
+    if not verb:
+        return said[0]
+    wish = said["who"] and f"{said['who']} want you to"
+    when = said["when"] and f"{said['when']} you"
+    return f"{said['ahead'] or ''}{wish or when or (said['is'] and 'is to') or ''} {verb} ".lstrip()
 
 
 def _stays(wish: re.Match[str]) -> str:
@@ -142,6 +153,14 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         lambda said: f"{said[1]}{said[3]} should {_HOLD.get(said[4], said[4])} ",
     ),
     (r"\b(turn(?:ed|ing)?|swivel(?:led|ling)?)( (?:it|them))? round\b", r"\1\2 around"),
+    # "The opening of the drawer", "do a pick of the cup"
+    (
+        r"(?:(?P<ahead>^|[.;:,!?\n] ?|\b(?:and|then|first) )|\b(?P<when>after|before) "
+        r"|\b(?P<is>is) |\b(?P<who>i|we) (?:want|need|would like|request|ask for) )"
+        r"(?P<does>(?:do|perform|execute|make|attempt|carry out)(?:ing)? (?:an?|one|the) )?"
+        r"(?:the )?(?P<noun>(?!of\b)\w+(?: up| out| and place)?) (?:of|(?<!ing )on) (?=\w)",
+        _as_verb,
+    ),
     # What has to be turned "first" is what goes somewhere, not where that goes
     (
         r"(?:[,;.]|,?(?= but\b| and\b))(?: but| and)? "

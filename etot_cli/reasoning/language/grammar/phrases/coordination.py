@@ -53,6 +53,14 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
     return tuple(found)
 
 
+def with_noun_of(np: NounPhrase, named: NounPhrase) -> NounPhrase:
+    """A noun phrase that leaves its noun to another one ("in the red or in the blue box")."""
+    first, *noun = "_".join(named.words).split("_")  # labels of several words are joined
+    bare = np.determiner == "the" and np.words and not np.modifiers and np.head not in COMMON_NOUNS
+    told = all(is_descriptive(word) or word in LEVELS for word in (first, *np.words))
+    return replace(np, words=(*np.words, noun[-1])) if noun and bare and told else np
+
+
 def of_each(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
     """In "the contents of the red bowl and the blue bowl" and "the blocks in the red bowl and the
     blue bowl" what is in each of the bowls; None where the last ones are no such places.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from operator import add
 from typing import Any
 
@@ -33,7 +34,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.abreast import ABREAST, ABREAST_SO, EACH_OTHER
 from etot_cli.reasoning.language.grammar.phrases.colors import ONE_OF_A_COLOR
-from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
+from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated, with_noun_of
 from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEVEL, NEXT_LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     BETWEEN,
@@ -50,6 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Modifier,
     NounPhrase,
     Toward,
+    has_choice,
     in_a_stance,
 )
 from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
@@ -326,21 +328,41 @@ destination = Rule(
         ),
     )
 )
-_any_of_them = separated(destination, small_words.OR, most=5)
+
+
+def of_one_noun(found: tuple[Destination, ...]) -> tuple[Destination, ...]:
+    """Places of which the last one's noun is said for all ("in the red or in the blue box")."""
+    *before, last = found
+    if not before or not last.targets:
+        return found
+    lent = (item.going_to(partial(with_noun_of, named=last.targets[-1])) for item in before)
+    return (*lent, last)
+
+
+_any_of_them = sequence(separated(destination, small_words.OR, most=5), build=of_one_noun)
 STANCE = either(phrase(manner.STANDS, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING))
 """How things are to be where they go, before that place."""
+
+
+def _if_several(found: tuple[Destination, ...]) -> tuple[Destination, ...] | None:
+    """Places, one of which is meant."""
+    return found if has_choice(found) else None
+
+
 DESTINATIONS = Rule(
     either(
         _any_of_them,
         sequence(STANCE, _any_of_them, build=in_a_stance),
         sequence(
-            small_words.EITHER, _any_of_them, build=lambda found: found if found[1:] else None
+            small_words.EITHER,
+            _any_of_them,
+            build=_if_several,
         ),
         sequence(
             _any_of_them,
             OPTIONAL_COMMA,
             manner.NOT_BOTH,
-            build=lambda found: found if sum(len(item.targets) for item in found) > 1 else None,
+            build=_if_several,
         ),
     )
 )
@@ -447,4 +469,8 @@ _directed = either(
         build=lambda surface, found: replace(surface, beside=found),
     ),
 )
-DIRECTED = sequence(optional(small_words.EITHER), separated(_directed, small_words.OR, most=5))
+DIRECTED = sequence(
+    optional(small_words.EITHER),
+    separated(_directed, small_words.OR, most=5),
+    build=lambda *found: of_one_noun(found[-1]),
+)

@@ -25,7 +25,12 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, WHERE
+from etot_cli.reasoning.language.grammar.phrases.destinations import (
+    DESTINATIONS,
+    WHERE,
+    destination,
+    of_one_noun,
+)
 from etot_cli.reasoning.language.grammar.phrases.gapping import other_sides
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutGroup
@@ -59,6 +64,18 @@ _NOT_SO = sequence(
     silent(optional("anymore, any more, any longer")),
     build=lambda found: ("not", found),
 )
+_NEITHER_THERE = sequence(
+    "neither",
+    either(
+        sequence(
+            separated(destination, "nor", most=3),
+            build=lambda found: of_one_noun(found) if found[1:] else None,
+        ),
+        # Nothing ever goes there.
+        sequence(DESTINATIONS, "nor on the (floor|ground)"),
+    ),
+    build=lambda found: ("not", found),
+)
 
 
 _STILL_SO = sequence("still", WHERE, build=lambda where: ("still", where))
@@ -76,6 +93,7 @@ PREDICATE = either(
     IS_OPEN_OR_CLOSED,
     IN_HAND,
     _NOT_SO,
+    _NEITHER_THERE,
     sequence(optional(sequence("out of the way", OPTIONAL_COMMA)), WHERE),
     _STILL_SO,
 )

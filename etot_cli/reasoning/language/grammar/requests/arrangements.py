@@ -250,11 +250,17 @@ REORIENT = either(
     ),
 )
 _STILL_ERECT = sequence(
-    silent(optional("still, kept, left, both, all, staying, remaining")),
-    manner.ERECT,
-    silent(optional(small_words.BY_THE_END)),
+    silent(
+        either(
+            sequence(
+                optional("still, kept, left, both, all, staying, remaining"), phrase(manner.ERECT)
+            ),
+            phrase("(still|left|both|all) standing"),
+        )
+    ),
+    silent(optional(f"{small_words.BY_THE_END}, {small_words.ALL_ALONG}")),
 )
-STANDING_BESIDES = sequence("with", ALL_THINGS, _STILL_ERECT, build=_standing)
+STANDING_BESIDES = sequence(optional("with"), ALL_THINGS, _STILL_ERECT, build=_standing)
 STAYING_UPRIGHT = sequence(ALL_THINGS, f"{verbs.BE}, {verbs.STAY}", _STILL_ERECT, build=_standing)
 """Which others stand upright, behind what is asked for (", with the cup upright")."""
 STANDS_UP = either(

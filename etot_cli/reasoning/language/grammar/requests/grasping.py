@@ -302,9 +302,11 @@ _WHETHER = sequence(
     either(
         sequence(f"you [are to|should] ({verbs.PICK}|{_COME_AT})", THINGS, optional("up")),
         sequence(
-            f"(it|{verbs.THE_ROBOT}) (grasps|grips|grabs|holds|takes|lifts|picks up|approaches)",
+            f"(it|{verbs.THE_ROBOT}) "
+            "(grasps|grips|grabs|holds|takes|lifts|picks up|approaches|(comes|goes) (at|for))",
             THINGS,
         ),
+        sequence(f"(you|it|{verbs.THE_ROBOT}) (come|comes) [in|down]", build=lambda: _IT),
         sequence(
             ALL_THINGS, f"(is|are|gets|get) ({_BY_THE_HAND}|approached|picked up|taken|lifted)"
         ),

@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import (
     ONTO,
     ONWARD,
     RECEIVER,
+    WHERE,
 )
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
@@ -239,8 +240,8 @@ _COMES_AND_GOES = """
 PUT = either(
     AS_MANY,
     PUT_ON_COLOR,
-    sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, DESTINATIONS, build=put_to),
-    sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, DESTINATIONS, build=put_to),
+    sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, WHERE, build=put_to),
+    sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, WHERE, build=put_to),
     sequence(
         either(
             sequence(verbs.FIND, places.A_SAFE_PLACE, "for", THINGS),
@@ -257,7 +258,7 @@ PUT = either(
         THINGS,
         build=lambda where, things: put_to(things, where),
     ),
-    sequence(ALL_THINGS, _NEEDS_A_PLACE, DESTINATIONS, build=put_to),
+    sequence(ALL_THINGS, _NEEDS_A_PLACE, WHERE, build=put_to),
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(verbs.WANTED, CHOICE, optional("to be"), DESTINATIONS, build=put_to),
     sequence(
@@ -433,14 +434,6 @@ PUT = either(
         sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away), rather_laid_down
     ),
     sequence(ALL_THINGS, "need[s]", verbs.SET_DOWN, DESTINATIONS, build=put_to),
-    sequence(
-        # "Do a placement of the cup on the tray"
-        either(sequence(verbs.PERFORM, verbs.A_PUT), verbs.PUTTING),
-        "of",
-        THINGS,
-        DESTINATIONS,
-        build=put_to,
-    ),
     LAID_DOWN,
     THROWN,
     INSERTED,

@@ -82,26 +82,11 @@ PICK = sequence(
 )
 
 
-def _performed(things: Things, after: Any) -> PickClause:
-    return PickClause(things, tuple(dict.fromkeys(after or ())))
-
-
 NEEDED = either(
     sequence(ALL_THINGS, "need[s]", verbs.PICK, optional("up"), build=PickClause),
     sequence(ALL_THINGS, "need[s]", verbs.REMOVE, optional(SOURCE, None), build=RemoveClause),
 )
 """What a thing "needs" ("the cup needs picking up")."""
-PERFORMED = quiet(
-    sequence(
-        verbs.PERFORM,
-        verbs.A_PICK,
-        "of, on",
-        THINGS,
-        optional(GRASPED, None),
-        build=_performed,
-    )
-)
-"""What is asked for by a noun ("do a pick of the cup from above")."""
 HAND_OVER = quiet(
     sequence(
         f"hand[ing], giv(e|ing), pass[ing], {verbs.FETCH}",

@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Things,
     Toward,
+    has_choice,
     stance_in,
 )
 from etot_cli.reasoning.language.words import manner, verbs
@@ -281,7 +282,7 @@ def _said(node: object) -> Iterator[str]:
         case State(kept=kept, word=word, subjects=subjects, destinations=where, always=always):
             yield from ("all",) if always else ()
             yield from ("empty", "any", "other", _DENIAL) if node.alone else ()
-            yield from ("either",) if sum(not item.denied for item in where) > 1 else ()
+            yield from ("either",) if has_choice(w for w in where if not w.denied) else ()
             each = len(subjects) > 1 or subjects[0].determiner.split()[:1] in (["both"], ["all"])
             yield from ("both", "each", "all") if each else ()
             yield from (_canonical(word), *((_DENIAL,) if kept else ()))

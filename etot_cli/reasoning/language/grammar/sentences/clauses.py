@@ -61,7 +61,6 @@ from etot_cli.reasoning.language.grammar.requests.reaching import REACHED
 from etot_cli.reasoning.language.grammar.requests.taking import (
     HAND_OVER,
     NEEDED,
-    PERFORMED,
     PICK,
     REMOVE,
 )
@@ -204,7 +203,6 @@ _ASKED = Rule(
             AGAIN,
             FILL,
             HAND_OVER,
-            PERFORMED,
             NEEDED,
             sequence(_NOT_MEANWHILE, HOLD),
             WISHED,

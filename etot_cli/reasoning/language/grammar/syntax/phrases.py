@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -191,6 +191,11 @@ class State:
     always: bool = False
     allowed: bool = False
     alone: bool = False
+
+
+def has_choice(where: Iterable[Destination]) -> bool:
+    """Whether one of several places is meant ("in the box or on it", "in the red or blue box")."""
+    return sum(max(len(item.targets), 1) for item in where) > 1
 
 
 def in_a_stance(stance: Nearby, where: tuple[Destination, ...]) -> tuple[Destination, ...] | None:
