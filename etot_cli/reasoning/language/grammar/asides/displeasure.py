@@ -71,7 +71,7 @@ _NEAR = r"(?:close to|near(?: to)?|by|at|on)"
 _MISPLACED = Expression(
     rf"(?:(?:{I_SAY}) )?(?!.*\b(?:not|never|must|should|may|can|that)\b){_thing('k')} "
     rf"{_STANDING}{_VERY} "
-    r"(?:too \w+(?: \w+)*"
+    r"(?:too (?:(?:close|near|far)(?: \w+)*|\w+ (?:for|to) \w+(?: \w+)*)"
     rf"|(?:right|almost|nearly|dangerously|precariously|very|too) {_NEAR} the (?:very )?"
     r"(?:edge|rim|border|brink)(?: of (?:the|my|our) \w+)?)(?P<l>)"
 )

@@ -254,6 +254,7 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?=(?:again|after|afterwards|when|once|in the end)\b|{_END})",
         r"\1\2close it ",
     ),
+    (r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)close up" + _END, r"\1\2close it"),
     # Nothing else is to be done; "only want the cup on the tray" may be: nothing else there
     (
         rf"\b(i|we) only (want|need) (?=you to\b|{NAMED} (?:\w+ )?\w+ (?:closed|shut|open)\b)",
