@@ -1930,3 +1930,17 @@ def wool_table() -> SceneState:
         item("glue_stick", "cylinder", (0.34, -0.02), size=(0.03, 0.03, 0.1), label="glue stick"),
         item("book", "box", (0.42, -0.34), size=(0.22, 0.18, 0.02), color="purple"),
     )  # fmt: skip
+
+
+def coded_bench() -> SceneState:
+    """Things whose names have the colour, the size or the side behind the noun."""
+    return scene(
+        item("block_red", "box", (0.42, 0.18), size=CUBE, color="red"),
+        item("block_blue", "box", (0.42, -0.10), size=CUBE, color="blue"),
+        item("block_orange", "box", (0.42, 0.04), size=CUBE, color="orange"),
+        ball("navel_orange", (0.30, 0.00), color="orange"),
+        item("bowl_left", "bowl", (0.54, 0.28), size=BOWL),
+        item("bowl_right", "bowl", (0.54, -0.28), size=BOWL),
+        cup("cup_big", (0.30, 0.28), size=(0.09, 0.09, 0.11), color="green"),
+        cup("cup_small", (0.30, -0.26), size=(0.06, 0.06, 0.07), color="green"),
+    )

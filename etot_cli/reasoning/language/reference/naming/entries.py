@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     ONLY_SO_CALLED,
     OTHER_SORTS,
     RACKED,
+    SIZES,
     SORTS,
     basic_color,
     is_plural_of,
@@ -294,6 +295,21 @@ def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
     return tuple(noun for group in fitting for noun in group)
 
 
+_HANDS = frozenset({"left", "right"})
+
+
+def _noun_last(words: Sequence[str], color: str | None) -> Sequence[str]:
+    """A name's words without what stands behind the noun in it ("block_red", "cup_left"): a size or
+    a side, or the colour that the thing has. An orange is no "navel" that is orange.
+    """
+    last = words[-1] if len(words) > 1 else ""
+    colored = color is not None and basic_color(last) == basic_color(color)
+    noun = any(last in members for members in CATEGORIES.values())
+    noun = noun and words[-2] not in SHAPES | COMMON_NOUNS
+    behind = last in SIZES or last in _HANDS or (colored and not noun)
+    return words[:-1] if behind else words
+
+
 def object_entry(info: ObjectInfo) -> Entry:
     """The words of an object."""
     found = (words_of(info.label), words_of(info.name))
@@ -304,7 +320,7 @@ def object_entry(info: ObjectInfo) -> Entry:
     for words in called:
         nouns = [word for word in words if not word.isdigit() and len(word) > 1]
         own.update(dict.fromkeys(word for word in nouns if word not in LINKS))
-        head = head_of(nouns)
+        head = head_of(_noun_last(nouns, info.color))
         # The name "tea_2" of a tea mug is no noun for it.
         short = heads and len(nouns) == 1 and head in called[0][:-1] and head not in heads
         heads.update({} if head is None or short else {head: None})
