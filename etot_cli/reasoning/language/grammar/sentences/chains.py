@@ -292,13 +292,16 @@ _LATER = frozenset({"then", "counted", "passive, then", "which", "before"})
 
 
 def _maybe_denied(done: Reading, clause: Reading) -> Reading:
-    """In "do not touch the cup and open the drawer" the drawer may be denied, too."""
-    before = done[-1].clause
-    if (
-        not isinstance(before, AvoidClause)
-        or not before.negated
-        or isinstance(clause[0].clause, AvoidClause)
-    ):
+    """In "do not touch the cup and open the drawer" the drawer may be denied, too; nobody wants it
+    not to be kept closed.
+    """
+    before, after = done[-1].clause, clause[0].clause
+    kept = isinstance(after, EnsureClause) and all(
+        state.kept and state.word == "closed" for state in after.states
+    )
+    if not isinstance(before, AvoidClause) or not before.negated:
+        return done
+    if kept or isinstance(after, AvoidClause):
         return done
     return (*done[:-1], replace(done[-1], clause=replace(before, goes_on=True)))
 

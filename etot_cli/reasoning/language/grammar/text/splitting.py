@@ -8,7 +8,7 @@ from functools import cache
 
 from etot_cli.reasoning.language.words import small_words
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
+from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS, VERB_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 
 MAX_CHARACTERS = 2000
@@ -47,6 +47,13 @@ _OF_A_CHOICE = Expression(
     r"(?:may|must|should|can)) be (?:an?|the) [\w ]+ one"
 )
 """What is said of one of several things that was left to choose; no state ends in "one"."""
+_ADDED = Expression(r"(?:and |but )?without (?:ever )?\w+ing (?P<what>[^,]*)")
+
+
+def _adds(part: str) -> bool:
+    """Whether a sentence has no request of its own ("Without touching the mug.")."""
+    added = _ADDED.fullmatch(part)
+    return added is not None and VERB_WORDS.isdisjoint(added["what"].split())
 
 
 @cache
@@ -81,6 +88,8 @@ def sentences_of(text: str) -> list[str]:
             found[-1] = f"{found[-1].removesuffix(QUESTION).strip()}, {part}"
         elif found and _OF_A_CHOICE.fullmatch(part):
             found[-1] = f"{found[-1]}, {part}"
+        elif found and _adds(part):
+            found[-1] = f"{found[-1]}, {part.removeprefix('and ').removeprefix('but ')}"
         elif part.removesuffix(QUESTION).strip(" ,:"):
             found.append(part)
     return found
