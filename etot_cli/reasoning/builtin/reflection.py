@@ -42,6 +42,7 @@ from etot_cli.reasoning.builtin.revision import (
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sharing import come_since, lowered, side_by_side
+from etot_cli.reasoning.builtin.turns import by_turns
 from etot_cli.reasoning.builtin.uncovering import (
     brought_out,
     opens_near,
@@ -227,3 +228,5 @@ def _of_articulation(case: FailedCase) -> Iterator[Correction]:
             yield from fetched_first(case.failed, name)
     yield from _opened_less_far(case, part)
     yield from shut_meanwhile(case.failed, part.owner)
+    for name in case.culprits():
+        yield from by_turns(case, part, name)
