@@ -27,9 +27,7 @@ def _as_aimed(put: PurposedPut, aim: Purpose) -> PurposedPut:
     anyhow = tuple(one for one in where if one.relation is not Nearby.LYING)
     alike = [(name, verb, at, how) for at in (target, owner_of(target)) for how in (where, anyhow)]
     rests = {other: owner_of(place) for other, _, place, _ in aim.places}
-    alike += [
-        one for one in aim.places if one[:3] == put[:3] and _stands_for(where, one[3], rests)
-    ]
+    alike += [one for one in aim.places if one[:3] == put[:3] and _stands_for(where, one[3], rests)]
     return next((one for one in alike if one in aim.places), put)
 
 

@@ -54,9 +54,7 @@ def _its_own_place_first(case: FailedCase, pick: int, name: str) -> Iterator[Cor
         )
 
 
-def _where_landmarks_go(
-    actions: Actions, index: int, scene: SceneState
-) -> tuple[Whereabouts, ...]:
+def _where_landmarks_go(actions: Actions, index: int, scene: SceneState) -> tuple[Whereabouts, ...]:
     """Where a PUT puts something, with what its landmarks are still to go on or into in their
     stead: beside them where they are now it would have to be put once more.
     """
@@ -74,10 +72,12 @@ def _where_landmarks_go(
             return mark
         return place if place in scene.states and scene.infos[place].movable else mark
 
-    return tuple(
-        where if where.denied else replace(where, landmarks=tuple(map(stand_in, where.landmarks)))
-        for where in put.where
-    )
+    def foreseen(where: Whereabouts) -> Whereabouts:
+        marks = tuple(map(stand_in, where.landmarks))
+        between_one = len(set(marks)) < len(where.landmarks)
+        return where if where.denied or between_one else replace(where, landmarks=marks)
+
+    return tuple(map(foreseen, put.where))
 
 
 def done_earlier(case: FailedCase, before: int, name: str) -> Iterator[Correction]:
