@@ -866,7 +866,8 @@ def test_a_drawer_opened_before_a_door_is_closed_until_it_is_needed() -> None:
     step = failed(start, plan, 1, cause(CauseKind.BLOCKED, "chest", "cupboard"), before)
     late = f"[OPEN, cupboard] {egg} [CLOSE, cupboard] [OPEN, chest] {nut} [CLOSE, chest]"
     soon = f"[OPEN, cupboard] [OPEN, chest] {egg} [CLOSE, cupboard] {nut} [CLOSE, chest]"
-    assert revisions(step) == [late, soon]
+    by_turns = f"[OPEN, chest] {nut} [CLOSE, chest] [OPEN, cupboard] {egg} [CLOSE, cupboard]"
+    assert revisions(step) == [late, soon, by_turns]
 
 
 def test_what_went_in_before_hinders_though_only_the_walls_are_named() -> None:

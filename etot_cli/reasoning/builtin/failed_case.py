@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.relations import NOT_OBJECTS, contents, enclosing, is_closed, is_on
@@ -16,7 +17,7 @@ from etot_cli.reasoning.builtin.revision import (
 )
 from etot_cli.reasoning.protocol import FailedStep
 from etot_cli.skills.action import PUTS, Verb
-from etot_cli.world.spatial import Nearby
+from etot_cli.world.spatial import Nearby, Whereabouts
 from etot_cli.world.state import DESK, Cause, CauseKind, owner_of
 
 
@@ -24,8 +25,26 @@ def _as_aimed(put: PurposedPut, aim: Purpose) -> PurposedPut:
     """A place of the aim that another one serves as well; that itself where there is none."""
     name, verb, target, where = put
     anyhow = tuple(one for one in where if one.relation is not Nearby.LYING)
-    alike = ((name, verb, at, how) for at in (target, owner_of(target)) for how in (where, anyhow))
+    alike = [(name, verb, at, how) for at in (target, owner_of(target)) for how in (where, anyhow)]
+    rests = {other: owner_of(place) for other, _, place, _ in aim.places}
+    alike += [one for one in aim.places if one[:3] == put[:3] and _stands_for(where, one[3], rests)]
     return next((one for one in alike if one in aim.places), put)
+
+
+def _stands_for(
+    where: Sequence[Whereabouts], aimed: Sequence[Whereabouts], rests: Mapping[str, str]
+) -> bool:
+    """Whether places beside things become those that are aimed at once these have landmarks on or
+    in them: what comes before a landmark has its place goes beside what that will rest on.
+    """
+
+    def is_same(one: Whereabouts, other: Whereabouts) -> bool:
+        pairs = list(zip(one.landmarks, other.landmarks, strict=False))
+        return replace(one, landmarks=other.landmarks) == other and all(
+            mark in (meant, rests.get(meant)) for mark, meant in pairs
+        )
+
+    return len(where) == len(aimed) and all(map(is_same, where, aimed))
 
 
 class FailedCase:

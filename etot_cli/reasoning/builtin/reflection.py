@@ -42,6 +42,7 @@ from etot_cli.reasoning.builtin.revision import (
 )
 from etot_cli.reasoning.builtin.rules import check_plan, left_open
 from etot_cli.reasoning.builtin.sharing import come_since, lowered, side_by_side
+from etot_cli.reasoning.builtin.turns import by_turns
 from etot_cli.reasoning.builtin.uncovering import (
     brought_out,
     opens_near,
@@ -198,12 +199,15 @@ def _opened_less_far(case: FailedCase, part: PartInfo) -> Iterator[Correction]:
     """The branch with a part opened only as far as nothing stands in its way, where it did
     open, at the expense of others.
     """
-    opened = case.action.verb is Verb.OPEN and case.failed.record.after.openness(part) > OPEN_AT
-    if not opened or case.action.partly or not case.culprits():
+    if not _did_open(case, part) or case.action.partly or not case.culprits():
         return
     less = replace(case.action, partly=True)
     actions = (*case.actions[: case.index], less, *case.actions[case.index + 1 :])
     yield Correction(actions, f"{part.address} is opened less far")
+
+
+def _did_open(case: FailedCase, part: PartInfo) -> bool:
+    return case.action.verb is Verb.OPEN and case.failed.record.after.openness(part) > OPEN_AT
 
 
 def _of_articulation(case: FailedCase) -> Iterator[Correction]:
@@ -225,5 +229,10 @@ def _of_articulation(case: FailedCase) -> Iterator[Correction]:
             yield from out_of_the_way(case, name)
             yield from shut_meanwhile(case.failed, name)
             yield from fetched_first(case.failed, name)
+            if not _did_open(case, part):
+                yield from by_turns(case, part, name)
     yield from _opened_less_far(case, part)
     yield from shut_meanwhile(case.failed, part.owner)
+    if _did_open(case, part):  # less far it may open beside the other one
+        for name in case.culprits():
+            yield from by_turns(case, part, name)

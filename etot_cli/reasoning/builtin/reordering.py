@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 from etot_cli.reasoning.builtin.company import coming_beside
 from etot_cli.reasoning.builtin.failed_case import FailedCase
@@ -11,6 +12,7 @@ from etot_cli.reasoning.builtin.keepouts import kept_away
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.relocation import Correction, relocated, set_aside
 from etot_cli.reasoning.builtin.revision import (
+    Actions,
     brought_before,
     cycle_of,
     inserted,
@@ -18,7 +20,9 @@ from etot_cli.reasoning.builtin.revision import (
     reachable_throughout,
     relocations,
 )
-from etot_cli.skills.action import Verb
+from etot_cli.skills.action import PUTS, Verb
+from etot_cli.world.spatial import Whereabouts
+from etot_cli.world.state import SceneState, owner_of
 
 
 def out_of_the_way(case: FailedCase, name: str) -> Iterator[Correction]:
@@ -42,11 +46,38 @@ def _its_own_place_first(case: FailedCase, pick: int, name: str) -> Iterator[Cor
     discs = {*put.keepout, *kept_away(actions[at + 1 :], put, case.scene)}
     coming = coming_beside(actions, at, name)
     there = replace(put, keepout=tuple(sorted(discs)), coming=coming)
-    actions = (*actions[:at], there, *actions[at + 1 :])
-    yield Correction(
-        reachable_throughout(actions, case.start),
-        f"{name} is put where it belongs before it is in the way",
-    )
+    foreseen = replace(there, where=_where_landmarks_go(actions, at, case.scene))
+    for own_place in dict.fromkeys((foreseen, there)):
+        yield Correction(
+            reachable_throughout((*actions[:at], own_place, *actions[at + 1 :]), case.start),
+            f"{name} is put where it belongs before it is in the way",
+        )
+
+
+def _where_landmarks_go(actions: Actions, index: int, scene: SceneState) -> tuple[Whereabouts, ...]:
+    """Where a PUT puts something, with what its landmarks are still to go on or into in their
+    stead: beside them where they are now it would have to be put once more.
+    """
+    put = actions[index]
+    goes: dict[str, str] = {}
+    for pick, following in pairwise(actions[index + 1 :]):
+        if pick.verb is Verb.PICK_UP and following.verb in PUTS:
+            goes[pick.target] = owner_of(following.target)
+    placed = actions[index - 1].target
+
+    def stand_in(mark: str) -> str:
+        place = goes.get(mark)
+        # Furniture is too large to stand for what is on it, and what moves itself is not there yet.
+        if place is None or place in goes or place in (placed, owner_of(put.target)):
+            return mark
+        return place if place in scene.states and scene.infos[place].movable else mark
+
+    def foreseen(where: Whereabouts) -> Whereabouts:
+        marks = tuple(map(stand_in, where.landmarks))
+        between_one = len(set(marks)) < len(where.landmarks)
+        return where if where.denied or between_one else replace(where, landmarks=marks)
+
+    return tuple(map(foreseen, put.where))
 
 
 def done_earlier(case: FailedCase, before: int, name: str) -> Iterator[Correction]:

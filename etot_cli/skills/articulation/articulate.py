@@ -6,7 +6,7 @@ Every way is prepared kinematically first; how far the arm can follow decides wh
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -245,10 +245,12 @@ def articulation_outcome(
     obstacles = obstacles or _beyond(belief, part, fraction, opening)
     verb, state = ("open", "open") if opening else ("close", "closed")
     if obstacles:
+        backing = _backing(belief, part, obstacles, trace)
         return failed(
             CauseKind.BLOCKED,
-            [*obstacles, owner],
-            f"{address} did not {verb}: {obstacles[0]} blocks it at {fraction:.0%} of its travel",
+            [*obstacles, *backing, owner],
+            f"{address} did not {verb}: {obstacles[0]} blocks it at {fraction:.0%} of its travel"
+            + (f", held by {', '.join(backing)}" if backing else ""),
             trace.seconds,
         )
     return failed(
@@ -286,14 +288,25 @@ def _pressed(belief: Belief, part: Part, trace: Trace) -> list[str]:
     """Objects that the part pressed on when it halted, the hardest pressed first; fastened ones
     too, for one with a door or drawer that stands open can be closed.
     """
-    others = belief.world.entries.keys() - {part.info.owner}
+    owner = part.info.owner
+    return _pressed_by({owner}, trace, belief.world.entries.keys() - {owner})
+
+
+def _backing(belief: Belief, part: Part, obstacles: Sequence[str], trace: Trace) -> list[str]:
+    """What the doors and drawers in a part's way are pressed on: without it they might give way."""
+    turning = {name for name in obstacles if belief.world.entries[name].parts}
+    others = belief.world.entries.keys() - {part.info.owner, *obstacles}
+    return _pressed_by(turning, trace, others)
+
+
+def _pressed_by(names: Collection[str], trace: Trace, others: Collection[str]) -> list[str]:
+    """Those of the others that any of some things was pressed on, the hardest pressed first."""
     force: dict[str, float] = {}
     presses = (press for phase in trace.phases if phase.name == "along" for press in phase.presses)
     for press in presses:
         for first, second in ((press.first, press.second), (press.second, press.first)):
             name = owner_of(second)
-            ours = owner_of(first) == part.info.owner
-            if ours and name in others:
+            if owner_of(first) in names and name in others:
                 force[name] = force.get(name, 0.0) + press.sideways
     ranked = sorted(force.items(), key=lambda item: (-item[1], item[0]))
     return [name for name, value in ranked if value > PRESSED]
