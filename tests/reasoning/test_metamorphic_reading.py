@@ -96,8 +96,8 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
         r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
     )
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
-    framed += r"which |end with |as for |with |now |"
-    framed += r"(\w+ )?\w+: |right, |\w+, \w+\. |for each |whatever )"
+    framed += r"which |when i |end with |as for |with |now |"
+    framed += r"(\w+ ){0,4}\w+: |right, |\w+, \w+\. |for each |whatever )"
     if re.match(framed, text):
         return  # it has a frame of its own
     if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:
@@ -134,7 +134,9 @@ SIDED = [
     (name, text)
     for name, text in READ
     if re.search(r"(?i)\b(left|right|leftmost|rightmost)\b", text)
-    and not any(re.match("left|right", item) for item in names_in(SCENES[name]))  # names stay
+    and not any(
+        re.search("(^|_)(left|right)", item) for item in names_in(SCENES[name])
+    )  # names stay
     and not re.search(
         r"(?i)right (next|away|behind|then|above|below|way up)|^right,|"
         r"(is|be|been|were|someone|somebody|has|i|thing) left\b"
@@ -221,8 +223,8 @@ def test_the_order_of_things_in_the_scene_file_changes_nothing(name: str, text: 
     def parts(said: str | None) -> list[str]:
         return sorted(re.findall(r"[\w.]+", said or ""))
 
-    if re.search(r"(?i)stack|tower|pile", text):
-        return  # of equals the first in the file is the lowest
+    if re.search(r"(?i)stack|tower|pile|each other|side by side", text):
+        return  # of equals the first in the file is the lowest, or the one that moves
     found = meaning(text, turned)
     assert (found is None) == (meaning(text, scene) is None)
     assert sorted(set(parts(found))) == sorted(set(parts(meaning(text, scene))))
