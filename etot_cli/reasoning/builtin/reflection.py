@@ -32,7 +32,12 @@ from etot_cli.reasoning.builtin.relocation import (
     shut_meanwhile,
     without_reopening,
 )
-from etot_cli.reasoning.builtin.reordering import done_earlier, out_of_the_way, taken_out_first
+from etot_cli.reasoning.builtin.reordering import (
+    done_earlier,
+    out_of_the_way,
+    taken_before_moved,
+    taken_out_first,
+)
 from etot_cli.reasoning.builtin.revision import (
     opened_before,
     placed_by,
@@ -133,6 +138,8 @@ def _of_pick(case: FailedCase) -> Iterator[Correction]:
             yield from done_earlier(case, placed, name)
     for name, placed in come_since(case.failed):
         yield from done_earlier(case, placed, name)
+        yield from taken_out_first(case, placed, name)
+    yield from taken_before_moved(case)
     yield from regrasped(case.failed, case.index, case.cause.kind)
     yield from set_down_elsewhere(case.failed, case.action.target)
 
