@@ -988,6 +988,21 @@ def test_what_is_to_be_in_the_hand_is_taken_out_before_it_is_covered() -> None:
     assert not any(one.count("[PICK UP, die]") > 2 for one in revisions(step)), "once is enough"
 
 
+def test_what_leaves_later_anyway_makes_room_before_though_it_is_not_named() -> None:
+    start = scenes.scene(
+        scenes.cup("pot", (0.4, 0.2)), scenes.item("die", at=(0.4, 0.2), inside="pot", on="pot"),
+        scenes.ball("egg", (0.4, -0.2)), scenes.ball("nut", (0.4, -0.4)),
+    )  # fmt: skip
+    egg, nut = (f"[PICK UP, {name}] [PUT INTO, pot]" for name in ("egg", "nut"))
+    before = held(changed(start, egg={"inside": "pot", "on": ("pot",)}), "nut")
+    reason = cause(CauseKind.REBOUND, "nut", "egg")
+    step = failed(start, f"{egg} {nut} [PICK UP, die]", 3, reason, before)
+    away = f"{egg} {RELOCATE.format('die')} {nut} [PICK UP, die]"
+    assert away in revisions(step)
+    step = failed(start, f"{egg} {nut}", 3, reason, before)
+    assert not any("die" in one for one in revisions(step)), "it is to stay there"
+
+
 def test_of_what_goes_into_a_drawer_and_what_comes_out_this_may_come_first() -> None:
     start = scenes.scene(
         scenes.drawers("chest", (0.5, 0.0), {"top": 0.0}),

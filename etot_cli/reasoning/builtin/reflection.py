@@ -34,6 +34,7 @@ from etot_cli.reasoning.builtin.relocation import (
 )
 from etot_cli.reasoning.builtin.reordering import (
     done_earlier,
+    leaving_later,
     out_of_the_way,
     taken_before_moved,
     taken_out_first,
@@ -182,6 +183,8 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
             yield from fetched_first(case.failed, name)
             if owner in case.scene.infos:
                 yield from brought_out(case, name, [owner])
+    for name in leaving_later(case):
+        yield from out_of_the_way(case, name)
     if not others <= {owner, *marks}:
         yield from _room_beside(case, marks)
     if case.action.safe and not case.is_full:

@@ -9,19 +9,20 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.company import coming_beside
 from etot_cli.reasoning.builtin.failed_case import FailedCase
 from etot_cli.reasoning.builtin.keepouts import kept_away
-from etot_cli.reasoning.builtin.relations import bearers, carriers
+from etot_cli.reasoning.builtin.relations import bearers, carriers, contents
 from etot_cli.reasoning.builtin.relocation import Correction, put_first, relocated, set_aside
 from etot_cli.reasoning.builtin.revision import (
     brought_before,
     cycle_of,
     inserted,
     moved_before,
+    placed_by,
     reachable_throughout,
     relocations,
 )
 from etot_cli.skills.action import Verb
 from etot_cli.specs.base import heading_of
-from etot_cli.world.state import SceneState, owner_of
+from etot_cli.world.state import CauseKind, SceneState, owner_of
 
 SHIFTED = 0.003
 """What lies off its place in a vessel by this has slid or rolled in there [m]; what only settles
@@ -86,6 +87,20 @@ def taken_out_first(case: FailedCase, before: int, name: str) -> Iterator[Correc
     put = set_aside(case.failed, target)[1]
     change = f"{target} is taken out before {name} is {'moved' if along else 'in the way'}"
     yield from put_first(case.failed, other, target, put, change)
+
+
+def leaving_later(case: FailedCase) -> list[str]:
+    """What is where something finds no hold or room, and the branch itself takes from there later:
+    it may as well go before, even where only what came there meanwhile is named.
+    """
+    if case.cause.kind not in (CauseKind.NO_ROOM, CauseKind.REBOUND):
+        return []
+    later = {a.target for a in case.actions[case.index :] if a.verb is Verb.PICK_UP}
+    return [
+        name
+        for name in contents(case.scene, case.action.target)
+        if name in later and placed_by(case.actions, name, case.index) is None
+    ]
 
 
 def taken_before_moved(case: FailedCase) -> Iterator[Correction]:
