@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from etot_cli.errors import SpecError
 from etot_cli.specs.task import BESIDE_KEYS, Condition
@@ -27,7 +28,7 @@ def holds(condition: Condition, scene: SceneState) -> bool:
     if condition.all is not None:
         return all(holds(part, scene) for part in condition.all)
     if condition.not_ is not None:
-        return not holds(condition.not_, scene)
+        return _denied(condition.not_, scene)
     if condition.on is not None:
         return _on(*condition.on, scene)
     if condition.inside is not None:
@@ -52,6 +53,19 @@ def holds(condition: Condition, scene: SceneState) -> bool:
     if condition.at is not None:
         return _stands(condition.at[0], whereabouts("at", (), condition.at[1]), scene)
     raise SpecError("a condition has no key that can be checked")
+
+
+def _denied(condition: Condition, scene: SceneState) -> bool:
+    """Whether a condition does not hold; what stands on a thing is neither near it nor "not near"
+    it.
+    """
+    for key in BESIDE_KEYS:
+        names: tuple[str, ...] | None = getattr(condition, key)
+        if names is not None and not holds(condition, scene):
+            state = scene.states[names[0]]
+            where = replace(whereabouts(key, names[1:]), denied=True)
+            return state.in_hand or state.lost or spatial.holds(where, names[0], scene)
+    return not holds(condition, scene)
 
 
 def _on(name: str, support: str, scene: SceneState) -> bool:

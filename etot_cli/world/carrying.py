@@ -20,3 +20,8 @@ def carried_by(scene: SceneState, name: str) -> frozenset[str]:
                 moving.add(other)
                 grew = True
     return frozenset(moving - {name})
+
+
+def rests_on(name: str, base: str, scene: SceneState) -> bool:
+    """Whether something is on or in another thing, or on what is: nothing else bears it."""
+    return name in carried_by(scene, base)

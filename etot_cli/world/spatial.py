@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from etot_cli.specs.base import heading_of
 from etot_cli.world.arrays import Vector
+from etot_cli.world.carrying import rests_on
 from etot_cli.world.stance import lies
 from etot_cli.world.state import DESK, SceneState
 
@@ -212,13 +213,18 @@ def fits(
 def holds(where: Whereabouts, name: str, scene: SceneState) -> bool:
     """Whether an object is where it should be, on what it stands on.
 
-    A landmark that is held, lost or stands elsewhere still has its place on the plane.
+    A landmark that is held, lost or stands elsewhere still has its place on the plane. Of two
+    things of which one bears the other neither is beside the other, though seen from above they
+    are near: not "not near" either.
     """
     state = scene.states[name]
     if where.relation is Nearby.UPRIGHT:
         return not (state.toppled or state.lost)
     if where.relation is Nearby.LYING:
         return lies(scene.infos[name], state.quaternion) and not (state.in_hand or state.lost)
+    pairs = [pair for mark in where.landmarks for pair in ((name, mark), (mark, name))]
+    if not where.denied and any(rests_on(one, other, scene) for one, other in pairs):
+        return False
     outlines = [outline_of(landmark, scene) for landmark in where.landmarks]
     if where.relation is Nearby.AWAY:
         apart = outline_of(name, scene).free_distance(outlines[0]) >= NEAR

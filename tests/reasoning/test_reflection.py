@@ -966,7 +966,83 @@ def test_what_comes_along_in_a_vessel_waits_elsewhere_from_before_that_is_moved(
     assert revisions(step)[0] == f"{lift} {back}", "it does not wait for what comes at once"
     beside = changed(start, nut={"inside": None, "on": ("desk",), "position": (0.4, 0.0, 0.2)})
     step = failed(beside, f"{lift} {back}", 2, cause(CauseKind.SLIP, "nut", "cup"), beside)
-    assert f"{RELOCATE.format('nut')} {lift} {back}" not in revisions(step)
+    assert f"{RELOCATE.format('nut')} {lift} {back}" in revisions(step), "the cup is in the pot"
+    plate = f"{lift} [PICK UP, nut] [PUT ON, desk] (next to pot)"
+    step = failed(beside, plate, 2, cause(CauseKind.SLIP, "nut", "cup"), beside)
+    first, *rest = revisions(step)
+    assert first == f"[PICK UP, nut] [PUT ON, desk] (next to pot) {lift}"
+    assert f"{RELOCATE.format('nut')} {plate}" not in rest, "its own place will do at once"
+
+
+def test_what_is_to_be_in_the_hand_is_taken_out_before_it_is_covered() -> None:
+    start = scenes.scene(
+        scenes.cup("pot", (0.4, 0.2)), scenes.item("die", at=(0.4, 0.2), inside="pot", on="pot"),
+        scenes.ball("egg", (0.4, -0.2)),
+    )  # fmt: skip
+    egg, die = "[PICK UP, egg] [PUT INTO, pot]", "[PICK UP, die]"
+    before = changed(start, egg={"inside": "pot", "on": ("pot", "die")})
+    for names in (("die", "egg"), ("pot",)):
+        step = failed(start, f"{egg} {die}", 2, cause(CauseKind.NO_GRASP, *names), before)
+        assert f"{RELOCATE.format('die')} {egg} {die}" in revisions(step)
+    waited = f"{RELOCATE.format('die')} (safe place) {egg} {die}"
+    step = failed(start, waited, 4, cause(CauseKind.NO_GRASP, "die", "egg"), before)
+    assert not any(one.count("[PICK UP, die]") > 2 for one in revisions(step)), "once is enough"
+
+
+def test_what_leaves_later_anyway_makes_room_before_though_it_is_not_named() -> None:
+    start = scenes.scene(
+        scenes.cup("pot", (0.4, 0.2)), scenes.item("die", at=(0.4, 0.2), inside="pot", on="pot"),
+        scenes.ball("egg", (0.4, -0.2)), scenes.ball("nut", (0.4, -0.4)),
+    )  # fmt: skip
+    egg, nut = (f"[PICK UP, {name}] [PUT INTO, pot]" for name in ("egg", "nut"))
+    before = held(changed(start, egg={"inside": "pot", "on": ("pot",)}), "nut")
+    reason = cause(CauseKind.REBOUND, "nut", "egg")
+    step = failed(start, f"{egg} {nut} [PICK UP, die]", 3, reason, before)
+    away = f"{egg} {RELOCATE.format('die')} {nut} [PICK UP, die]"
+    assert away in revisions(step)
+    step = failed(start, f"{egg} {nut}", 3, reason, before)
+    assert not any("die" in one for one in revisions(step)), "it is to stay there"
+
+
+def test_of_what_goes_into_a_drawer_and_what_comes_out_this_may_come_first() -> None:
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"top": 0.0}),
+        scenes.item("die", at=(0.4, 0.0), inside="chest", on="chest"),
+        scenes.ball("egg", (0.4, -0.3)),
+    )
+    egg, die = "[PICK UP, egg] [PUT INTO, chest]", "[PICK UP, die] [PUT ON, desk]"
+    plan = f"[OPEN, chest] {egg} {die} (safe place) [CLOSE, chest] [PICK UP, die]"
+    before = changed(
+        start, egg={"inside": "chest", "on": ("chest",)}, chest={"openness": {"top": 1.0}}
+    )
+    step = failed(start, plan, 3, cause(CauseKind.NO_GRASP, "chest"), before)
+    assert f"[OPEN, chest] {die} {egg} [CLOSE, chest] [PICK UP, die]" in revisions(step)
+
+
+@pytest.mark.parametrize(("rolled", "offered"), [(0.02, True), (0.0005, False)])
+def test_what_rolls_to_the_wall_as_its_vessel_is_moved_is_taken_before(
+    rolled: float, offered: bool
+) -> None:
+    """Nothing but what it is in is named then, which moves along and has not been taken itself."""
+    start = scenes.scene(
+        scenes.item("pot", "cup", (0.4, 0.2)),
+        scenes.item("cup", "cup", (0.4, 0.2), inside="pot", on="pot"),
+        scenes.item("egg_cup", "cup", (0.4, 0.2), inside="cup", on="cup"),
+        scenes.ball("nut", (0.4, 0.2), inside="egg_cup", on="egg_cup"),
+        scenes.item("mat", at=(0.4, 0.4)),
+    )
+    lift = "[PICK UP, cup] [PUT ON, desk]"
+    moved = changed(
+        start, cup={"inside": None, "on": ("desk",), "position": (0.4, -0.2, 0.2)},
+        egg_cup={"position": (0.4, -0.2, 0.2)}, nut={"position": (0.4 + rolled, -0.2, 0.2)},
+    )  # fmt: skip
+    into, onto = "[PICK UP, nut] [PUT INTO, pot]", "[PICK UP, nut] [PUT ON, mat]"
+    reason = cause(CauseKind.NO_GRASP, "egg_cup")
+    found = revisions(failed(start, f"{lift} {into}", 2, reason, moved))
+    assert (f"{RELOCATE.format('nut')} {lift} {into}" in found) is offered
+    assert f"{into} {lift}" not in found, "the cup is in the pot"
+    found = revisions(failed(start, f"{lift} {onto}", 2, reason, moved))
+    assert (found[:1] == [f"{onto} {lift}"]) is offered
 
 
 def test_a_drawer_that_cannot_be_opened_again_is_left_open_meanwhile() -> None:

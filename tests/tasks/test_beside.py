@@ -223,3 +223,52 @@ def test_what_makes_way_stays_away_from_what_it_is_to_be_away_from(
     assert report.status == SearchStatus.FEASIBLE.value, report.stopped
     assert report.success is not None and report.success.holds
     assert len(report.plan) == (3 if at[1] < -0.3 else 5), report.plan
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("key", ["next_to", "near"])
+def test_what_stands_on_a_thing_goes_down_beside_it(key: str, seed: int, tmp_path: Path) -> None:
+    box = JIG | {"at": [0.45, 0.10], "size": [0.08, 0.08, 0.06]}
+    plate = {"kind": "box", "on": "box", "at": [0.45, 0.10], "size": [0.08, 0.12, 0.012]}
+    cup = CUP | {"on": "plate", "at": [0.45, 0.10], "diameter": 0.065, "height": 0.07}
+    objects = {"box": box, "plate": plate | {"mass": 0.1}, "cup": cup}
+    plan = _planned(tmp_path, seed, [{key: ["cup", "box"]}], **objects)
+    assert plan == ["[PICK UP, cup]", f"[PUT ON, desk] ({key.replace('_', ' ')} box)"]
+    goal = [{"on": ["plate", "box"]}, {key: ["cup", "box"]}]
+    assert _planned(tmp_path, seed, goal, **objects) == plan
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+def test_what_is_to_be_held_at_the_end_is_taken_out_before_it_is_covered(
+    seed: int, tmp_path: Path
+) -> None:
+    cup = CUP | {"at": [0.42, 0.10], "diameter": 0.11, "height": 0.06, "mass": 0.3}
+    die = {"kind": "box", "inside": "cup", "at": [0.42, 0.10], "size": [0.025, 0.025, 0.025]}
+    block = {"kind": "box", "at": [0.35, -0.20], "size": [0.05, 0.04, 0.03], "mass": 0.05}
+    goal = [{"in_hand": "die"}, {"inside": ["block", "cup"]}]
+    objects = {"cup": cup, "die": die | {"mass": 0.03}, "block": block}
+    plan = _planned(tmp_path, seed, goal, **objects)
+    assert len(plan) == 5, plan
+    assert plan[0] == plan[-1] == "[PICK UP, die]"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+def test_what_rolls_to_the_wall_as_its_bowl_is_carried_is_taken_out_before(
+    seed: int, tmp_path: Path
+) -> None:
+    sizes = {"big": (0.16, 0.06), "mid": (0.12, 0.05), "small": (0.08, 0.045)}
+    nest = {
+        name: {"kind": "bowl", "at": [0.45, 0.0], "diameter": diameter, "height": height,
+               "mass": 0.2}
+        for name, (diameter, height) in sizes.items()
+    }  # fmt: skip
+    nest["mid"] |= {"inside": "big"}
+    nest["small"] |= {"inside": "mid", "mass": 0.1}
+    cherry = {"kind": "sphere", "inside": "small", "at": [0.45, 0.0], "diameter": 0.025}
+    goal = [{"inside": ["cherry", "big"]}, {"on": ["mid", "desk"]}, {"inside": ["small", "mid"]}]
+    plan = _planned(tmp_path, seed, goal, **nest, cherry=cherry | {"mass": 0.01})
+    assert len(plan) == 6, plan
+    assert plan[0] == "[PICK UP, cherry]"

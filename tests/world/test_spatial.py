@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -9,9 +10,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from etot_cli.planning import conditions
 from etot_cli.specs.scene import Camera, Scene
-from etot_cli.world.spatial import Nearby, Outline, Whereabouts, fits, outline_at, whereabouts
+from etot_cli.specs.task import Condition
+from etot_cli.world.spatial import (
+    Nearby,
+    Outline,
+    Whereabouts,
+    fits,
+    holds,
+    outline_at,
+    whereabouts,
+)
 from etot_cli.world.viewpoint import forward_of
+from tests.reasoning import scenes
 
 DESK = Outline((0.42, 0.0), (0.4, 0.6))
 PLATE = Outline((0.4, 0.1), (0.08, 0.08))
@@ -181,3 +193,35 @@ def test_viewpoint() -> None:
     assert forward_of(scene("eye", **across)) == pytest.approx((-1.0, 0.0))
     above = {"position": (0.4, 0.0, 1.5), "quaternion": (0.0, 1.0, 0.0, 0.0)}
     assert forward_of(scene("eye", **above)) == pytest.approx((0.0, 1.0), abs=1e-9)
+
+
+BESIDE = (Nearby.NEXT_TO, Nearby.NEAR)
+
+
+@pytest.mark.parametrize("relation", BESIDE)
+def test_what_stands_on_or_in_a_thing_is_not_beside_it(relation: Nearby) -> None:
+    """However many are in between; nor is that beside it. Both are beside what stands there."""
+    scene = scenes.scene(
+        scenes.cup("box", (0.4, 0.0)),
+        scenes.item("pea", at=(0.4, 0.0), inside="box", on="box"),
+        scenes.item("plate", at=(0.4, 0.0), on="box", size=(0.1, 0.1, 0.01)),
+        scenes.item("mug", "cup", (0.4, 0.0), on="plate"),
+        scenes.item("jar", "cup", (0.4, 0.12)),
+    )
+    for name in ("pea", "plate", "mug"):
+        for one, other in ((name, "box"), ("box", name)):
+            where = Whereabouts(relation, (other,))
+            assert not holds(where, one, scene)
+            assert not holds(Whereabouts(relation, (other,), denied=True), one, scene)
+            key = relation.value.replace(" ", "_")
+            condition = Condition.model_validate({"not": {key: [one, other]}})
+            assert not conditions.holds(condition, scene), "nor is it away from it"
+        assert holds(Whereabouts(relation, ("jar",)), name, scene)
+    assert holds(Whereabouts(relation, ("pea",)), "mug", scene), "neither bears the other"
+
+
+def test_what_only_leans_on_a_thing_is_beside_it() -> None:
+    name, rod = scenes.item("rod", at=(0.4, 0.05))
+    leaning = dataclasses.replace(rod, on=("desk", "box"))
+    scene = scenes.scene(scenes.item("box", at=(0.4, 0.0)), (name, leaning))
+    assert holds(Whereabouts(Nearby.NEXT_TO, ("box",)), "rod", scene)

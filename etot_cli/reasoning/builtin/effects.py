@@ -70,7 +70,12 @@ def effect_holds(action: Action, record: RolloutRecord) -> bool:
 def _with_arrivals(action: Action, scene: SceneState) -> SceneState:
     """The scene with what is still to come where it is told that it will be."""
     states = {
-        name: replace(scene.states[name], position=(*point, scene.states[name].position[2]))
+        name: replace(
+            scene.states[name],
+            position=(*point, scene.states[name].position[2]),
+            on=(),  # what bears it now does not then
+            inside=None,
+        )
         for name, point in action.arrivals.items()
         if name in scene.states
     }

@@ -32,7 +32,13 @@ from etot_cli.reasoning.builtin.relocation import (
     shut_meanwhile,
     without_reopening,
 )
-from etot_cli.reasoning.builtin.reordering import done_earlier, out_of_the_way, taken_out_first
+from etot_cli.reasoning.builtin.reordering import (
+    done_earlier,
+    leaving_later,
+    out_of_the_way,
+    taken_before_moved,
+    taken_out_first,
+)
 from etot_cli.reasoning.builtin.revision import (
     opened_before,
     placed_by,
@@ -134,6 +140,8 @@ def _of_pick(case: FailedCase) -> Iterator[Correction]:
             yield from done_earlier(case, placed, name)
     for name, placed in come_since(case.failed):
         yield from done_earlier(case, placed, name)
+        yield from taken_out_first(case, placed, name)
+    yield from taken_before_moved(case)
     yield from regrasped(case.failed, case.index, case.cause.kind)
     yield from set_down_elsewhere(case.failed, case.action.target)
 
@@ -176,6 +184,8 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
             yield from fetched_first(case.failed, name)
             if owner in case.scene.infos:
                 yield from brought_out(case, name, [owner])
+    for name in leaving_later(case):
+        yield from out_of_the_way(case, name)
     if not others <= {owner, *marks}:
         yield from _room_beside(case, marks)
     if case.action.safe and not case.is_full:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
@@ -9,20 +10,26 @@ from itertools import pairwise
 from etot_cli.reasoning.builtin.company import coming_beside
 from etot_cli.reasoning.builtin.failed_case import FailedCase
 from etot_cli.reasoning.builtin.keepouts import kept_away
-from etot_cli.reasoning.builtin.relations import carriers
-from etot_cli.reasoning.builtin.relocation import Correction, relocated, set_aside
+from etot_cli.reasoning.builtin.relations import bearers, carriers, contents
+from etot_cli.reasoning.builtin.relocation import Correction, put_first, relocated, set_aside
 from etot_cli.reasoning.builtin.revision import (
     Actions,
     brought_before,
     cycle_of,
     inserted,
     moved_before,
+    placed_by,
     reachable_throughout,
     relocations,
 )
 from etot_cli.skills.action import PUTS, Verb
+from etot_cli.specs.base import heading_of
 from etot_cli.world.spatial import Whereabouts
-from etot_cli.world.state import SceneState, owner_of
+from etot_cli.world.state import CauseKind, SceneState, owner_of
+
+SHIFTED = 0.003
+"""What lies off its place in a vessel by this has slid or rolled in there [m]; what only settles
+stays within a millimetre."""
 
 
 def out_of_the_way(case: FailedCase, name: str) -> Iterator[Correction]:
@@ -97,10 +104,71 @@ def done_earlier(case: FailedCase, before: int, name: str) -> Iterator[Correctio
 
 
 def taken_out_first(case: FailedCase, before: int, name: str) -> Iterator[Correction]:
-    """What came along in or on an object waits elsewhere from before that was moved on."""
+    """What comes along in or on an object that the cycle at ``before`` moves on, or what that
+    cycle covers, waits elsewhere from before that, unless it may as well go to its own place.
+    """
     target = case.action.target
-    if name not in carriers(case.start, target) or relocations(case.actions, target):
-        return
+    if any(action == case.action for action in case.actions[: case.index]):
+        return  # the branch has brought it there itself, or it has waited already
     other = cycle_of(case.actions, before).start
-    waiting = inserted(case.actions, other, set_aside(case.failed, target))
-    yield Correction(waiting, f"{target} is taken out before {name} is moved")
+    along = name in carriers(case.start, target)
+    if not along and _is_free_before(case, other):
+        return
+    put = set_aside(case.failed, target)[1]
+    change = f"{target} is taken out before {name} is {'moved' if along else 'in the way'}"
+    yield from put_first(case.failed, other, target, put, change)
+
+
+def leaving_later(case: FailedCase) -> list[str]:
+    """What is where something finds no hold or room, and the branch itself takes from there later:
+    it may as well go before, even where only what came there meanwhile is named.
+    """
+    if case.cause.kind not in (CauseKind.NO_ROOM, CauseKind.REBOUND):
+        return []
+    later = {a.target for a in case.actions[case.index :] if a.verb is Verb.PICK_UP}
+    return [
+        name
+        for name in contents(case.scene, case.action.target)
+        if name in later and placed_by(case.actions, name, case.index) is None
+    ]
+
+
+def taken_before_moved(case: FailedCase) -> Iterator[Correction]:
+    """The picked object is taken before the branch moves what it is in or on, where it has come to
+    lie otherwise in there on the way, though only that is named.
+    """
+    target = case.action.target
+    bearing = carriers(case.start, target)
+    for index, action in enumerate(case.actions[: case.index]):
+        name = action.target
+        if action.verb is not Verb.PICK_UP or name not in bearing:
+            continue
+        at_first, now = (_seen_from(name, target, scene) for scene in (case.start, case.scene))
+        if math.dist(at_first, now) < SHIFTED:
+            continue
+        if _is_free_before(case, index):
+            yield from done_earlier(case, index, name)
+        yield from taken_out_first(case, index, name)
+
+
+def _is_free_before(case: FailedCase, before: int) -> bool:
+    """Whether the picked object has a place of its own, and nothing that the branch does from
+    ``before`` on has to make it free.
+    """
+    following = case.actions[case.index + 1 : case.index + 2]
+    if not following or following[0].safe:
+        return False
+    place = owner_of(following[0].target)
+    moved = (a.target for a in case.actions[before : case.index] if a.verb is Verb.PICK_UP)
+    return not any(place in (name, *bearers(case.start, name)) for name in moved)
+
+
+def _seen_from(name: str, thing: str, scene: SceneState) -> tuple[float, float]:
+    """Where something is as seen from another thing, along that one's own axes [m]."""
+    state = scene.states[name]
+    dx, dy = (scene.states[thing].position[i] - state.position[i] for i in (0, 1))
+    yaw = heading_of(state.quaternion)
+    return (
+        math.cos(yaw) * dx + math.sin(yaw) * dy,
+        math.cos(yaw) * dy - math.sin(yaw) * dx,
+    )

@@ -199,9 +199,15 @@ def taken_at_once(actions: Actions, before: Actions) -> Iterator[Actions]:
 
 def brought_before(actions: Actions, index: int, before: int) -> Actions | None:
     """A branch with the cycle of ``index`` brought before that of ``before``; None where it is
-    there already, or the same.
+    there already, or the same. Of what is taken out and what is put in while one part is open for
+    both, only the order in there changes.
     """
     own, other = cycle_of(actions, index), cycle_of(actions, before)
+    inner = Cycle(index, index + 2)
+    pick, put = actions[index], actions[index + 1 : index + 2]
+    taken_out = pick.verb is Verb.PICK_UP and any(one.verb in PUTS for one in put)
+    if own == other and before < index < own.end - 2 and taken_out:
+        return moved_before(actions, inner, before)
     if own.start <= other.start or before in own:
         return None
     return moved_before(actions, own, other.start)

@@ -133,7 +133,8 @@ class Surfaces:
         if item.target:
             stays = home is not None and self._sketch.holds(*item[:3])
             return [_Stand(item, left=True)] * stays + [_Stand(item)]
-        there = [] if home is None else [_Stand(_moved_to(item, home), left=True)]
+        stays = home is not None and _is_beside(item, home, at)
+        there = [_Stand(_moved_to(item, home), left=True)] if home is not None and stays else []
         return there + [_Stand(_moved_to(item, place)) for place in self._places(item, at, going)]
 
     def _places(self, item: Placement, at: Mapping[str, _At | None], going: set[str]) -> list[_At]:
@@ -147,7 +148,7 @@ class Surfaces:
         places = [
             place
             for place in dict.fromkeys(chain.from_iterable(chains))
-            if owner_of(place[1]) != item.name
+            if owner_of(place[1]) != item.name and _is_beside(item, place, at)
         ]
         # Of several landmarks all that stand on it come before what bears only one.
         places.sort(key=lambda place: not all(place in one for one in chains))
@@ -194,6 +195,12 @@ class Surfaces:
 
 def _landmarks(item: Placement) -> list[str]:
     return [mark for where in item.where for mark in where.landmarks]
+
+
+def _is_beside(item: Placement, place: _At, at: Mapping[str, _At | None]) -> bool:
+    """Whether what is at a place is beside all its landmarks and on or in none of them."""
+    bearing = {owner_of(place[1]), *(owner_of(one[1]) for one in _chain(owner_of(place[1]), at))}
+    return bearing.isdisjoint(mark for w in item.where if not w.denied for mark in w.landmarks)
 
 
 def _moved_to(item: Placement, place: _At) -> Placement:

@@ -106,7 +106,7 @@ def _under_overhang(
 
 
 def _preference(belief: Belief, action: Action, name: str) -> Preference | None:
-    wanted = wanted_spots(belief.world, belief.data, action, name)
+    wanted = wanted_spots(belief.world, belief.data, belief.scene, action, name)
     if wanted is None:
         return None
     return lambda points: np.where(wanted(points), 0.0, np.inf)

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from etot_cli.skills.action import Action
+from etot_cli.world.carrying import rests_on
 from etot_cli.world.model import World
 from etot_cli.world.spatial import Outline, fits, outline_at
-from etot_cli.world.state import DESK
+from etot_cli.world.state import DESK, SceneState
 from etot_cli.world.viewpoint import forward_of
 
 Test = Callable[[NDArray[np.float64]], NDArray[np.bool_]]
@@ -23,12 +24,15 @@ little off its spot is still where it should be."""
 _SHIFTS = LEEWAY * np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
 
 
-def wanted_spots(world: World, data: mujoco.MjData, action: Action, name: str) -> Test | None:
+def wanted_spots(
+    world: World, data: mujoco.MjData, scene: SceneState, action: Action, name: str
+) -> Test | None:
     """Says of points (m, 2), base frame [m], whether the action wants the object there.
 
     Args:
         world: the world.
         data: current poses.
+        scene: the same, and what stands on what: on a thing nothing is beside it.
         action: a PUT ON or PUT INTO.
         name: the object in the hand.
 
@@ -37,6 +41,11 @@ def wanted_spots(world: World, data: mujoco.MjData, action: Action, name: str) -
     """
     if not action.where:
         return None
+    base = action.target.partition(".")[0]
+    marks = {mark for where in action.where if not where.denied for mark in where.landmarks}
+    moved = action.arrivals.keys()  # what is still to come bears nothing there yet
+    if any(base == mark or rests_on(base, mark, scene) for mark in marks - moved):
+        return lambda points: np.zeros(len(points), dtype=np.bool_)
     area = outline_in(world, data, action.target.partition(".")[0])
     forward = forward_of(world.scene)
     radius = max(world.entries[name].info.size[:2]) / 2
