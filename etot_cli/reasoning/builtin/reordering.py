@@ -96,7 +96,9 @@ def done_earlier(case: FailedCase, before: int, name: str) -> Iterator[Correctio
         reachable_throughout(earlier, case.start),
         f"{case.action} comes before {name} is in the way",
     )
-    if not relocations(case.actions, name):
+    picks = case.action.verb is Verb.PICK_UP
+    along = picks and name in carriers(case.start, case.action.target)  # wherever it waits
+    if not (along or relocations(case.actions, name)):
         # Of two that change places one has to wait elsewhere.
         other = cycle_of(case.actions, before).start
         waiting = inserted(earlier, other, set_aside(case.failed, name))
