@@ -6,7 +6,15 @@ import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep, Reasoner, Verdict
+from etot_cli.planning.acceptance import check_of
+from etot_cli.reasoning.protocol import (
+    Assignment,
+    Branch,
+    Doubts,
+    FailedStep,
+    Reasoner,
+    Verdict,
+)
 from etot_cli.skills.action import Action
 from etot_cli.world.state import RolloutRecord, SceneState
 
@@ -27,6 +35,11 @@ class TimedReasoner:
         with self._timed():
             branches = self.inner.propose(assignment, scene)
         return self._one_by_one(branches)
+
+    def check(self, assignment: Assignment, start: SceneState) -> Doubts:
+        """As the reasoner does, where it does."""
+        with self._timed():
+            return check_of(assignment, start, self.inner)
 
     def judge(self, action: Action, record: RolloutRecord) -> Verdict:
         """As the reasoner does."""

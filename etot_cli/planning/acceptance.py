@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from etot_cli.errors import SpecError
 from etot_cli.planning.conditions import holds
-from etot_cli.reasoning.builtin.acceptance import Doubts, doubts_of
-from etot_cli.reasoning.protocol import Assignment
+from etot_cli.reasoning.builtin.acceptance import doubts_of
+from etot_cli.reasoning.protocol import Assignment, Checks, Doubts
 from etot_cli.specs.wording import describe
 from etot_cli.world.state import SceneState
 
 
-def check_of(assignment: Assignment, start: SceneState) -> Doubts:
-    """The check of a plan's last scene: by the formal goal where there is one, else by the
-    built-in reading of the instruction where it can be read.
+def check_of(assignment: Assignment, start: SceneState, reasoner: object = None) -> Doubts:
+    """The check of a plan's last scene: by the formal goal where there is one, else by what the
+    reasoner understood, or by the built-in reading of the instruction where it can be read.
     """
     goal = assignment.goal
+    if goal is None and isinstance(reasoner, Checks):
+        return reasoner.check(assignment, start)
     if goal is None:
         return doubts_of(assignment, start)
 

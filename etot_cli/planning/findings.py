@@ -6,8 +6,8 @@ from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
 from etot_cli.planning.result import Statistics
 from etot_cli.planning.survival import NOMINAL, Survival, judge_worlds
 from etot_cli.planning.tree import NodeStatus, PlanNode
-from etot_cli.reasoning.builtin.acceptance import Doubts, undone
-from etot_cli.reasoning.protocol import Branch, FailedStep, Reasoner, Verdict
+from etot_cli.reasoning.builtin.acceptance import undone
+from etot_cli.reasoning.protocol import Branch, Doubts, FailedStep, Reasoner, Verdict
 from etot_cli.skills.action import Action
 from etot_cli.world.state import RolloutRecord, SceneState
 

@@ -198,7 +198,7 @@ class _Search:
         if Ablation.PRIORI in self._without:
             self._proposals = islice(self._proposals, 1)
         # A model may propose anything. And what is beside something in the end is only seen then.
-        self._known.check = check_of(self._assignment, scene)
+        self._known.check = check_of(self._assignment, scene, self._reasoner)
         self._propose()
         self._known.goal_holds = not self._branches and self._known.does_it((), scene)
 

@@ -7,7 +7,7 @@ and Reflective Branching".
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol, runtime_checkable
@@ -63,6 +63,19 @@ class Explains(Protocol):
     @property
     def understanding(self) -> Understanding:
         """Empty before the first proposal."""
+        ...
+
+
+Doubts = Callable[[SceneState], str]
+"""Says why a scene is not what was asked for; empty when it is, or when that cannot be told."""
+
+
+@runtime_checkable
+class Checks(Protocol):
+    """A reasoner that tells whether a scene is what it proposed branches for last."""
+
+    def check(self, assignment: Assignment, start: SceneState) -> Doubts:
+        """The check for plans that start in a scene; the words are not read again for it."""
         ...
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.errors import InstructionError
@@ -10,12 +10,9 @@ from etot_cli.reasoning.builtin.branching import reached
 from etot_cli.reasoning.builtin.goal import Close, Goal, Open, Put, Referent, Relation, Step
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.builtin.understanding import goals_for
-from etot_cli.reasoning.protocol import Assignment, ReasonerStopped
+from etot_cli.reasoning.protocol import Assignment, Doubts, ReasonerStopped
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.state import SceneState
-
-Doubts = Callable[[SceneState], str]
-"""Says why a scene is not what was asked for; empty when it is, or when that cannot be told."""
 
 
 def undone(ends: Iterable[tuple[Action, SceneState]], final: SceneState) -> str:
@@ -55,6 +52,11 @@ def doubts_of(assignment: Assignment, start: SceneState) -> Doubts:
         goals = goals_for(assignment, start)
     except InstructionError:
         return lambda scene: ""
+    return doubts_about(goals, assignment, start)
+
+
+def doubts_about(goals: Sequence[Goal], assignment: Assignment, start: SceneState) -> Doubts:
+    """The same, with what the assignment was understood to ask for."""
     lasting = [_lasting(goal) for goal in goals]
     given = assignment.given_in(start)
     # Where to is not said of what is only to be taken away: anywhere else will do.

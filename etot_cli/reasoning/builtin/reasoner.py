@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import chain
 
 from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.acceptance import doubts_about
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.completion import completed
 from etot_cli.reasoning.builtin.constraints import (
@@ -23,6 +24,7 @@ from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.protocol import (
     Assignment,
     Branch,
+    Doubts,
     FailedStep,
     Outcome,
     Understanding,
@@ -59,6 +61,10 @@ class BuiltinReasoner:
         return Understanding(
             " | ".join(dict.fromkeys(map(formal, self._goals))), tuple(dict.fromkeys(notes))
         )
+
+    def check(self, assignment: Assignment, start: SceneState) -> Doubts:
+        """Whether a scene is what branches were proposed for last."""
+        return doubts_about(self._goals, assignment, start)
 
     def judge(self, action: Action, record: RolloutRecord) -> Verdict:
         """Compares all objects before and after the action, and holds it to the constraints."""
