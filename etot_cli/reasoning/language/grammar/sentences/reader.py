@@ -30,10 +30,12 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     words_in,
 )
 from etot_cli.reasoning.language.words import known, verbs
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, KIND_NOUNS, singular
 from etot_cli.reasoning.language.words.patterns import spellings, words_of
 from etot_cli.reasoning.language.words.small_words import LOOK_FOR
 
+_NOUNS = COMMON_NOUNS.union(*KIND_NOUNS.values())
+"""Well spelt, whether there is such a thing or not; all words take longer to work out."""
 _TOLD = sorted(
     (tuple(said.split()) for said in spellings(verbs.THE_ROBOT)),
     key=len,
@@ -130,7 +132,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
         for word in plain:
             # What stands before "the" is a verb, and no noun of the scene.
             verb = not words and plain[1:2] in known.BEFORE_NOUNS
-            known_one = verb or is_known(word, vocabulary)
+            known_one = verb or singular(word) in _NOUNS or is_known(word, vocabulary)
             meant = None if known_one else pet_form(word, spelled) or corrected(word, spelled)
             meant = meant if meant or known_one else shortened(word, spelled)
             if common and meant is None and not known_one:
