@@ -11,12 +11,11 @@ from __future__ import annotations
 import time
 from collections import deque
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
 
 from etot_cli.control.simulated import Simulator
-from etot_cli.errors import UnsatisfiableError
+from etot_cli.errors import InstructionError, UnsatisfiableError
 from etot_cli.planning.acceptance import check_of
 from etot_cli.planning.alternatives import Corrections, best_prefix
 from etot_cli.planning.findings import Findings
@@ -114,8 +113,8 @@ class _Search:
         self._started = time.monotonic()
         seconds = limits.time_limit_s
         self._until_s = NEVER if seconds is None else self._started + seconds
-        self._costless = costless and Ablation.REFLECTIVE not in without
-        ahead = self._foresee if self._costless else None
+        self._costless = costless
+        ahead = self._foresee if costless and Ablation.REFLECTIVE not in without else None
         self._lookahead = Lookahead(simulator, self._known.start_of, self._until_s, ahead)
         self._proposals: Iterator[Branch] = iter(())
         self._branches: list[Branch] = []
@@ -210,9 +209,7 @@ class _Search:
                 self._branches.append(branch)
                 self._insert(TreePath(branch, 0), Origin.PRIORI)
         except ReasonerStopped as stop:
-            if stop.reason is not StopReason.MAX_CHOICES:
-                raise
-            self._cut = LimitKind.MAX_CHOICES
+            self._note_cut(stop)
         return len(self._branches) > count
 
     def _widen(self) -> bool:
@@ -249,6 +246,15 @@ class _Search:
         A revision that runs into another known failure is revised in turn from the record of that
         failure, which is what simulating the failed action again would lead to.
         """
+        if not self._may_reflect(node, path):
+            return
+        assert node.verdict is not None  # a failed node has been judged
+        failed = self._known.failed_step(node, path.branch, self._known.failure(node), node.verdict)
+        branches = self._reasoner.reflect(failed)  # [B]
+        self._take(Corrections(node, path.revisions + 1, iter(branches)))
+
+    def _may_reflect(self, node: PlanNode, path: TreePath) -> bool:
+        """Whether a branch may be revised after a node, once and within the limits; counts it."""
         key = (node.id, path.branch.actions)
         # With a plan in hand, only what the tree already holds is still compared with it.
         if (
@@ -256,22 +262,18 @@ class _Search:
             or self._known.best is not None
             or key in self._reflected
         ):
-            return
+            return False
         if path.revisions >= self._limits.revisions_per_branch:
             self._cut = LimitKind.REVISIONS
-        elif len(self._reflected) >= self._limits.max_reflections:
+            return False
+        if len(self._reflected) >= self._limits.max_reflections:
             self._cut = LimitKind.REFLECTIONS
-        else:
-            if self._out_of_time():
-                raise OutOfTimeError
-            self._reflected.add(key)
-            self._known.statistics.reflections += 1
-            assert node.verdict is not None  # a failed node has been judged
-            failed = self._known.failed_step(
-                node, path.branch, self._known.failure(node), node.verdict
-            )
-            branches = self._reasoner.reflect(failed)  # [B]
-            self._take(Corrections(node, path.revisions + 1, iter(branches)))
+            return False
+        if self._out_of_time():
+            raise OutOfTimeError
+        self._reflected.add(key)
+        self._known.statistics.reflections += 1
+        return True
 
     def _foresee(self, node: PlanNode, record: RolloutRecord) -> Iterator[Branch]:
         """The first corrections of a failure that has not been judged yet.
@@ -319,29 +321,37 @@ class _Search:
         """
         self._known.offer(node)
         assert node.end is not None  # otherwise it would be no plan
-        key = (node.id, node.actions)
-        if not self._costless or self._known.best is not None or key in self._reflected:
-            return
-        if node.end.revisions >= self._limits.revisions_per_branch:
-            self._cut = LimitKind.REVISIONS
-        elif len(self._reflected) >= self._limits.max_reflections:
-            self._cut = LimitKind.REFLECTIONS
-        else:
-            self._reflected.add(key)
-            self._known.statistics.reflections += 1
-            self._take(Corrections(node, node.end.revisions + 1, self._continued(node)))
+        path = TreePath(Branch(node.actions, node.end.reason), node.end.revisions)
+        if self._costless and self._may_reflect(node, path):
+            self._take(Corrections(node, path.revisions + 1, self._continued(node)))
 
     def _continued(self, node: PlanNode) -> Iterator[Branch]:
-        """Plans that begin with one that works; where that only closes too much, less of it."""
+        """Plans that begin with one that works; where that only closes too much, less of it.
+
+        What cannot be done any more from there ends this way of doing it, and not the search.
+        """
         *past, scene = self._known.scenes(node)
         assignment = replace(self._assignment, past=(*self._assignment.past, *past))
-        # What cannot be done any more from there ends this way of doing it, and not the search.
-        with suppress(UnsatisfiableError):
+        try:
             for branch in self._reasoner.propose(assignment, scene):
                 shorter = kept_open(node.actions, branch.actions)
                 if shorter is not None:
                     yield Branch(shorter, branch.reason)
                 yield Branch((*node.actions, *branch.actions), branch.reason)
+        except (InstructionError, UnsatisfiableError):
+            return
+        except ReasonerStopped as stop:
+            self._note_cut(stop)
+
+    def _note_cut(self, stop: ReasonerStopped) -> None:
+        """Takes note that a reasoner has more to propose than it looks at.
+
+        Raises:
+            ReasonerStopped: it stopped for another reason.
+        """
+        if stop.reason is not StopReason.MAX_CHOICES:
+            raise stop
+        self._cut = LimitKind.MAX_CHOICES
 
     def _limit_reached(self) -> LimitKind | None:
         if self._known.statistics.nodes_evaluated >= self._limits.max_nodes:

@@ -8,11 +8,19 @@ from dataclasses import replace
 import pytest
 
 from etot_cli.control.simulated import Simulated, StateToken, WorldOutcome
+from etot_cli.errors import InstructionError, UnsatisfiableError
 from etot_cli.planning.options import Ablation, Limits
 from etot_cli.planning.result import LimitKind, SearchObserver, SearchResult, SearchStatus
 from etot_cli.planning.search import search
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode
-from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
+from etot_cli.reasoning.protocol import (
+    Assignment,
+    Branch,
+    Doubts,
+    FailedStep,
+    ReasonerStopped,
+    StopReason,
+)
 from etot_cli.skills.action import Action, format_plan
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import CauseKind, SceneState
@@ -359,6 +367,45 @@ def test_a_model_is_not_asked_again_nor_is_anybody_without_reflection(
     reasoner = GoesOn("a", ["cup"])
     result = search(GOAL, Held(fails()), reasoner, without=without, costless=bool(without))
     assert result.plan == () and reasoner.past == [0]
+
+
+@pytest.mark.parametrize(
+    ("error", "limit"),
+    [
+        (InstructionError("the cup is gone"), None),
+        (UnsatisfiableError("nothing does it"), None),
+        (ReasonerStopped(StopReason.MAX_CHOICES, "too many"), LimitKind.MAX_CHOICES),
+    ],
+)
+def test_what_cannot_go_on_ends_that_way_and_not_the_search(
+    error: Exception, limit: LimitKind | None
+) -> None:
+    class Stuck(GoesOn):
+        def propose(self, assignment: Assignment, scene: SceneState) -> list[Branch]:
+            if assignment.past:
+                raise error
+            return [branch("a"), branch("b cup")]
+
+    result = search(GOAL, Held(fails()), Stuck("a", []), costless=True)
+    assert names(result.plan) == "b cup"
+    alone = Stuck("a", [])
+    alone.propose = (
+        lambda assignment, scene: (  # type: ignore[method-assign]
+            Stuck.propose(alone, assignment, scene)[:1]
+        )
+    )
+    assert search(GOAL, Held(fails()), alone, costless=True).limit is limit
+
+
+def test_a_reasoner_that_checks_is_asked_instead_of_reading_the_words_again() -> None:
+    class Checking(GoesOn):
+        def check(self, assignment: Assignment, start: SceneState) -> Doubts:
+            return lambda scene: "" if scene.states["cup"].in_hand else "the cup is not held"
+
+    # The words are about something else, and nobody reads them.
+    words = Assignment("Open the box.")
+    result = search(words, Held(fails()), Checking("a", ["cup"]), costless=True)
+    assert names(result.plan) == "a cup"
 
 
 def test_rollouts_of_the_plan_are_kept() -> None:
