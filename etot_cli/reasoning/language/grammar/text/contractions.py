@@ -24,8 +24,15 @@ CONTRACTIONS = (
     (r"\bi\.e\b\.?,?", "that is"),
     (r"\bgimme\b", "give me"),
     (r"\bwon't\b", "will not"),
-    (r"(?<=\w)'s(?= (?:been|gone)\b)", " has"),
-    (r"(?<=\w)'s(?= (?:getting|looking)\b)", " is"),
+    (
+        r"(?<=\w)'s(?= (?:already |just )?(?:been|gone|fallen|got|come|run out|rolled|slipped)\b)",
+        " has",
+    ),
+    (
+        r"(?<=\w)'s(?= (?:(?:always|just|only|still|never|already) )*"
+        r"(?:always|never|getting|looking|coming|leaving|arriving|visiting|waiting|having)\b)",
+        " is",
+    ),
     (r"\b((?:no|some|every)(?:body| ?one))'s(?= \w+ing\b)", r"\1 is"),
     (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
