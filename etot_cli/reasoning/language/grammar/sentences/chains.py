@@ -47,6 +47,7 @@ from etot_cli.reasoning.language.grammar.requests.arrangements import (
 )
 from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.requests.grasping import WITH_A_GRASP
+from etot_cli.reasoning.language.grammar.requests.taking import DESKS
 from etot_cli.reasoning.language.grammar.requests.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.grammar.sentences.clauses import (
     LED_CLAUSE,
@@ -373,11 +374,31 @@ def _brought_beside(before: Clause, clause: Clause) -> PutClause | None:
     return None
 
 
+def _where_on_the_desk(before: Clause, clause: Clause) -> PutClause | None:
+    """Where exactly on the desk stands what goes there ("take the cup to the desk and set it down
+    next to the plate"), which is one place; what stands on a tray may be told to go beside it.
+    """
+    match before, clause:
+        case (
+            PutClause(groups=(PutGroup(destinations=(Destination(beside=()) as desk,)) as put,)),
+            PutClause(groups=(PutGroup(destinations=(Destination(targets=()) as there,)) as left,)),
+        ) if clause == PutClause((left,)) and there.toward is Toward.BESIDE:
+            at = [np.words in DESKS and not np.modifiers for np in desk.targets]
+            again = [np.text for np in left.things.phrases] in (["it"], ["them"])
+            if at != [True] or desk.denied or not again:
+                return None
+            where = replace(desk, beside=there.beside, stance=there.stance or desk.stance)
+            return replace(before, groups=(replace(put, destinations=(where,)),))
+    return None
+
+
 def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
     for said, clause in more:
         beside = _brought_beside(done[-1].clause, clause[0].clause)
+        if beside is None and said.endswith("and") and clause[0].order is Order.SAID:
+            beside = _where_on_the_desk(done[-1].clause, clause[0].clause)
         if beside is not None and len(clause) == 1:
             done = (*done[:-1], replace(done[-1], clause=beside))
             continue
