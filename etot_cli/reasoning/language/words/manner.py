@@ -17,7 +17,8 @@ CLOSED_STATE = f"""
 """
 FROM_STATE = """
     from (the|its|their) [present|current|initial|original] [~comma]
-    [slightly|partly|half|fully|completely] [closed|shut|open|ajar|present|current] (state|position),
+    [slightly|partly|half|fully|completely] [closed|shut|open|ajar|present|current]
+    (state|position),
     from (closed|shut|open|ajar)
 """
 """How a door is by now, before how it is to be."""

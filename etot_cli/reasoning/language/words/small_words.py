@@ -15,7 +15,8 @@ _EASIER = """
     [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)]
 """
 _WILL_DO = """
-    (is|are|would be) [both|equally|all|also|just as] (fine|ok|okay|good|acceptable|all right|alright)|
+    (is|are|would be) [both|equally|all|also|just as]
+    (fine|ok|okay|good|acceptable|all right|alright)|
     will do|would do|works|work
 """
 ANY_WILL_DO = f"""
@@ -69,7 +70,7 @@ WITHOUT_MEANING = f"""
     [will] (stay|stays|remain|remains) (standing|upright)),
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
-    however you (like|want|can [(get|take) hold of (it|them)|(reach|grasp|grip|hold|lift) (it|them)]),
+    however you (like|want|can [(get hold of|reach|grasp|grip|hold|lift) (it|them)]),
     as you (like|wish|prefer|please),
     (whichever|either|any) way (round|around) [you (like|want|prefer|please)],
     [in] (any|whichever|whatever) order

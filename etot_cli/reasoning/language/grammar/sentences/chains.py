@@ -100,6 +100,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     Clause,
     EnsureClause,
+    MoveClause,
     PickClause,
     PutClause,
     PutGroup,
@@ -113,6 +114,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 
 Joined = tuple[tuple[str, Reading], ...]
@@ -392,6 +394,20 @@ def _where_on_the_desk(before: Clause, clause: Clause) -> PutClause | None:
     return None
 
 
+def _into_what_is_closed(before: Clause, clause: Clause) -> Clause:
+    """Where something goes "in", if nothing was spoken of before: into what is closed then."""
+    match before, clause:
+        case (
+            PutClause(
+                groups=(PutGroup(destinations=(Destination(Toward.HERE, word="in") as at,)) as put,)
+            ),
+            MoveClause(things=Things(phrases=(np,), either=False), opens=False),
+        ) if np.determiner in THE_WORDS and np.words:
+            where = (replace(at, targets=(np,)),)
+            return replace(before, groups=(replace(put, destinations=where),))
+    return before
+
+
 def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
@@ -402,6 +418,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
         if beside is not None and len(clause) == 1:
             done = (*done[:-1], replace(done[-1], clause=beside))
             continue
+        if said.endswith(("and", "then")):
+            closed = _into_what_is_closed(done[-1].clause, clause[0].clause)
+            done = (*done[:-1], replace(done[-1], clause=closed))
         put = done[-1].clause if said == "listed" else None
         put = None if isinstance(clause[0].clause, RemoveClause) else put
         if isinstance(put, PutClause) and not any(sources(item.things) for item in put.groups):

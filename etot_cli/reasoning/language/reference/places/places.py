@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.reference.geometry import rows, space
 from etot_cli.reasoning.language.reference.geometry.vessels import lies_on
+from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR
 from etot_cli.reasoning.language.reference.memory.by_now import is_off
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
@@ -132,7 +133,7 @@ class Places:
             if destination.toward is Toward.HERE:
                 therein = stays and destination.word in spellings(THEREIN)
                 there = where_they_are(self.discourse, Relation.INSIDE, themes) if therein else ()
-                found = list(there or self._here(destination.word, themes))
+                found = list(there or self._here(destination, themes))
             elif destination.toward is Toward.BESIDE and (
                 around := self._spots.around(destination.beside, themes)
             ):
@@ -319,7 +320,13 @@ class Places:
             if under and all(thing.name in names for names in under):
                 raise ReferenceProblem(phrase.text, f"it is on or in {thing.name} itself", 2)
 
-    def _here(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
-        if word == "down":
+    def _here(self, where: Destination, themes: Sequence[int]) -> tuple[Place, ...]:
+        """Where was spoken of; else the targets tell it, which are spoken of next."""
+        if where.word == "down":
             return (self.on_the_desk(),)
-        return places_here(self.discourse, word, themes)
+        try:
+            return places_here(self.discourse, where.word, themes)
+        except ReferenceProblem as problem:
+            if problem.why != UNCLEAR or not where.targets:
+                raise
+        return self.of((Destination(Toward.INSIDE, where.targets),), themes)
