@@ -15,6 +15,13 @@ CLOSED_STATE = f"""
     (closed|shut) [behind (it|them)|tight], closed up,
     (pushed|slid|shoved|eased) [back] (in|to|home)
 """
+FROM_STATE = """
+    from (the|its|their) [present|current|initial|original] [~comma]
+    [slightly|partly|half|fully|completely] [closed|shut|open|ajar|present|current]
+    (state|position),
+    from (closed|shut|open|ajar)
+"""
+"""How a door is by now, before how it is to be."""
 TO = "[back] (to|home) [again]"
 """As doors are pushed when they are closed."""
 FULLY = "all the way|fully|completely"

@@ -15,7 +15,8 @@ _EASIER = """
     [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)]
 """
 _WILL_DO = """
-    (is|are|would be) [both|equally|all|also|just as] (fine|ok|okay|good|all right|alright)|
+    (is|are|would be) [both|equally|all|also|just as]
+    (fine|ok|okay|good|acceptable|all right|alright)|
     will do|would do|works|work
 """
 ANY_WILL_DO = f"""
@@ -69,7 +70,8 @@ WITHOUT_MEANING = f"""
     [will] (stay|stays|remain|remains) (standing|upright)),
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
-    however you (like|can|want), as you (like|wish|prefer|please),
+    however you (like|want|can [(get hold of|reach|grasp|grip|hold|lift) (it|them)]),
+    as you (like|wish|prefer|please),
     (whichever|either|any) way (round|around) [you (like|want|prefer|please)],
     [in] (any|whichever|whatever) order
     [you (like|want|prefer|please|choose|see fit|fancy)|[that] suits you [best|{_EASIER}]|
@@ -232,7 +234,7 @@ FRAMES = f"""
     [is there] (any|a) (chance|way|possibility) [that] [you (can|could|would|might)],
     (do|would) you think [that] you (can|could|might) [be able to], shall we [please],
     (would|could|can|will) (somebody|someone|anybody|anyone), you (might|may) (want|like|wish) to,
-    you (should|must|[will] have to|[will] need to|can|may|had better), better,
+    you (should|must|[will] have to|[will] need to|can|may|had (better|best)), better,
     (the|your) (task|goal|job|aim) is to, your task is,
     (all|what|the only thing) ([that] you (have|need) to do|
     [that] (i|we) (want|need|would like) you to do|[[that] there is] to do) is [to],
@@ -256,7 +258,7 @@ FRAMES = f"""
     i [would|must|have to|would like to] ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by,
     (i|we) [(really|just|still|also)] ought to, we [(really|just|still|also)] (need|have) to,
-    we (had better|should|must), you are to, if i were you ~comma [i (would|d)],
+    we (had (better|best)|should|must), you are to, if i were you ~comma [i (would|d)],
     would it be (all right|alright|ok|okay) [with you] to,
     would it be (too much|much) (trouble|bother|to ask) [for you] to, you could [(always|just)],
     [it is] [high] time [for you] to,

@@ -339,9 +339,10 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 ",
     ),
     (
-        r"(^|[.;!?] )(?:please,? )?no open (\w{3,}?)s?"
-        r"(?=,? (?:please )?(?:(?:at|in) the end|afterwards|when you are (?:done|finished))\b)",
-        r"\1every \2 should be closed",
+        r"(^|[.;!?] )(?:please,? )?(?:no open|((?:i|we) do not want (?:to (?:see|find|have) )?"
+        r"(?:any|an) open)) ((?:\w+ )??\w{3,}?)s?(?(2)(?=[.,;!?]|$| when (?:i|we)\b)"
+        r"|(?=,? (?:please )?(?:(?:at|in) the end|afterwards|when you are (?:done|finished))\b))",
+        r"\1every \3 should be closed",
     ),
     (_CONTAINER, _with_it_inside),
     (_AT_THE_END, _so_when_done),

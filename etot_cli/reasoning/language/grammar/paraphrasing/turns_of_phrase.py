@@ -11,7 +11,7 @@ from etot_cli.world.colors import BASIC_COLORS
 
 _COLOR = "|".join(BASIC_COLORS)
 _END = r"(?=[.,;!?]|$)"
-_FINE = r"(?:fine|ok|okay|all right|alright|no problem)"
+_FINE = r"(?:fine|acceptable|ok|okay|all right|alright|no problem)"
 _KEPT = r"(?:(?:can |to )?(?:stays?|remains?|is|are|be)(?: (?:left|kept))?)"
 _LEFT = r"(?:hanging|standing|sitting|left|still|just)"
 _WELL = r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"
@@ -56,14 +56,14 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?:standing(?: up| upright)?|upright){_END}",
         r"\1, and \2 should be upright",
     ),
-    # What somebody "forgot to do", and is asked for next
+    # What somebody "forgot to do", or "did not do", and is asked for next
     (
-        rf"(^|[.;!] )(?!nobody\b|no one\b){PEOPLE} (?:has |have )?(?:just )?"
-        r"(?:forgot|forgotten) to "
+        rf"(^|[.;!] )(?!nobody\b|no one\b){PEOPLE} (?:did not|(?:has |have )?(?:just )?"
+        r"(?:forgot|forgotten) to) "
         rf"((?:open|close|shut|put|place|take|move|bring) [^.;,!?]*?)[.;,!]"
         r" (?:so )?(?:please |kindly |(?:would|do) you mind |(?:could|can|would|will) you "
         r"(?:please )?)*(?:see(?:ing)? to|tak(?:e|ing) care of|deal(?:ing)? with|do(?:ing)?"
-        rf"|fix(?:ing)?|sort(?:ing)? out) (?:it|that|this)(?: for (?:me|us))?{_END}",
+        rf"|fix(?:ing)?|sort(?:ing)? out) (?:it|that|this)(?: for (?:me|us|them|him|her))?{_END}",
         r"\1\2",
     ),
     # Who finds it fine if it stays open need not have it so

@@ -107,7 +107,7 @@ FILL = quiet(
             build=lambda toward, np, things, more: _used(np, toward, things, more),
         ),
         sequence(
-            "use",
+            "use, choose, select",
             noun_phrase,
             one_of(
                 {

@@ -371,6 +371,8 @@ GRASP = quiet(
                 build=_not_so,
             ),
             sequence(_BY_THE_HAND, POSES, build=_so),
+            # "Gripping it from above, carry it there"
+            sequence("[by] (grasping|gripping|grabbing) (it|them)", POSES, build=_so),
             sequence(
                 "approach[ing], com(e|ing) at",
                 THINGS,

@@ -141,7 +141,7 @@ MOVE = either(
     sequence(
         # "Put the pen in and shut the door behind it"
         _PLAIN_MOVE,
-        "behind (it|them)",
+        "(behind|on) (it|them)",
         build=lambda moved: None if moved.opens else moved,
     ),
     sequence(

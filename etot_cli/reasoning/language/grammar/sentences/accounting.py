@@ -88,7 +88,7 @@ _ALIKE = {
     "nearest": "front", "farthest": "back", "opened": "open", "ajar": "open",
 }  # fmt: skip
 """Words that a tree may have one for the other."""
-_FIXED = """
+_FIXED = f"""
     not (both|all) (in|on) the same (one|place),
     (on|at) the far (left|right), (from|off|off of) the top of,
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
@@ -119,7 +119,8 @@ _FIXED = """
     all (the (way|time|while)|along), at all times,
     remaining (in|on|where|there|inside|open|closed|shut|put),
     (nearly|almost) (closed|shut), no matter (from|if|whether),
-    from [a|the] horizontal [position|pose|orientation] to, (is|are) all the same to (me|us),
+    {manner.FROM_STATE}, from [a|the] horizontal [position|pose|orientation] to,
+    (is|are) all the same to (me|us),
     not (possible|feasible|doable), (does|do|will) not work,
     the right (home|place|spot) (for|of),
     (standing|upright) [~comma] (and not|not) lying [down|flat],
