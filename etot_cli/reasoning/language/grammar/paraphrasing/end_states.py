@@ -355,8 +355,9 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "A little tower"
     (
-        r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
-        r"\1 a \2",
+        r"\b((?:build|make|form|erect|in|into)(?: me| us)? an?) "
+        r"(?:nice )?(?:little|small|tiny|nice|neat|mini) (?=(?:tower|stack|pile)\b)",
+        r"\1 ",
     ),
     (
         rf"\b({_SOME}|it) (stays?|remains?|should stay|must stay) (where it is|put),? (?:and )?"

@@ -265,6 +265,7 @@ PUT = either(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.WANTED, ALL_THINGS, optional(verbs.TO_BE_THERE)),
+            sequence(verbs.CAN, ALL_THINGS, verbs.BE_PUT),
         ),
         DESTINATIONS,
         some(EXTRA, least=1, most=2),
