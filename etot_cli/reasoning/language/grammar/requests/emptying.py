@@ -181,6 +181,15 @@ TO_BE_EMPTY = either(
         to_be_empty,
     ),
     variants(
+        sequence(
+            verbs.CAN,
+            ALL_THINGS,
+            "[please] be (cleared|emptied) [out]",
+            silent(optional(_OF_ALL_ON_IT)),
+        ),
+        to_be_empty,
+    ),
+    variants(
         either(
             _nothing_there(verbs.NOTHING_IS),
             _has_nothing(

@@ -208,7 +208,7 @@ IF_NOT_SO = quiet(
             _THEN,
             EMPTY_WORDS,
             _PLAIN_MOVE,
-            build=lambda found, moved: _if_not_so(*found, moved),
+            build=lambda found, moved: _if_not_so(found[0], found[1], moved),
         ),
         sequence(
             "if",
