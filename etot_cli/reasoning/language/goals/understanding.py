@@ -79,6 +79,7 @@ class Understanding:
         """An independent copy, for trying a reading."""
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
+        other.context.toppling = set(self.context.toppling)
         other.context.grasps = list(self.context.grasps)
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
         other.context.in_the_way = list(self.context.in_the_way)

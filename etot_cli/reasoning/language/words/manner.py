@@ -29,7 +29,8 @@ A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, the rest of the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
 _UNLESS = """
-    if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so} [already],
+    if [it is|they are|it happens to be|they happen to be|(it|they) should be] [still|currently]
+    {other}, unless (it is|they are|it happens to be|they happen to be) [already] {so} [already],
     if (it is|they are|) not [already] {so} [already|yet], if (necessary|needed),
     until (it is|they are) [fully|completely] {so}
 """

@@ -94,6 +94,8 @@ WITHOUT_MEANING = f"""
     as far as i (know|remember|recall|can (tell|see)|am aware),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way,
+    (never mind|ignore|excuse|pardon|forgive|do not mind|do not worry about|sorry about)
+    (the|this|that|my|all the|all this) (mess|clutter|chaos|muddle|noise|smell|dust),
     what a mess [(in|around|over|) here|[over|in|] there|this is],
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
     ~comma i (think|believe|guess|suppose|reckon|would say), maybe, perhaps,

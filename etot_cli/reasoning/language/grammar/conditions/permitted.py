@@ -63,6 +63,15 @@ ONLY_THESE_MAY = either(
         build=lambda avoid, nps: _only_these(nps, avoid),
     ),
     sequence(
+        # "Apart from the pen, nothing is to be moved"
+        nouns.EXCEPT,
+        exceptions,
+        OPTIONAL_COMMA,
+        "nothing",
+        _MAY_BE,
+        build=_only_these,
+    ),
+    sequence(
         NP_LIST,
         "(is|are) the only (thing|things|object|objects|one|ones|item|items)",
         either(

@@ -160,7 +160,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "The blue one, though, should lie there"
     (
         r", (?:though|however|on the other hand|in turn|for (?:its|their) part),"
-        rf"(?= (?:{_MUST})\b)",
+        rf"(?= (?:{_MUST}|goes|go|belongs?)\b)",
         "",
     ),
     (
@@ -356,8 +356,9 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "A little tower"
     (
-        r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
-        r"\1 a \2",
+        r"\b((?:build|make|form|erect|in|into)(?: me| us)? an?) "
+        r"(?:nice )?(?:little|small|tiny|nice|neat|mini) (?=(?:tower|stack|pile)\b)",
+        r"\1 ",
     ),
     (
         rf"\b({_SOME}|it) (stays?|remains?|should stay|must stay) (where it is|put),? (?:and )?"

@@ -36,13 +36,6 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     (rf"(?<=[.;,] )th(?:at|is) one (?=is (?:far |much |way )?too \w+{_END})", "it "),
     (r"\b(?:gripped|grasped|held) (?:by |in )?(?=(?:whichever|whatever|any) way\b)", "in "),
-    # "Any box will do for the pen; just put it in there"
-    (
-        rf"\b(?:any|either) (\w+(?: \w+)?) (?:will|would) do for ({NAMED} \w+(?: \w+)?)[;.,:] "
-        r"((?:so |and |just |please |simply )*)(put|get|place|set|drop|stick) it "
-        r"(in|on|into|onto|inside)(?: (?:there|it|one))?(?=[.,;!?]|$| (?:without|and|then)\b)",
-        r"\3\4 \2 \5 any \1",
-    ),
     (
         r"\bha(s|ve) no business (?:being )?(?=(?:in|on|inside)\b)",
         lambda said: f"{'does' if said[1] == 's' else 'do'} not belong ",

@@ -242,6 +242,13 @@ _BESIDE_IT = sequence(
     phrase("it, them"),
     build=lambda near, said: _beside(near, NounPhrase(pronoun=said, text=said)),
 )
+_on_beside = sequence(
+    either(ONTO, _to, INTO),
+    OPTIONAL_COMMA,
+    optional(places.SOMEWHERE),
+    BESIDES,
+    build=lambda surface, found: replace(surface, beside=found),
+)
 _WHERE_IT_IS = either(WITH, STEAD)
 _place = either(
     INTO,
@@ -289,13 +296,7 @@ _place = either(
         build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
     ),
     sequence(INTO, OPTIONAL_COMMA, places.ONTO, noun_phrase, build=_upon_what_is_in),
-    sequence(
-        either(ONTO, _to, INTO),
-        OPTIONAL_COMMA,
-        optional(places.SOMEWHERE),
-        BESIDES,
-        build=lambda surface, found: replace(surface, beside=found),
-    ),
+    _on_beside,
     sequence(
         # "On the table, left side"
         either(ONTO, _to, INTO),
@@ -323,7 +324,10 @@ destination = Rule(
         optional(places.SOMEWHERE),
         either(
             _place,
-            sequence(places.UP_OR_DOWN, either(INTO, ONTO, _to, _beside_something, _WHERE_IT_IS)),
+            sequence(
+                places.UP_OR_DOWN,
+                either(INTO, ONTO, _to, _beside_something, _on_beside, _WHERE_IT_IS),
+            ),
             sequence("directly, straight", either(INTO, ONTO)),
         ),
     )

@@ -57,8 +57,8 @@ def begins_like_a_verb(np: NounPhrase) -> bool:
 
 
 def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] | None:
-    """Several phrases; in "the cup, the left one" no "and" says that there are two, and the "and"
-    in "the red, green and large blue blocks" is that of the list.
+    """Several phrases; in "the cup, the left one" and "off it, the cup" no "and" says that there
+    are two, and the "and" in "the red, green and large blue blocks" is that of the list.
     """
     if any(begins_like_a_verb(np) for _, np in more):
         return None
@@ -72,7 +72,7 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
     renamed = any(
         np.determiner.startswith("any") and np.words in ((), first.words) for _, np in more
     )
-    if renamed or (apposed and not joined):
+    if renamed or ((apposed or first.pronoun) and not joined and more):
         return None
     found = coordinated(first, tuple(np for _, np in more))
     if found and found[1:] and first.head == "contents" and first.modifiers:

@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
     spanned,
+    variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
@@ -237,6 +238,19 @@ _COMES_AND_GOES = """
 """
 
 
+def _suiting(said: tuple[NounPhrase, Things]) -> tuple[PutClause, ...]:
+    """What "will do for" something: that goes in there, or it goes in that, whichever can hold the
+    other.
+    """
+    first, things = said
+    inside = [(things, first), *((Things((first,)), np) for np in things.phrases[:1])]
+    several = things.phrases[1:]
+    return tuple(
+        put_to(what, (Destination(Toward.INSIDE, (where,)),))
+        for what, where in (inside[:1] if several else inside)
+    )
+
+
 PUT = either(
     AS_MANY,
     PUT_ON_COLOR,
@@ -259,12 +273,14 @@ PUT = either(
         build=lambda where, things: put_to(things, where),
     ),
     sequence(ALL_THINGS, _NEEDS_A_PLACE, WHERE, build=put_to),
+    variants(sequence(noun_phrase, "(will|would) do for", ALL_THINGS), _suiting),
     sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
     sequence(verbs.WANTED, CHOICE, optional("to be"), DESTINATIONS, build=put_to),
     sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.WANTED, ALL_THINGS, optional(verbs.TO_BE_THERE)),
+            sequence(verbs.CAN, ALL_THINGS, verbs.BE_PUT),
         ),
         DESTINATIONS,
         some(EXTRA, least=1, most=2),
