@@ -81,7 +81,7 @@ WITHOUT_MEANING = f"""
     [in] (whichever|whatever) way (is (easiest|best|possible)|works [best]|suits you),
     without (damaging|hurting|harming|breaking) anything,
     if possible, by all means,
-    [and|but] whatever (you do|happens) [~comma],
+    [and|but] whatever [else] (you do|happens) [~comma],
     properly, neatly, directly, straight,
     ~comma if you would [be so (kind|good|nice)], ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
@@ -204,7 +204,8 @@ WOULD_BE_NICE = """
     (glad|happy|happier|grateful|pleased|delighted|thankful|obliged),
     (i|we) would [really] (like|love|appreciate|prefer) it,
     [it|that] would be [very|really|so]
-    (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best|ideal) [of you],
+    (good|great|nice|nicer|lovely|kind|helpful|perfect|wonderful|better|best|ideal|preferable|tidier)
+    [of you],
     [it|that] would make me happy, it would help [me|us] [a lot|a great deal],
     (i|we) would feel [much|a lot|so much] (better|safer|calmer)
 """

@@ -27,7 +27,7 @@ HOLD = either(
         build=lambda things, poses: PickClause(things, tuple(dict.fromkeys(poses or ()))),
     ),
     sequence(
-        f"{verbs.SET}, {verbs.FETCH}, keep[ing], have, hold[ing], (give|get) me",
+        f"{verbs.SET}, {verbs.PICK}, {verbs.FETCH}, keep[ing], have",
         either(
             sequence(THINGS, IN_HAND, build=lambda things, _: things),
             # "One ball in the gripper, left or right"
