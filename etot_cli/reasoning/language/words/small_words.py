@@ -250,6 +250,8 @@ FRAMES = f"""
     [it is] ({THE_ROBOT}) 's (task|goal|job) [is] to, the (task|goal|job) of ({THE_ROBOT}) is to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind [to], mind,
     (how|what) about [[if] you], why do not you,
+    (let (me|us)|(i|we) (want|would (like|love)) to|(may|can|could) (i|we)) (see|watch) you,
+    (let (me|us) see|show (me|us)) (if|whether|how|that) you [(can|could|would)],
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible [for you] to,
