@@ -27,9 +27,7 @@ from etot_cli.reasoning.language.words import forbidden, nouns
 from etot_cli.reasoning.language.words.places import Prep
 
 
-def anything_but(
-    nps: tuple[NounPhrase, ...], places: tuple[NounPhrase, ...] = ()
-) -> NounPhrase:
+def anything_but(nps: tuple[NounPhrase, ...], places: tuple[NounPhrase, ...] = ()) -> NounPhrase:
     """All things but some; what goes to some ``places`` is not these."""
     text = f"anything but {' and '.join(np.text for np in nps)}"
     return NounPhrase("", ("anything",), (Modifier(Prep.EXCEPT, (*nps, *places)),), text=text)
