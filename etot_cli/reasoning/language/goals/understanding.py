@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Close, Goal, Near, Place, Put, Relation, Step, Thing
@@ -59,6 +59,20 @@ def _lying(step: Put) -> Put:
     near = Near(Nearby.UPRIGHT)
     places = (replace(p, beside=tuple(n for n in p.beside if n != near)) for p in step.places)
     return replace(step, places=tuple(places))
+
+
+def _stood_there(steps: Iterable[Step]) -> tuple[Step, ...]:
+    """Steps, without what only says later that a thing is to stand where it was put ("the jar on
+    the tray, the spoon in it, and the jar upright").
+    """
+    told: list[Step] = []
+    for step in steps:
+        plain = _lying(step) if isinstance(step, Put) else step
+        if plain != step and plain in told:
+            told[told.index(plain)] = step
+        else:
+            told.append(step)
+    return tuple(told)
 
 
 class Understanding:
@@ -269,7 +283,7 @@ class Understanding:
             ReferenceProblem: a part is to be both open and closed.
         """
         discourse = self.context.discourse
-        said = tuple(in_order(self.timed, discourse))
+        said = _stood_there(in_order(self.timed, discourse))
         steps = [
             step
             for before, step, after in zip((None, *said), said, (*said[1:], None), strict=False)

@@ -137,9 +137,10 @@ KEPT_HELD = """
 """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
-_HAND = "(hand|gripper|grasp|grip|fingers|robot hand|claw|jaws)"
+_HAND = "(hand|gripper|grasp|grip|[two|gripper] fingers|robot hand|claw|[gripper] jaws)"
 IN_HAND = f"""
-    [held|ready] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}, held
+    [held|ready] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}
+    [of (the|your) (gripper|hand|robot)], held
 """
 """Where what is picked up is in the end."""
 THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, gripper, the robot, you"

@@ -83,7 +83,7 @@ WITHOUT_MEANING = f"""
     [in] (whichever|whatever) way (is (easiest|best|possible)|works [best]|suits you),
     without (damaging|hurting|harming|breaking) anything,
     if possible, by all means,
-    [and|but] whatever (you do|happens) [~comma],
+    [and|but] whatever [else] (you do|happens) [~comma],
     properly, neatly, directly, straight,
     ~comma if you would [be so (kind|good|nice)], ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
@@ -208,7 +208,8 @@ WOULD_BE_NICE = """
     (glad|happy|happier|grateful|pleased|delighted|thankful|obliged),
     (i|we) would [really] (like|love|appreciate|prefer) it,
     [it|that] would be [very|really|so]
-    (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best|ideal) [of you],
+    (good|great|nice|nicer|lovely|kind|helpful|perfect|wonderful|better|best|ideal|preferable|tidier)
+    [of you],
     [it|that] would make me happy, it would help [me|us] [a lot|a great deal],
     (i|we) would feel [much|a lot|so much] (better|safer|calmer)
 """
@@ -253,6 +254,8 @@ FRAMES = f"""
     [it is] ({THE_ROBOT}) 's (task|goal|job) [is] to, the (task|goal|job) of ({THE_ROBOT}) is to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind [to], mind,
     (how|what) about [[if] you], why do not you,
+    (let (me|us)|(i|we) (want|would (like|love)) to|(may|can|could) (i|we)) (see|watch) you,
+    (let (me|us) see|show (me|us)) (if|whether|how|that) you [(can|could|would)],
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible [for you] to,

@@ -244,7 +244,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
     told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
     told = told or wants_such_a_thing(aside.said, is_name)
-    told = told or is_in_passing(aside.said) or tells_fact(aside.said, is_name)
+    told = told or is_in_passing(aside.said) or tells_fact(_whole_of(aside), is_name)
     somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
     told = told or (aside.joint == "before" and somebody) or is_of_relative(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
@@ -254,6 +254,11 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
         or tells_of_others(aside.said, is_name, before_so=True)
     )
     return told or strange or outside or _is_of_own_body(aside.said, is_name)
+
+
+def _whole_of(clause: Clause) -> str:
+    """What a clause says, as a sentence of its own where "which" stands for what it is about."""
+    return f"it {clause.said}" if clause.kind == "comment" else clause.said
 
 
 def _is_of_own_body(said: str, is_name: IsName) -> bool:
@@ -355,7 +360,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             return trailing and is_warning(clause.said)
         case "comment", _:
             return clause.comma and (
-                is_comment(clause.said, is_name) or tells_fact(f"it {clause.said}", is_name)
+                is_comment(clause.said, is_name) or tells_fact(_whole_of(clause), is_name)
             )
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
     planned = so and (

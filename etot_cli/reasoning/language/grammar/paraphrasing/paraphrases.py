@@ -276,7 +276,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         rf"|(?:nobody|no one) (?:uses|is using)){_NO_MORE_SAID}",
         r"\1 is empty",
     ),
-    (r"\bup (?=with\b)", ""),
+    (r"(?<=\w )up (?=with\b)", ""),
     (
         r"(^|[.;,] |\b(?:and|but) )only (?:then|afterwards?|thereafter|after (?:that|this)),? "
         r"(?=\w)(?!(?:should|may|can|could|must|shall|will|is|are|has|have|does|do)\b)",

@@ -169,17 +169,6 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?:is|are|would be) (?:both |equally )?{_FINE}{_END}",
         r" with a \1 \2 or a \3 \2",
     ),
-    (
-        rf"\b(?:one|any|either) of the (?:two )?(\w+?)(?:(?<=[xsh])es|s)((?: please)?), "
-        rf"({_COLOR}) or ({_COLOR})"
-        rf"(?:, (?:both|either|each) (?:is|are|would be) (?:equally )?{_FINE})?{_END}",
-        r"the \3 \1 or the \4 \1\2",
-    ),
-    (
-        rf"\b(?:an?|one|any|either) (\w+),? \(?(?:either )?(?:the )?({_COLOR}) or (?:the )?"
-        rf"({_COLOR})(?: one)?(?:\)|{_END})",
-        r"a \2 \1 or a \3 \1",
-    ),
     # What is to be in what "has" it, and by when; all that is so is so in the end
     (
         rf"( in it,? (?:and )?with (?:its|the) door (?:closed|shut)) {_AFTERWARDS}{_END}",

@@ -39,6 +39,13 @@ from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEV
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     BETWEEN,
 )
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
+    BE_IT,
+    EITHER_SIDE,
+    one_out_of,
+    one_so,
+    tells_which,
+)
 from etot_cli.reasoning.language.grammar.phrases.steads import (
     INSTEAD_OF_IT,
     STEAD,
@@ -74,8 +81,24 @@ THE_DESK = NounPhrase("the", ("desk",), text="the desk")
 """What has room for anything."""
 RECEIVER = "receiver"
 """The word of a destination that is said to get something."""
-TARGETS = sequence(
-    alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
+
+
+def _any_target(nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
+    """One of several; what stands behind "a cup" in "a cup, the red or the blue one" tells which
+    that is.
+    """
+    return None if nps is None or tells_which(*nps) else coordinated(nps[0], nps[1:])
+
+
+TARGETS = either(
+    sequence(alternatives(noun_phrase, 5), build=_any_target),
+    # "In one of the cups, be it the red or the blue one"
+    sequence(
+        noun_phrase,
+        EITHER_SIDE,
+        build=lambda np, sides: None if (one := one_so(np, sides)) is None else one.phrases,
+    ),
+    sequence(noun_phrase, COMMA, BE_IT, alternatives(noun_phrase, 3), build=one_out_of),
 )
 
 
@@ -361,6 +384,12 @@ DESTINATIONS = Rule(
             small_words.EITHER,
             _any_of_them,
             build=_if_several,
+        ),
+        sequence(
+            OPTIONAL_COMMA,
+            "be it, whether",
+            separated(destination, "~comma be it, [~comma] or [be it]", most=5),
+            build=lambda where: _if_several(of_one_noun(where)),
         ),
         sequence(
             _any_of_them,

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     quiet,
     sequence,
+    silent,
     spanned,
     valued,
 )
@@ -236,6 +237,10 @@ GRASPED = sequence(
     ),
 )
 """Behind what is picked up."""
+KEPT_SO = silent(
+    optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")
+)
+"""The same, for how long, which asks for nothing else."""
 WITH_A_GRASP = spanned(
     either(
         sequence(spanned(POSES, _with_a_grasp), build=lambda clause: clause),

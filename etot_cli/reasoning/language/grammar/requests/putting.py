@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,
     Parser,
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -445,6 +446,18 @@ PUT = either(
     ),
     sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
+    sequence(
+        # "Put the cups in the box and the bin, in any combination"
+        f"{verbs.SET}, {verbs.FETCH}",
+        ALL_THINGS,
+        one_of({Toward.INSIDE: places.INTO, Toward.ON: places.ONTO}),
+        NP_LIST,
+        OPTIONAL_COMMA,
+        manner.ANYHOW,
+        build=lambda things, toward, nps: (
+            put_to(things, (Destination(toward, nps),)) if things.may_be_several else None
+        ),
+    ),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
     spanned(
         sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away), rather_laid_down
