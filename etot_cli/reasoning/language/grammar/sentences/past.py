@@ -60,8 +60,10 @@ SO = sequence(
     OPEN_OR_CLOSED,
     build=lambda things, word: MoveClause(things, word == "open"),
 )
+_HAS_COME = "(has|have) (come|gone)|come[s]"
 _TAKEN_BY_THEN = (
-    f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted|gone)"
+    f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted|gone),"
+    f" ({_HAS_COME})"
 )
 _TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
 _NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
@@ -120,7 +122,8 @@ _SO_BY_THEN = either(
     sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
     sequence(
         ALL_THINGS,
-        f"(is|are) (out|off|gone), (is|are|has been|have been) ({_TAKEN_AWAY})",
+        f"(is|are|{_HAS_COME}) (out|off), (is|are) gone,"
+        f" (is|are|has been|have been) ({_TAKEN_AWAY})",
         _NO_MORE,
         build=RemoveClause,
     ),
