@@ -370,33 +370,41 @@ ALL_LATER = sequence(
     build=lambda first, more: sum(map(then_done, more), first),
 )
 """Likewise, where the rest comes behind it ("before you open it and put the pen in, …")."""
-EARLIER = valued(
-    either(
-        sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-        sequence(
-            # "… have taken the pen off it and stood it in the cup"
-            small_words.AFTER,
-            plain(_HAVING_DONE),
-            "and [then]",
-            plain(_HAVING_DONE),
-            build=lambda first, next_: first + then_done(next_),
-        ),
-        sequence("having [first|already|just|previously|beforehand]", plain(_HAVING_DONE)),
-        sequence(
-            small_words.BY_THEN,
-            plain(_SO_BY_THEN),
-            some(
-                sequence(
-                    optional(COMMA),
-                    "and [(once|when|after|as soon as)]",
-                    # "… has been put on the tray and the pen in the cup"
-                    plain(either(_SO_BY_THEN, sequence(NP_LIST, DESTINATIONS, build=_gapped))),
-                ),
-                most=3,
+
+
+def _earlier(between: Parser | str) -> Parser:
+    return valued(
+        either(
+            sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
+            sequence(
+                # "… have taken the pen off it and stood it in the cup"
+                small_words.AFTER,
+                plain(_HAVING_DONE),
+                "and [then]",
+                plain(_HAVING_DONE),
+                build=lambda first, next_: first + then_done(next_),
             ),
-            build=lambda first, more: sum(more, first),
+            sequence("having [first|already|just|previously|beforehand]", plain(_HAVING_DONE)),
+            sequence(
+                small_words.BY_THEN,
+                plain(_SO_BY_THEN),
+                some(
+                    sequence(
+                        between,
+                        # "… has been put on the tray and the pen in the cup"
+                        plain(either(_SO_BY_THEN, sequence(NP_LIST, DESTINATIONS, build=_gapped))),
+                    ),
+                    most=3,
+                ),
+                build=lambda first, more: sum(more, first),
+            ),
         ),
-    ),
-    _by_then,
-)
+        _by_then,
+    )
+
+
+_AND_ONCE = "and [(once|when|after|as soon as)]"
+EARLIER = _earlier(sequence(optional(COMMA), _AND_ONCE))
 """What comes before the rest of a sentence."""
+EARLIER_ALONE = _earlier(either("and", "[~comma] and (once|when|after|as soon as)"))
+"""The same between commas, behind which something else is asked for."""
