@@ -21,8 +21,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
     spanned,
-    variants,
     valued,
+    variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
