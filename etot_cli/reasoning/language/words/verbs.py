@@ -266,6 +266,7 @@ WANT = """
     (would|is) it [be] possible to have,
     it would be [really|so] (great|nice|lovely|good) to (see|have),
     (i|we) would [rather] (have|see),
+    (i|we) would (feel|be) [much|a lot] (better|happier|safer|[more] at ease) with,
     (what|all [that]) (i|we) [really|just] (want|need|ask [for]) [to (have|see)] is,
     (what|all [that]) (i|we) would [really|just] (like|love) [to (have|see)] is,
     [what] (i am|we are) [really|just] after [is]
