@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
@@ -86,6 +87,9 @@ def modified(
             raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
         if modifier.words == CLEARED:
             _check_cleared(modifier, landmark_sets(modifier), scene)
+            cleared = (t for way in landmark_sets(modifier) for several in way for t in several)
+            if all(space.is_drawer(thing, scene) for thing in cleared):
+                modifier = replace(modifier, prep=Prep.IN)
         ways: dict[tuple[Thing, ...], tuple[list[Thing], list[str]]] = {}
         for landmarks in landmark_sets(modifier):
             said: list[str] = []
