@@ -97,6 +97,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.words import forbidden, manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
+    STATES,
     singular,
 )
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -237,6 +238,17 @@ _COMES_AND_GOES = """
 """
 
 
+def _one_and_the_other(one: Things, where: tuple[Destination, ...], more: Any) -> PutClause | None:
+    """Where one of some things is to be, and the other one; in what is closed it may stay so."""
+    groups = [PutGroup(one, where)]
+    for said, there in more:
+        other = NounPhrase("the other", ("one",), text=said)
+        groups.append(PutGroup(Things((other,)), there))
+        if any(word in STATES for item in there for np in item.targets for word in np.words):
+            return None
+    return PutClause(tuple(groups), wherever=True)
+
+
 PUT = either(
     AS_MANY,
     PUT_ON_COLOR,
@@ -259,8 +271,19 @@ PUT = either(
         build=lambda where, things: put_to(things, where),
     ),
     sequence(ALL_THINGS, _NEEDS_A_PLACE, WHERE, build=put_to),
-    sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
-    sequence(verbs.WANTED, CHOICE, optional("to be"), DESTINATIONS, build=put_to),
+    sequence(
+        either(
+            sequence(CHOICE, verbs.MODAL),
+            sequence(verbs.WANTED, CHOICE, optional("to be")),
+            sequence(verbs.ENSURE, CHOICE, verbs.BE),
+        ),
+        DESTINATIONS,
+        some(
+            sequence(LIST, phrase("the other [one]"), silent(optional(verbs.BE)), DESTINATIONS),
+            most=1,
+        ),
+        build=_one_and_the_other,
+    ),
     sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
