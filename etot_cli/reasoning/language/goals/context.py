@@ -75,6 +75,8 @@ class Context:
         self.places = Places(scene, self.phrases, discourse)
         self.turned: list[int] = []
         """Referents that were to be reoriented."""
+        self.toppling: set[str] = set()
+        """What must not fall over, even where it is put somewhere itself."""
         self.grasps: list[Grasp] = []
         """How things are grasped, where it is said by itself."""
         self.constraints: list[Constraint] = []

@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.goals.checks import (
     check_turns,
     with_room_made,
 )
+from etot_cli.reasoning.language.goals.knocked_over import carried_standing
 from etot_cli.reasoning.language.goals.left_out import (
     without_needless,
     without_places,
@@ -63,7 +64,8 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         known = state.context.discourse.undecided
         state = best_reading(state, sentence)
         _leave_open(state.context.discourse, known, sentence.text)
-    goal = with_room_made(state.goal(complete=True), state.context.in_the_way)
+    goal = carried_standing(state.context, state.goal(complete=True))
+    goal = with_room_made(goal, state.context.in_the_way)
     check_kept(goal, scene)
     check_shut(goal, scene)
     check_everything(goal)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.builtin.goal import Constraint, Keep, Put
+from dataclasses import replace
+
+from etot_cli.reasoning.builtin.goal import Constraint, Goal, Keep, Put, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.stance import can_stand, reorient
+from etot_cli.reasoning.language.goals.stance import can_stand, reorient, with_stance
 from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause, ReorientClause
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.spoken_of import are_several
@@ -45,6 +47,31 @@ def keep_it_standing(context: Context, clause: AvoidClause) -> bool:
         raise AmbiguousReference(text, [referents[i].text for i in (*step.what, *fall)])
     reorient(context, ReorientClause(clause.things, Nearby.UPRIGHT, meanwhile=True))
     return True
+
+
+def carried_standing(context: Context, goal: Goal) -> Goal:
+    """With what must not topple upright where it is put somewhere itself; nothing hits the rest."""
+    stood: set[str] = set()
+
+    def standing(step: Step) -> Step:
+        if not isinstance(step, Put):
+            return step
+        names = {thing.name for thing in context.discourse.things(*step.what)}
+        if not (names <= context.toppling and all(can_stand(context, i) for i in step.what)):
+            return step
+        stood.update(names)
+        if any(near.relation.is_stance for place in step.places for near in place.beside):
+            return step
+        places = with_stance(context, step.what, step.places, Nearby.UPRIGHT)
+        return replace(step, places=places)
+
+    steps = tuple(map(standing, goal.steps))
+    kept = tuple(
+        item
+        for item in goal.constraints
+        if not (item.keep is Keep.UNHIT and item.names and {*item.names} <= stood)
+    )
+    return replace(goal, steps=steps, constraints=kept)
 
 
 def _keep_choice_standing(context: Context, step: Put, text: str) -> None:

@@ -142,6 +142,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         harmed = " and ".join(thing.address for thing in context.discourse.things(*indices))
         context.discourse.notes.append(f"no plan may harm {harmed}")
         return
+    if clause.over and not clause.things.are_any:
+        context.toppling |= {thing.name for thing in context.discourse.things(*indices)}
     one_way = all(len(context.discourse.referents[index].options) == 1 for index in indices)
     if clause.avoid is Avoid.MOVE and role is not Role.PART and one_way:
         leave_among(context, indices)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Close, Goal, Near, Place, Put, Relation, Step, Thing
@@ -61,6 +61,20 @@ def _lying(step: Put) -> Put:
     return replace(step, places=tuple(places))
 
 
+def _stood_there(steps: Iterable[Step]) -> tuple[Step, ...]:
+    """Steps, without what only says later that a thing is to stand where it was put ("the jar on
+    the tray, the spoon in it, and the jar upright").
+    """
+    told: list[Step] = []
+    for step in steps:
+        plain = _lying(step) if isinstance(step, Put) else step
+        if plain != step and plain in told:
+            told[told.index(plain)] = step
+        else:
+            told.append(step)
+    return tuple(told)
+
+
 class Understanding:
     """What has been understood up to some point of an instruction."""
 
@@ -79,6 +93,7 @@ class Understanding:
         """An independent copy, for trying a reading."""
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
+        other.context.toppling = set(self.context.toppling)
         other.context.grasps = list(self.context.grasps)
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
         other.context.in_the_way = list(self.context.in_the_way)
@@ -268,7 +283,7 @@ class Understanding:
             ReferenceProblem: a part is to be both open and closed.
         """
         discourse = self.context.discourse
-        said = tuple(in_order(self.timed, discourse))
+        said = _stood_there(in_order(self.timed, discourse))
         steps = [
             step
             for before, step, after in zip((None, *said), said, (*said[1:], None), strict=False)

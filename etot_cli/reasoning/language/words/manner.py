@@ -15,6 +15,13 @@ CLOSED_STATE = f"""
     (closed|shut) [behind (it|them)|tight], closed up,
     (pushed|slid|shoved|eased) [back] (in|to|home)
 """
+FROM_STATE = """
+    from (the|its|their) [present|current|initial|original] [~comma]
+    [slightly|partly|half|fully|completely] [closed|shut|open|ajar|present|current]
+    (state|position),
+    from (closed|shut|open|ajar)
+"""
+"""How a door is by now, before how it is to be."""
 TO = "[back] (to|home) [again]"
 """As doors are pushed when they are closed."""
 FULLY = "all the way|fully|completely"
@@ -22,7 +29,8 @@ A_PUSH = "a [little|gentle|quick] (push|shove|nudge)"
 ALL_THE_WAY = "wide, all the way, the rest of the way, fully, completely, entirely"
 """Of what is opened they ask for more than is done."""
 _UNLESS = """
-    if [it is|they are] [still|currently] {other}, unless (it is|they are) [already] {so} [already],
+    if [it is|they are|it happens to be|they happen to be|(it|they) should be] [still|currently]
+    {other}, unless (it is|they are|it happens to be|they happen to be) [already] {so} [already],
     if (it is|they are|) not [already] {so} [already|yet], if (necessary|needed),
     until (it is|they are) [fully|completely] {so}
 """
@@ -130,9 +138,10 @@ KEPT_HELD = """
 """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
-_HAND = "(hand|gripper|grasp|grip|fingers|robot hand|claw|jaws)"
+_HAND = "(hand|gripper|grasp|grip|[two|gripper] fingers|robot hand|claw|[gripper] jaws)"
 IN_HAND = f"""
-    [held|ready] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}, held
+    [held|ready] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}
+    [of (the|your) (gripper|hand|robot)], held
 """
 """Where what is picked up is in the end."""
 THE_HAND = f"(the|your|its|the robot 's|the robot) {_HAND}, gripper, the robot, you"

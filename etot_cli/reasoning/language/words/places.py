@@ -131,7 +131,7 @@ ANYWHERE = """
     where you (like|want|please|wish)
 """
 """Before where something is not to go."""
-UP_OR_DOWN = "up, down, over"
+UP_OR_DOWN = "up, down, over, across"
 """Before a place, which is there."""
 TARGET = """
     (target|destination|goal|receptacle) [location|position|container|place|spot|object]|

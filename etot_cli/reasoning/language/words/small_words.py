@@ -15,7 +15,8 @@ _EASIER = """
     [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)]
 """
 _WILL_DO = """
-    (is|are|would be) [both|equally|all|also|just as] (fine|ok|okay|good|all right|alright)|
+    (is|are|would be) [both|equally|all|also|just as]
+    (fine|ok|okay|good|acceptable|all right|alright)|
     will do|would do|works|work
 """
 ANY_WILL_DO = f"""
@@ -69,7 +70,8 @@ WITHOUT_MEANING = f"""
     [will] (stay|stays|remain|remains) (standing|upright)),
     (in|with|using) (any|either|whatever|whichever) (orientation|pose|way|manner|grasp|grip)
     [you (like|can|want|prefer)], (any|whichever) way you (can|like|want), no matter how,
-    however you (like|can|want), as you (like|wish|prefer|please),
+    however you (like|want|can [(get hold of|reach|grasp|grip|hold|lift) (it|them)]),
+    as you (like|wish|prefer|please),
     (whichever|either|any) way (round|around) [you (like|want|prefer|please)],
     [in] (any|whichever|whatever) order
     [you (like|want|prefer|please|choose|see fit|fancy)|[that] suits you [best|{_EASIER}]|
@@ -81,7 +83,7 @@ WITHOUT_MEANING = f"""
     [in] (whichever|whatever) way (is (easiest|best|possible)|works [best]|suits you),
     without (damaging|hurting|harming|breaking) anything,
     if possible, by all means,
-    [and|but] whatever (you do|happens) [~comma],
+    [and|but] whatever [else] (you do|happens) [~comma],
     properly, neatly, directly, straight,
     ~comma if you would [be so (kind|good|nice)], ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
@@ -92,6 +94,8 @@ WITHOUT_MEANING = f"""
     as far as i (know|remember|recall|can (tell|see)|am aware),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way,
+    (never mind|ignore|excuse|pardon|forgive|do not mind|do not worry about|sorry about)
+    (the|this|that|my|all the|all this) (mess|clutter|chaos|muddle|noise|smell|dust),
     what a mess [(in|around|over|) here|[over|in|] there|this is],
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
     ~comma i (think|believe|guess|suppose|reckon|would say), maybe, perhaps,
@@ -204,7 +208,8 @@ WOULD_BE_NICE = """
     (glad|happy|happier|grateful|pleased|delighted|thankful|obliged),
     (i|we) would [really] (like|love|appreciate|prefer) it,
     [it|that] would be [very|really|so]
-    (good|great|nice|lovely|kind|helpful|perfect|wonderful|better|best|ideal) [of you],
+    (good|great|nice|nicer|lovely|kind|helpful|perfect|wonderful|better|best|ideal|preferable|tidier)
+    [of you],
     [it|that] would make me happy, it would help [me|us] [a lot|a great deal],
     (i|we) would feel [much|a lot|so much] (better|safer|calmer)
 """
@@ -232,7 +237,7 @@ FRAMES = f"""
     [is there] (any|a) (chance|way|possibility) [that] [you (can|could|would|might)],
     (do|would) you think [that] you (can|could|might) [be able to], shall we [please],
     (would|could|can|will) (somebody|someone|anybody|anyone), you (might|may) (want|like|wish) to,
-    you (should|must|[will] have to|[will] need to|can|may|had better), better,
+    you (should|must|[will] have to|[will] need to|can|may|had (better|best)), better,
     (the|your) (task|goal|job|aim) is to, your task is,
     (all|what|the only thing) ([that] you (have|need) to do|
     [that] (i|we) (want|need|would like) you to do|[[that] there is] to do) is [to],
@@ -249,6 +254,8 @@ FRAMES = f"""
     [it is] ({THE_ROBOT}) 's (task|goal|job) [is] to, the (task|goal|job) of ({THE_ROBOT}) is to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind [to], mind,
     (how|what) about [[if] you], why do not you,
+    (let (me|us)|(i|we) (want|would (like|love)) to|(may|can|could) (i|we)) (see|watch) you,
+    (let (me|us) see|show (me|us)) (if|whether|how|that) you [(can|could|would)],
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
     i (was|am) hoping [that] you (could|would),
     (would|is) it [be] possible [for you] to,
@@ -256,7 +263,7 @@ FRAMES = f"""
     i [would|must|have to|would like to] ask you to, your job is, it is time to,
     help me [to|by], help me [to] (tidy|clean) up by,
     (i|we) [(really|just|still|also)] ought to, we [(really|just|still|also)] (need|have) to,
-    we (had better|should|must), you are to, if i were you ~comma [i (would|d)],
+    we (had (better|best)|should|must), you are to, if i were you ~comma [i (would|d)],
     would it be (all right|alright|ok|okay) [with you] to,
     would it be (too much|much) (trouble|bother|to ask) [for you] to, you could [(always|just)],
     [it is] [high] time [for you] to,

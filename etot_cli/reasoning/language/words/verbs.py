@@ -192,7 +192,7 @@ NOTHING_GOES = f"""
 _BEING = "standing|lying|sitting|located|resting"
 BEING = f"({_BEING}|being)"
 _MUST = """
-    should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had better|
+    should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had (better|best)|
     (is|are) (supposed|meant) to, will (have|need) to
 """
 _IN_FACT = "still|really|just|simply|definitely|eventually|ultimately|preferably|now"
@@ -265,7 +265,7 @@ WANT = """
     i d like, (can|could|may|might) (i|we) (have|get), let (us|me) have,
     (would|is) it [be] possible to have,
     it would be [really|so] (great|nice|lovely|good) to (see|have),
-    (i|we) would rather (have|see),
+    (i|we) would [rather] (have|see),
     (what|all [that]) (i|we) [really|just] (want|need|ask [for]) [to (have|see)] is,
     (what|all [that]) (i|we) would [really|just] (like|love) [to (have|see)] is,
     [what] (i am|we are) [really|just] after [is]

@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.asides.displeasure import (
     is_answered,
     is_misplaced,
 )
+from etot_cli.reasoning.language.grammar.asides.facts import tells_fact
 from etot_cli.reasoning.language.grammar.asides.going import goes_to_it
 from etot_cli.reasoning.language.grammar.asides.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.asides.left_open import (
@@ -243,7 +244,7 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
     told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
     told = told or wants_such_a_thing(aside.said, is_name)
-    told = told or is_in_passing(aside.said)
+    told = told or is_in_passing(aside.said) or tells_fact(_whole_of(aside), is_name)
     somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
     told = told or (aside.joint == "before" and somebody) or is_of_relative(aside.said, is_name)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
@@ -253,6 +254,11 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
         or tells_of_others(aside.said, is_name, before_so=True)
     )
     return told or strange or outside or _is_of_own_body(aside.said, is_name)
+
+
+def _whole_of(clause: Clause) -> str:
+    """What a clause says, as a sentence of its own where "which" stands for what it is about."""
+    return f"it {clause.said}" if clause.kind == "comment" else clause.said
 
 
 def _is_of_own_body(said: str, is_name: IsName) -> bool:
@@ -316,6 +322,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
                 or may_befall(clause.said)
                 or lacks_room(clause.said)
                 or bool(told_of_thing(clause.said, is_name))
+                or tells_fact(clause.said, is_name)
                 or goes_there(clause.said, is_name, whose=BEFORE_NAMES)
             )
             return reason and (trailing or (at == 0 and clauses[1:] != []))
@@ -352,7 +359,9 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "purpose", _:
             return trailing and is_warning(clause.said)
         case "comment", _:
-            return clause.comma and is_comment(clause.said, is_name)
+            return clause.comma and (
+                is_comment(clause.said, is_name) or tells_fact(_whole_of(clause), is_name)
+            )
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
     planned = so and (
         is_desk_wish(clause.said)
@@ -391,7 +400,11 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         return True
     if planned or wants_such_a_thing(clause.said, is_name):
         return True
-    return is_remark(clause.said, is_name) or bool(told_of_thing(clause.said, is_name))
+    return (
+        is_remark(clause.said, is_name)
+        or bool(told_of_thing(clause.said, is_name))
+        or tells_fact(clause.said, is_name)
+    )
 
 
 def _is_whole(clauses: Sequence[Clause], at: int) -> bool:

@@ -114,6 +114,10 @@ PROPOSING = word_set(
     """
 )
 """What somebody does who asks for something in a roundabout way."""
+_BIDDING = PROPOSING | word_set(
+    "asked agreed having decided chosen chose ordered promised arranged suggested recommended voted"
+)
+"""The same of what he has done or is doing ("we agreed on the cup")."""
 ASKING = word_set(
     """
     want wants need needs wanted needed wish like prefer should must shall would could may let ought
@@ -291,6 +295,12 @@ def is_of_people(said: str) -> bool:
     return bool(_PERSON.match(said))
 
 
+def somebody(said: str) -> tuple[str, str] | None:
+    """Who a clause is about, and what it says of him; none where it is about no person."""
+    found = _PERSON.match(said)
+    return (said[: found.start("did")].strip(), found["did"]) if found else None
+
+
 _RELATIVE = Expression(rf"^(?:the|my|our|your|his|her) (?:\w+ )?(?:{_RELATIONS}) ")
 
 
@@ -387,6 +397,8 @@ def is_remark(said: str, is_name: IsName) -> bool:
             verb, *more = person["did"].split()
             named = more if verb in OTHER_VERBS else words  # "I drink from it" is of no drink
             return not any(map(is_name, named)) and _does_nothing(person["did"])
+        if _BIDDING & {*words} and any(map(is_name, words)):
+            return False
         did = person["did"].removeprefix(happened[0]).split()
         if happened[0].endswith((" to ", "will ")):
             has = did[0] == "have" and not (PLACED | ASKING | {*STATES}) & {*did}

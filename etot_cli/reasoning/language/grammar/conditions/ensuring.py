@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from etot_cli.reasoning.language.grammar.conditions.permitted import anything_but
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     one_of,
@@ -267,6 +268,16 @@ ENSURE = either(
         "(is|are) (allowed|permitted|welcome|wanted) [to (be|stand|lie|go|stay)]",
         DESTINATIONS,
         build=lambda nps, so: ensured(state_of(nps, so)) if _none(nps) else None,
+    ),
+    sequence(
+        # "Only the cup is allowed on the tray"
+        "only",
+        NP_LIST,
+        "(is|are) (allowed|permitted|welcome) [to be], (may|can) be",
+        DESTINATIONS,
+        build=lambda nps, so: ensured(
+            opposite((anything_but(nps, tuple(np for item in so for np in item.targets)),), so)
+        ),
     ),
     sequence(
         # "I do not need the microwave open anymore"

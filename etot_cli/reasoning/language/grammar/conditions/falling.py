@@ -29,10 +29,16 @@ def not_dropped(things: Things) -> AvoidClause | None:
     return None if any(np.modifiers for np in things.phrases) else unharmed(things)
 
 
+def unhit(things: Things, said: str) -> AvoidClause:
+    """What nothing is to knock down, or over, be it in the hand or not."""
+    over = bool({"over", "topple", "toppling"} & {*said.split()})
+    return AvoidClause(Avoid.HIT, things, over=over)
+
+
 def _not_toppled(things: Things, said: str) -> AvoidClause | ReorientClause:
     """What is not to fall: nothing knocks it over, and "it", which is put somewhere, stands."""
     if not all(np.pronoun for np in things.phrases):
-        return AvoidClause(Avoid.HIT, things)
+        return unhit(things, said)
     over = {"over", "topple"} & {*said.split()}
     if over and any(np.pronoun in ("they", "them", "these", "those") for np in things.phrases):
         return AvoidClause(Avoid.HIT, things, over=True)

@@ -27,11 +27,15 @@ from etot_cli.reasoning.language.words import forbidden, nouns
 from etot_cli.reasoning.language.words.places import Prep
 
 
+def anything_but(nps: tuple[NounPhrase, ...], places: tuple[NounPhrase, ...] = ()) -> NounPhrase:
+    """All things but some; what goes to some ``places`` is not these."""
+    text = f"anything but {' and '.join(np.text for np in nps)}"
+    return NounPhrase("", ("anything",), (Modifier(Prep.EXCEPT, (*nps, *places)),), text=text)
+
+
 def _only_these(nps: tuple[NounPhrase, ...], avoid: Avoid) -> AvoidClause:
     """Nothing but some things may be moved or touched."""
-    text = f"anything but {' and '.join(np.text for np in nps)}"
-    others = NounPhrase("", ("anything",), (Modifier(Prep.EXCEPT, nps),), text=text)
-    return AvoidClause(avoid, Things((others,)), negated=True)
+    return AvoidClause(avoid, Things((anything_but(nps),)), negated=True)
 
 
 def _but_these(nps: tuple[NounPhrase, ...], avoid: Avoid) -> AvoidClause:
@@ -61,6 +65,15 @@ ONLY_THESE_MAY = either(
         _MAY_BE,
         _BUT,
         build=lambda avoid, nps: _only_these(nps, avoid),
+    ),
+    sequence(
+        # "Apart from the pen, nothing is to be moved"
+        nouns.EXCEPT,
+        exceptions,
+        OPTIONAL_COMMA,
+        "nothing",
+        _MAY_BE,
+        build=_only_these,
     ),
     sequence(
         NP_LIST,

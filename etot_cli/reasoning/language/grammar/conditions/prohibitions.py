@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.conditions.falling import (
     neither_of,
     not_dropped,
     unharmed,
+    unhit,
 )
 from etot_cli.reasoning.language.grammar.conditions.instruments import (
     LET_MEET,
@@ -214,7 +215,7 @@ _FORBIDDEN = either(
         build=lambda: NOTHING_HARMED,
     ),
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
-    sequence("let[ting]", THINGS, forbidden.TOPPLE, build=partial(AvoidClause, Avoid.HIT)),
+    sequence("let[ting]", THINGS, phrase(forbidden.TOPPLE), build=unhit),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
     sequence(
         # "Do not take the cup anywhere"
@@ -411,9 +412,7 @@ WITHOUT = sequence(
         sequence(forbidden.WITHOUT, either(MEETING, _NO_CONTACT)),
         sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
         HELD_MEANWHILE,
-        sequence(
-            forbidden.WITHOUT, THINGS, forbidden.TOPPLING, build=partial(AvoidClause, Avoid.HIT)
-        ),
+        sequence(forbidden.WITHOUT, THINGS, phrase(forbidden.TOPPLING), build=unhit),
         sequence(forbidden.WITHOUT, THINGS, forbidden.GETTING_TO_THE_FLOOR, build=unharmed),
         sequence(
             forbidden.WITHOUT,

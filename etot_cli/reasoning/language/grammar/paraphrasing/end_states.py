@@ -160,7 +160,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "The blue one, though, should lie there"
     (
         r", (?:though|however|on the other hand|in turn|for (?:its|their) part),"
-        rf"(?= (?:{_MUST})\b)",
+        rf"(?= (?:{_MUST}|goes|go|belongs?)\b)",
         "",
     ),
     (
@@ -339,9 +339,10 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 ",
     ),
     (
-        r"(^|[.;!?] )(?:please,? )?no open (\w{3,}?)s?"
-        r"(?=,? (?:please )?(?:(?:at|in) the end|afterwards|when you are (?:done|finished))\b)",
-        r"\1every \2 should be closed",
+        r"(^|[.;!?] )(?:please,? )?(?:no open|((?:i|we) do not want (?:to (?:see|find|have) )?"
+        r"(?:any|an) open)) ((?:\w+ )??\w{3,}?)s?(?(2)(?=[.,;!?]|$| when (?:i|we)\b)"
+        r"|(?=,? (?:please )?(?:(?:at|in) the end|afterwards|when you are (?:done|finished))\b))",
+        r"\1every \3 should be closed",
     ),
     (_CONTAINER, _with_it_inside),
     (_AT_THE_END, _so_when_done),
@@ -355,8 +356,9 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "A little tower"
     (
-        r"\b(build|make|form|erect) an? (?:little|small|tiny|nice|neat|mini) (tower|stack|pile)\b",
-        r"\1 a \2",
+        r"\b((?:build|make|form|erect|in|into)(?: me| us)? an?) "
+        r"(?:nice )?(?:little|small|tiny|nice|neat|mini) (?=(?:tower|stack|pile)\b)",
+        r"\1 ",
     ),
     (
         rf"\b({_SOME}|it) (stays?|remains?|should stay|must stay) (where it is|put),? (?:and )?"

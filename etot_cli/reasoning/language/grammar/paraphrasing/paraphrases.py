@@ -110,7 +110,11 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"|for (?:(?:my|our|the|a) )?\w+(?:[.,;!]|$))",
         r"i will need \1 ",
     ),
-    (rf"^({ASKED}leave (?:the|my) [^.,;]*?) in there(?= (?:but|and)\b|,)", r"\1 alone"),
+    (
+        rf"(?:^|(?<=[.;,] )|(?<=\bso ))({ASKED}leave (?:the|my) [^.,;]*?) in there"
+        r"(?= (?:but|and)\b|,)",
+        r"\1 alone",
+    ),
     (rf"(^|[.,;:] |\b(?:and|then|please|you) )lower (?={NAMED}|(?:it|them)\b)", r"\1set "),
     (
         r"\b(set|put|place|lay) ([^.,;]*?) aside,? "
@@ -272,7 +276,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         rf"|(?:nobody|no one) (?:uses|is using)){_NO_MORE_SAID}",
         r"\1 is empty",
     ),
-    (r"\bup (?=with\b)", ""),
+    (r"(?<=\w )up (?=with\b)", ""),
     (
         r"(^|[.;,] |\b(?:and|but) )only (?:then|afterwards?|thereafter|after (?:that|this)),? "
         r"(?=\w)(?!(?:should|may|can|could|must|shall|will|is|are|has|have|does|do)\b)",

@@ -53,11 +53,6 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "No vial other than the red one is allowed there, so put that one there"
     (
-        r"(^|[.;] )only (the|my) (\w+) (\w+) (?:is|are) "
-        r"(?=(?:allowed|permitted|welcome) (?:in|on)\b)",
-        r"\1no \4 other than \2 \3 one is ",
-    ),
-    (
         r"\b(no (\w+) (?:other than|but|except(?: for)?) (the \w+) one (?:is|may be) [^.,;]*, "
         r"so (?:please )?(?:put|place|set|stand)) (?:that one|that|it) (?=there|in\b|on\b)",
         r"\1 \3 \2 ",

@@ -11,7 +11,7 @@ from etot_cli.world.colors import BASIC_COLORS
 
 _COLOR = "|".join(BASIC_COLORS)
 _END = r"(?=[.,;!?]|$)"
-_FINE = r"(?:fine|ok|okay|all right|alright|no problem)"
+_FINE = r"(?:fine|acceptable|ok|okay|all right|alright|no problem)"
 _KEPT = r"(?:(?:can |to )?(?:stays?|remains?|is|are|be)(?: (?:left|kept))?)"
 _LEFT = r"(?:hanging|standing|sitting|left|still|just)"
 _WELL = r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"
@@ -36,13 +36,6 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     (rf"(?<=[.;,] )th(?:at|is) one (?=is (?:far |much |way )?too \w+{_END})", "it "),
     (r"\b(?:gripped|grasped|held) (?:by |in )?(?=(?:whichever|whatever|any) way\b)", "in "),
-    # "Any box will do for the pen; just put it in there"
-    (
-        rf"\b(?:any|either) (\w+(?: \w+)?) (?:will|would) do for ({NAMED} \w+(?: \w+)?)[;.,:] "
-        r"((?:so |and |just |please |simply )*)(put|get|place|set|drop|stick) it "
-        r"(in|on|into|onto|inside)(?: (?:there|it|one))?(?=[.,;!?]|$| (?:without|and|then)\b)",
-        r"\3\4 \2 \5 any \1",
-    ),
     (
         r"\bha(s|ve) no business (?:being )?(?=(?:in|on|inside)\b)",
         lambda said: f"{'does' if said[1] == 's' else 'do'} not belong ",
@@ -56,14 +49,14 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?:standing(?: up| upright)?|upright){_END}",
         r"\1, and \2 should be upright",
     ),
-    # What somebody "forgot to do", and is asked for next
+    # What somebody "forgot to do", or "did not do", and is asked for next
     (
-        rf"(^|[.;!] )(?!nobody\b|no one\b){PEOPLE} (?:has |have )?(?:just )?"
-        r"(?:forgot|forgotten) to "
+        rf"(^|[.;!] )(?!nobody\b|no one\b){PEOPLE} (?:did not|(?:has |have )?(?:just )?"
+        r"(?:forgot|forgotten) to) "
         rf"((?:open|close|shut|put|place|take|move|bring) [^.;,!?]*?)[.;,!]"
         r" (?:so )?(?:please |kindly |(?:would|do) you mind |(?:could|can|would|will) you "
         r"(?:please )?)*(?:see(?:ing)? to|tak(?:e|ing) care of|deal(?:ing)? with|do(?:ing)?"
-        rf"|fix(?:ing)?|sort(?:ing)? out) (?:it|that|this)(?: for (?:me|us))?{_END}",
+        rf"|fix(?:ing)?|sort(?:ing)? out) (?:it|that|this)(?: for (?:me|us|them|him|her))?{_END}",
         r"\1\2",
     ),
     # Who finds it fine if it stays open need not have it so
@@ -175,17 +168,6 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"[,;.:] an? (\w+) (grasp|grip) (?:and|or) an? (\w+) \2 "
         rf"(?:is|are|would be) (?:both |equally )?{_FINE}{_END}",
         r" with a \1 \2 or a \3 \2",
-    ),
-    (
-        rf"\b(?:one|any|either) of the (?:two )?(\w+?)(?:(?<=[xsh])es|s)((?: please)?), "
-        rf"({_COLOR}) or ({_COLOR})"
-        rf"(?:, (?:both|either|each) (?:is|are|would be) (?:equally )?{_FINE})?{_END}",
-        r"the \3 \1 or the \4 \1\2",
-    ),
-    (
-        rf"\b(?:an?|one|any|either) (\w+),? \(?(?:either )?(?:the )?({_COLOR}) or (?:the )?"
-        rf"({_COLOR})(?: one)?(?:\)|{_END})",
-        r"a \2 \1 or a \3 \1",
     ),
     # What is to be in what "has" it, and by when; all that is so is so in the end
     (

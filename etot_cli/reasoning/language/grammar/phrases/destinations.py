@@ -39,6 +39,13 @@ from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEV
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     BETWEEN,
 )
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
+    BE_IT,
+    EITHER_SIDE,
+    one_out_of,
+    one_so,
+    tells_which,
+)
 from etot_cli.reasoning.language.grammar.phrases.steads import (
     INSTEAD_OF_IT,
     STEAD,
@@ -74,8 +81,24 @@ THE_DESK = NounPhrase("the", ("desk",), text="the desk")
 """What has room for anything."""
 RECEIVER = "receiver"
 """The word of a destination that is said to get something."""
-TARGETS = sequence(
-    alternatives(noun_phrase, 5), build=lambda nps: coordinated(nps[0], nps[1:]) if nps else None
+
+
+def _any_target(nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
+    """One of several; what stands behind "a cup" in "a cup, the red or the blue one" tells which
+    that is.
+    """
+    return None if nps is None or tells_which(*nps) else coordinated(nps[0], nps[1:])
+
+
+TARGETS = either(
+    sequence(alternatives(noun_phrase, 5), build=_any_target),
+    # "In one of the cups, be it the red or the blue one"
+    sequence(
+        noun_phrase,
+        EITHER_SIDE,
+        build=lambda np, sides: None if (one := one_so(np, sides)) is None else one.phrases,
+    ),
+    sequence(noun_phrase, COMMA, BE_IT, alternatives(noun_phrase, 3), build=one_out_of),
 )
 
 
@@ -242,6 +265,13 @@ _BESIDE_IT = sequence(
     phrase("it, them"),
     build=lambda near, said: _beside(near, NounPhrase(pronoun=said, text=said)),
 )
+_on_beside = sequence(
+    either(ONTO, _to, INTO),
+    OPTIONAL_COMMA,
+    optional(places.SOMEWHERE),
+    BESIDES,
+    build=lambda surface, found: replace(surface, beside=found),
+)
 _WHERE_IT_IS = either(WITH, STEAD)
 _place = either(
     INTO,
@@ -289,13 +319,7 @@ _place = either(
         build=lambda abreast, found: Destination(Toward.BESIDE, beside=(*found, *abreast)),
     ),
     sequence(INTO, OPTIONAL_COMMA, places.ONTO, noun_phrase, build=_upon_what_is_in),
-    sequence(
-        either(ONTO, _to, INTO),
-        OPTIONAL_COMMA,
-        optional(places.SOMEWHERE),
-        BESIDES,
-        build=lambda surface, found: replace(surface, beside=found),
-    ),
+    _on_beside,
     sequence(
         # "On the table, left side"
         either(ONTO, _to, INTO),
@@ -323,7 +347,10 @@ destination = Rule(
         optional(places.SOMEWHERE),
         either(
             _place,
-            sequence(places.UP_OR_DOWN, either(INTO, ONTO, _to, _beside_something, _WHERE_IT_IS)),
+            sequence(
+                places.UP_OR_DOWN,
+                either(INTO, ONTO, _to, _beside_something, _on_beside, _WHERE_IT_IS),
+            ),
             sequence("directly, straight", either(INTO, ONTO)),
         ),
     )
@@ -357,6 +384,12 @@ DESTINATIONS = Rule(
             small_words.EITHER,
             _any_of_them,
             build=_if_several,
+        ),
+        sequence(
+            OPTIONAL_COMMA,
+            "be it, whether",
+            separated(destination, "~comma be it, [~comma] or [be it]", most=5),
+            build=lambda where: _if_several(of_one_noun(where)),
         ),
         sequence(
             _any_of_them,

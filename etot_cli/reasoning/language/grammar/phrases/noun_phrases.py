@@ -40,6 +40,7 @@ from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
+    is_descriptive,
     same_noun,
     singular,
 )
@@ -57,8 +58,8 @@ def begins_like_a_verb(np: NounPhrase) -> bool:
 
 
 def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] | None:
-    """Several phrases; in "the cup, the left one" no "and" says that there are two, and the "and"
-    in "the red, green and large blue blocks" is that of the list.
+    """Several phrases; in "the cup, the left one" and "off it, the cup" no "and" says that there
+    are two, and the "and" in "the red, green and large blue blocks" is that of the list.
     """
     if any(begins_like_a_verb(np) for _, np in more):
         return None
@@ -70,9 +71,11 @@ def _listed(first: NounPhrase, more: tuple[Any, ...]) -> tuple[NounPhrase, ...] 
         for _, np in more
     )
     renamed = any(
-        np.determiner.startswith("any") and np.words in ((), first.words) for _, np in more
+        np.determiner.startswith("any")
+        and np.words == first.words[len(first.words) - len(np.words) :]
+        for _, np in more
     )
-    if renamed or (apposed and not joined):
+    if renamed or ((apposed or first.pronoun) and not joined and more):
         return None
     found = coordinated(first, tuple(np for _, np in more))
     if found and found[1:] and first.head == "contents" and first.modifiers:
@@ -116,7 +119,7 @@ _INCLUDING = either(
     ),
     sequence(noun_phrase, COMMA, noun_phrase, "included", either(COMMA, at_end), build=with_all),
 )
-_PART = sequence(optional("the"), some(DESCRIPTIVE, least=1, most=3), optional("one"))
+_PART = sequence(optional("the, a, an"), some(DESCRIPTIVE, least=1, most=3), optional("one"))
 _PARTS = sequence(
     phrase("the, these, both, both the, the two, the three, all three, all three the, all two"),
     WORDS,
@@ -180,23 +183,52 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
     return None if whole is None else Things(whole, either=True)
 
 
+_ANY_ONE = (["a"], ["an"], ["one"], ["any"], ["either"])
+
+
 def one_so(np: NounPhrase, sides: tuple[tuple[str, ...], ...]) -> Things | None:
     """One of some things, told apart behind them ("a ball, left or right")."""
     *said, noun = np.words or ("",)
-    one = np.determiner.split()[:1] in (["a"], ["an"], ["one"], ["any"], ["either"])
+    one = np.determiner.split()[:1] in _ANY_ONE
     if not one or np.modifiers or not noun:
         return None
     each = ((*said, *side, singular(noun)) for side in sides)
-    return Things(tuple(NounPhrase("the", w, text=f"the {' '.join(w)}") for w in each), either=True)
+    return Things(tuple(NounPhrase("a", w, text=f"a {' '.join(w)}") for w in each), either=True)
 
 
+def tells_which(one: NounPhrase, *nps: NounPhrase) -> bool:
+    """Whether phrases behind one of some things may tell which it is."""
+    any_one = one.determiner.split()[:1] in _ANY_ONE and len(one.words) == 1
+    return (
+        any_one
+        and bool(nps[1:])
+        and all(np.is_elliptic or all(map(is_descriptive, np.words or (".",))) for np in nps)
+    )
+
+
+def one_out_of(np: NounPhrase, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
+    """One of some things, which are named behind that ("a vessel, be it the cup or the bowl")."""
+    one = np.determiner.split()[:1] in _ANY_ONE and not np.modifiers
+    named = nps and nps[1:] and all(item.words and not item.is_elliptic for item in nps)
+    return nps if one and named else None
+
+
+BE_IT = "be it, whether [it is]"
 EITHER_SIDE = sequence(
     COMMA,
-    optional("either"),
-    sequence(_PART, "or", _PART, build=lambda *sides: sides),
+    optional(f"either, {BE_IT}"),
+    sequence(_PART, "or [be it]", _PART, build=lambda *sides: sides),
     either(COMMA, at_end),
 )
 """Behind one of some things: which they are."""
+
+
+def _whichever(np: NounPhrase, words: tuple[str, ...]) -> Things | None:
+    """One of some things, which is said again ("a red cup, any cup, …")."""
+    again = np.determiner.split()[:1] in _ANY_ONE and np.words[-len(words) :] == words
+    return Things((np,)) if again else None
+
+
 COMPARED_CHOICE = sequence(
     alternatives(noun_phrase, 3),
     COMMA,
@@ -214,6 +246,16 @@ CHOICE = Rule(
         sequence(alternatives(noun_phrase, 5), build=_one_of),
         sequence(_LIST, build=lambda nps: _one_out_of(nps) if _out_of(nps) else None),
         sequence(noun_phrase, EITHER_SIDE, build=one_so),
+        sequence(
+            noun_phrase,
+            COMMA,
+            BE_IT,
+            alternatives(noun_phrase, 3),
+            build=lambda np, nps: (
+                None if (one := one_out_of(np, nps)) is None else Things(one, either=True)
+            ),
+        ),
+        sequence(noun_phrase, COMMA, "any", WORDS, either(COMMA, at_end), build=_whichever),
         sequence(
             alternatives(noun_phrase, 1),
             "~comma [but] not both ~comma",

@@ -179,18 +179,14 @@ REORIENT = either(
     ),
     sequence(
         verbs.ORIENTATION,
-        either(phrase("its (orientation|pose)", _IT), phrase("their orientation[s]", _THEM)),
-        optional(phrase(manner.IF_NEEDED, True), False),
-        build=lambda things, needed: ReorientClause(things, meanwhile=needed),
-    ),
-    sequence(
-        verbs.ORIENTATION,
         either(
+            phrase("its (orientation|pose)", _IT),
+            phrase("their orientation[s]", _THEM),
             sequence("the (orientation|pose) of", THINGS),
             sequence(THINGS, "'s (orientation|pose)"),
         ),
-        optional(either(phrase(manner.IF_NEEDED, True), phrase(manner.FITTING, True)), False),
-        build=lambda things, needed: ReorientClause(things, meanwhile=needed),
+        either(_HOW, phrase("to (upright|vertical|standing)", (Nearby.UPRIGHT, False))),
+        build=turned,
     ),
     sequence(verbs.TURNING_OF, THINGS, build=ReorientClause),
     sequence(
@@ -241,7 +237,14 @@ REORIENT = either(
         silent(optional(manner.ON_THE_WAY)),
         build=ReorientClause,
     ),
-    sequence(ALL_THINGS, verbs.MODAL, "[still] standing [up]", build=_still_standing),
+    sequence(
+        either(
+            sequence(ALL_THINGS, verbs.MODAL, "[still] standing [up]"),
+            sequence(verbs.ENSURE, ALL_THINGS, "(is|are) standing [up], stands, stand"),
+        ),
+        silent(optional("there")),
+        build=_still_standing,
+    ),
     sequence(
         verbs.PUT_DOWN,
         THINGS,

@@ -11,13 +11,14 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     quiet,
     separated,
     sequence,
+    silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COLON, COMMA, LIST, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.reasoning.language.words.lexicon import LEVELS, SIDES, is_descriptive, singular
 
 _ITS = "(the|its|their|an|a)"
@@ -51,7 +52,12 @@ SET_TO_STATE = quiet(
         sequence(
             verbs.SET_TO,
             separated(
-                sequence(NP_LIST, _TO_STATE, build=lambda nps, word: State(nps, word=word)),
+                sequence(
+                    NP_LIST,
+                    silent(optional(manner.FROM_STATE)),
+                    _TO_STATE,
+                    build=lambda nps, word: State(nps, word=word),
+                ),
                 LIST,
             ),
             build=EnsureClause,

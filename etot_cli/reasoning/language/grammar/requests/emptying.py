@@ -152,10 +152,11 @@ _TOP = ("top",)
 
 
 _TOP_OF = sequence("the (top|surface) of", ALL_THINGS)
-_OF_ALL_ON_IT = """
+_ON_IT = "((on [top of]|in|inside) (it|them|there)|there|on top|inside)"
+_OF_ALL_ON_IT = f"""
     of (what|whatever|everything [(that|which)]|anything [(that|which)]|all (that|which))
-    (is|lies|stands|rests) (on [top of]|in|inside) (it|them),
-    of everything (on|in|inside) (it|them), of everything
+    (is|lies|stands|rests|sits) [still] [lying|standing|sitting|resting|left] {_ON_IT},
+    of everything [lying|standing|sitting|left] {_ON_IT}, of everything
 """
 _ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
 
@@ -171,7 +172,17 @@ TO_BE_EMPTY = either(
             ),
             optional(phrase("both, all"), ""),
             manner.EMPTIED,
+            silent(optional(_OF_ALL_ON_IT)),
             build=lambda things, said: Things(all_of(things.phrases, said)),
+        ),
+        to_be_empty,
+    ),
+    variants(
+        sequence(
+            verbs.CAN,
+            ALL_THINGS,
+            "[please] be (cleared|emptied) [out]",
+            silent(optional(_OF_ALL_ON_IT)),
         ),
         to_be_empty,
     ),

@@ -80,6 +80,16 @@ def _used_for(
     return put_to(things or Things((them,)), (Destination(toward, nps, FILLED),))
 
 
+def _fits(things: Things, more: tuple[Things, ...], nps: tuple[NounPhrase, ...]) -> PutClause:
+    """What things may be put in, or on: any of some places."""
+    all_of_them = tuple(np for each in (things, *more) for np in each.phrases)
+    return put_to(Things(all_of_them), (Destination(Toward.TO, nps, FILLED),))
+
+
+_AS_WELL = "as well as [for], ~comma [and] [also] for, and for"
+_WILL_DO = (
+    "(is|are|will be|would be) [both|equally|also|just] (fine|ok|okay), (will|would) do [fine]"
+)
 _ANY_OF = sequence(either(TARGETS, NP_LIST), optional("[~comma] or both"))
 
 
@@ -107,7 +117,7 @@ FILL = quiet(
             build=lambda toward, np, things, more: _used(np, toward, things, more),
         ),
         sequence(
-            "use",
+            "use, choose, select",
             noun_phrase,
             one_of(
                 {
@@ -120,6 +130,22 @@ FILL = quiet(
             some(sequence(LIST, noun_phrase, "for", ALL_THINGS, build=lambda *pair: pair), most=4),
             optional(sequence(OPTIONAL_COMMA, "[and|but] not", noun_phrase), None),
             build=_used,
+        ),
+        sequence(
+            # "For the pen the cup or the mug will do"
+            "for",
+            ALL_THINGS,
+            some(sequence(_AS_WELL, ALL_THINGS), most=3),
+            OPTIONAL_COMMA,
+            either(sequence("use", TARGETS), sequence(TARGETS, _WILL_DO)),
+            build=_fits,
+        ),
+        sequence(
+            TARGETS,
+            _WILL_DO,
+            "for",
+            ALL_THINGS,
+            build=lambda nps, things: _fits(things, (), nps),
         ),
         sequence(
             # "Use the bigger of the two cups to put the pen in"

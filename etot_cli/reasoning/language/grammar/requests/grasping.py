@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     quiet,
     sequence,
+    silent,
     spanned,
     valued,
 )
@@ -236,6 +237,10 @@ GRASPED = sequence(
     ),
 )
 """Behind what is picked up."""
+KEPT_SO = silent(
+    optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")
+)
+"""The same, for how long, which asks for nothing else."""
 WITH_A_GRASP = spanned(
     either(
         sequence(spanned(POSES, _with_a_grasp), build=lambda clause: clause),
@@ -371,6 +376,8 @@ GRASP = quiet(
                 build=_not_so,
             ),
             sequence(_BY_THE_HAND, POSES, build=_so),
+            # "Gripping it from above, carry it there"
+            sequence("[by] (grasping|gripping|grabbing) (it|them)", POSES, build=_so),
             sequence(
                 "approach[ing], com(e|ing) at",
                 THINGS,

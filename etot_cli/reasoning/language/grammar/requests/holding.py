@@ -8,9 +8,16 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import COMMA, IN_HAND, THE_HAND, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    IN_HAND,
+    LIST,
+    THE_HAND,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import EITHER_SIDE, THINGS, one_so
-from etot_cli.reasoning.language.grammar.requests.grasping import GRASPED, HELD_SO
+from etot_cli.reasoning.language.grammar.requests.grasping import GRASPED, HELD_SO, KEPT_SO
+from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PickClause
 from etot_cli.reasoning.language.words import small_words, verbs
 
@@ -27,13 +34,26 @@ HOLD = either(
         build=lambda things, poses: PickClause(things, tuple(dict.fromkeys(poses or ()))),
     ),
     sequence(
-        f"{verbs.SET}, {verbs.FETCH}, keep[ing], have, hold[ing], (give|get) me",
+        f"{verbs.SET}, {verbs.PICK}, {verbs.FETCH}, keep[ing], have, secur(e|ing)",
         either(
             sequence(THINGS, IN_HAND, build=lambda things, _: things),
             # "One ball in the gripper, left or right"
             sequence(noun_phrase, silent(IN_HAND), EITHER_SIDE, build=one_so),
         ),
+        KEPT_SO,
         build=PickClause,
+    ),
+    sequence(
+        # "Get the cup off the tray and into your hand"
+        f"{verbs.SET}, {verbs.FETCH}",
+        THINGS,
+        SOURCE,
+        LIST,
+        silent(IN_HAND),
+        optional(GRASPED, None),
+        build=lambda things, source, poses: PickClause(
+            things.taken_from(source), tuple(dict.fromkeys(poses or ()))
+        ),
     ),
     sequence(
         # "To pick up the cup, use a vertical grasp"

@@ -141,7 +141,7 @@ MOVE = either(
     sequence(
         # "Put the pen in and shut the door behind it"
         _PLAIN_MOVE,
-        "behind (it|them)",
+        "(behind|on) (it|them)",
         build=lambda moved: None if moved.opens else moved,
     ),
     sequence(
@@ -188,32 +188,27 @@ def _if_not_there(
 _IF = "[only] if, in case"
 _SO_FAR = "already|yet|currently|still|now"
 _NOW = optional(f"({_SO_FAR}|right now|at the moment|by now)")
+_NOT_SO = valued(OPEN_OR_CLOSED, lambda word: "closed" if word == "open" else "open")
+_IF_SO = either(
+    sequence(
+        _IF,
+        NP_LIST,
+        f"({verbs.BE.replace(',', '|')}|'s) [{_SO_FAR}], (should|happen[s] to) [{_SO_FAR}] be",
+        OPEN_OR_CLOSED,
+    ),
+    sequence("should", NP_LIST, f"[happen to] [{_SO_FAR}] be [{_SO_FAR}]", OPEN_OR_CLOSED),
+    sequence(_IF, NP_LIST, f"(is|are) not [{_SO_FAR}]", _NOT_SO),
+    sequence("unless", NP_LIST, f"(is|are|happen[s] to be) [{_SO_FAR}]", _NOT_SO),
+)
 IF_NOT_SO = quiet(
     either(
         sequence(
-            _IF,
-            NP_LIST,
-            f"{verbs.BE}, 's, should [still|already] be",
-            optional("already, still, currently"),
-            OPEN_OR_CLOSED,
+            _IF_SO,
             _NOW,
             _THEN,
             EMPTY_WORDS,
             _PLAIN_MOVE,
-            build=_if_not_so,
-        ),
-        sequence(
-            _IF,
-            NP_LIST,
-            f"(is|are) not [{_SO_FAR}]",
-            OPEN_OR_CLOSED,
-            _NOW,
-            _THEN,
-            EMPTY_WORDS,
-            _PLAIN_MOVE,
-            build=lambda nps, word, moved: _if_not_so(
-                nps, "closed" if word == "open" else "open", moved
-            ),
+            build=lambda found, moved: _if_not_so(found[0], found[1], moved),
         ),
         sequence(
             "if",

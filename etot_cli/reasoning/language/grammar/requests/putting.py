@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,
     Parser,
     either,
+    one_of,
     optional,
     phrase,
     quiet,
@@ -20,6 +21,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
     spanned,
+    variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
@@ -249,6 +251,19 @@ def _one_and_the_other(one: Things, where: tuple[Destination, ...], more: Any) -
     return PutClause(tuple(groups), wherever=True)
 
 
+def _suiting(said: tuple[NounPhrase, Things]) -> tuple[PutClause, ...]:
+    """What "will do for" something: that goes in there, or it goes in that, whichever can hold the
+    other.
+    """
+    first, things = said
+    inside = [(things, first), *((Things((first,)), np) for np in things.phrases[:1])]
+    several = things.phrases[1:]
+    return tuple(
+        put_to(what, (Destination(Toward.INSIDE, (where,)),))
+        for what, where in (inside[:1] if several else inside)
+    )
+
+
 PUT = either(
     AS_MANY,
     PUT_ON_COLOR,
@@ -284,10 +299,12 @@ PUT = either(
         ),
         build=_one_and_the_other,
     ),
+    variants(sequence(noun_phrase, "(will|would) do for", ALL_THINGS), _suiting),
     sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
             sequence(verbs.WANTED, ALL_THINGS, optional(verbs.TO_BE_THERE)),
+            sequence(verbs.CAN, ALL_THINGS, verbs.BE_PUT),
         ),
         DESTINATIONS,
         some(EXTRA, least=1, most=2),
@@ -452,6 +469,18 @@ PUT = either(
     ),
     sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
     sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
+    sequence(
+        # "Put the cups in the box and the bin, in any combination"
+        f"{verbs.SET}, {verbs.FETCH}",
+        ALL_THINGS,
+        one_of({Toward.INSIDE: places.INTO, Toward.ON: places.ONTO}),
+        NP_LIST,
+        OPTIONAL_COMMA,
+        manner.ANYHOW,
+        build=lambda things, toward, nps: (
+            put_to(things, (Destination(toward, nps),)) if things.may_be_several else None
+        ),
+    ),
     sequence(verbs.STACK, PUT_GROUPS, EXTRAS, build=_stacked),
     spanned(
         sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away), rather_laid_down

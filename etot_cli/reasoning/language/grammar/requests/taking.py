@@ -18,7 +18,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
-from etot_cli.reasoning.language.grammar.requests.grasping import GRASPED, HELD_SO, POSES
+from etot_cli.reasoning.language.grammar.requests.grasping import GRASPED, HELD_SO, KEPT_SO, POSES
 from etot_cli.reasoning.language.grammar.requests.piles import COLOR
 from etot_cli.reasoning.language.grammar.requests.unstacking import UNSTACK, is_stack
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -77,7 +77,7 @@ PICK = sequence(
     ),
     silent(optional(manner.BY_HAND)),
     optional(GRASPED, None),
-    silent(optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")),
+    KEPT_SO,
     build=_pick,
 )
 

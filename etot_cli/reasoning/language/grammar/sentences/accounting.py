@@ -88,7 +88,7 @@ _ALIKE = {
     "nearest": "front", "farthest": "back", "opened": "open", "ajar": "open",
 }  # fmt: skip
 """Words that a tree may have one for the other."""
-_FIXED = """
+_FIXED = f"""
     not (both|all) (in|on) the same (one|place),
     (on|at) the far (left|right), (from|off|off of) the top of,
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
@@ -119,7 +119,8 @@ _FIXED = """
     all (the (way|time|while)|along), at all times,
     remaining (in|on|where|there|inside|open|closed|shut|put),
     (nearly|almost) (closed|shut), no matter (from|if|whether),
-    from [a|the] horizontal [position|pose|orientation] to, (is|are) all the same to (me|us),
+    {manner.FROM_STATE}, from [a|the] horizontal [position|pose|orientation] to,
+    (is|are) all the same to (me|us),
     not (possible|feasible|doable), (does|do|will) not work,
     the right (home|place|spot) (for|of),
     (standing|upright) [~comma] (and not|not) lying [down|flat],
@@ -233,6 +234,11 @@ def _traces(node: object) -> Iterator[str]:
                 yield from _traces(getattr(node, field.name))
 
 
+def _all_but(nps: tuple[NounPhrase, ...]) -> bool:
+    """Whether some are left out of what is spoken of."""
+    return any(item.prep is Prep.EXCEPT for np in nps for item in np.modifiers)
+
+
 def _said(node: object) -> Iterator[str]:
     """Words for what a node says by what it is."""
     match node:
@@ -254,9 +260,7 @@ def _said(node: object) -> Iterator[str]:
             yield from ("another", "top") if stacked else ()
         case AvoidClause(avoid=avoid, things=things, needless=needless):
             yield from ("open", "closed") if needless else ()
-            said = things.phrases if things else ()
-            all_but = any(item.prep is Prep.EXCEPT for np in said for item in np.modifiers)
-            yield from ("only",) if all_but else ()
+            yield from ("only",) if things and _all_but(things.phrases) else ()
             yield from ("all", "every") if things is None else ()
             yield from (_DENIAL, "other", "any", "after", "afterwards")
             yield from ("empty",) if avoid is Avoid.PUT else ()
@@ -277,7 +281,8 @@ def _said(node: object) -> Iterator[str]:
             yield "any"
         case ReorientClause(meanwhile=True):  # "after rotating it"
             yield _ORDER
-        case State(denied=True):
+        case State(denied=True, subjects=subjects):
+            yield from ("only",) if _all_but(subjects) else ()
             yield from ("open", "closed", "any", _DENIAL)
         case State(kept=kept, word=word, subjects=subjects, destinations=where, always=always):
             yield from ("all",) if always else ()

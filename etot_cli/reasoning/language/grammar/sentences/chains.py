@@ -47,6 +47,7 @@ from etot_cli.reasoning.language.grammar.requests.arrangements import (
 )
 from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.requests.grasping import WITH_A_GRASP
+from etot_cli.reasoning.language.grammar.requests.taking import DESKS
 from etot_cli.reasoning.language.grammar.requests.word_order import PLACE_AHEAD
 from etot_cli.reasoning.language.grammar.sentences.clauses import (
     LED_CLAUSE,
@@ -100,6 +101,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     Clause,
     EnsureClause,
+    MoveClause,
     PickClause,
     PutClause,
     PutGroup,
@@ -113,6 +115,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 
 Joined = tuple[tuple[str, Reading], ...]
@@ -375,14 +378,51 @@ def _brought_beside(before: Clause, clause: Clause) -> PutClause | None:
     return None
 
 
+def _where_on_the_desk(before: Clause, clause: Clause) -> PutClause | None:
+    """Where exactly on the desk stands what goes there ("take the cup to the desk and set it down
+    next to the plate"), which is one place; what stands on a tray may be told to go beside it.
+    """
+    match before, clause:
+        case (
+            PutClause(groups=(PutGroup(destinations=(Destination(beside=()) as desk,)) as put,)),
+            PutClause(groups=(PutGroup(destinations=(Destination(targets=()) as there,)) as left,)),
+        ) if clause == PutClause((left,)) and there.toward is Toward.BESIDE:
+            at = [np.words in DESKS and not np.modifiers for np in desk.targets]
+            again = [np.text for np in left.things.phrases] in (["it"], ["them"])
+            if at != [True] or desk.denied or not again:
+                return None
+            where = replace(desk, beside=there.beside, stance=there.stance or desk.stance)
+            return replace(before, groups=(replace(put, destinations=(where,)),))
+    return None
+
+
+def _into_what_is_closed(before: Clause, clause: Clause) -> Clause:
+    """Where something goes "in", if nothing was spoken of before: into what is closed then."""
+    match before, clause:
+        case (
+            PutClause(
+                groups=(PutGroup(destinations=(Destination(Toward.HERE, word="in") as at,)) as put,)
+            ),
+            MoveClause(things=Things(phrases=(np,), either=False), opens=False),
+        ) if np.determiner in THE_WORDS and np.words:
+            where = (replace(at, targets=(np,)),)
+            return replace(before, groups=(replace(put, destinations=where),))
+    return before
+
+
 def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
     for said, clause in more:
         beside = _brought_beside(done[-1].clause, clause[0].clause)
+        if beside is None and said.endswith("and") and clause[0].order is Order.SAID:
+            beside = _where_on_the_desk(done[-1].clause, clause[0].clause)
         if beside is not None and len(clause) == 1:
             done = (*done[:-1], replace(done[-1], clause=beside))
             continue
+        if said.endswith(("and", "then")):
+            closed = _into_what_is_closed(done[-1].clause, clause[0].clause)
+            done = (*done[:-1], replace(done[-1], clause=closed))
         put = done[-1].clause if said == "listed" else None
         put = None if isinstance(clause[0].clause, RemoveClause) else put
         if isinstance(put, PutClause) and not any(sources(item.things) for item in put.groups):

@@ -158,6 +158,12 @@ def _with_it_there(
     return None if state is None else EnsureClause((state,), 1)
 
 
+def _pick_up_named(things: Things) -> PickClause | None:
+    """What the "cup pick-up" is of; headlines have no articles."""
+    bare = all(np.words and not np.determiner for np in things.phrases)
+    return PickClause(things) if bare and not things.either else None
+
+
 def _upright(things: Things) -> ReorientClause | None:
     """What is to stand upright; "pen in the cup upright" rather says how the pen stands there."""
     told = any(np.modifiers for np in things.phrases)
@@ -179,6 +185,7 @@ LEFT_SO = Rule(
         sequence(NP_LIST, "still", DESTINATIONS, build=_still_there),
         sequence(after("then"), SHUT, at_end, build=_shut_again),
         sequence(ALL_THINGS, IN_HAND, build=lambda things, _: PickClause(things)),
+        sequence(ALL_THINGS, "pick up, pickup", build=_pick_up_named),
         variants(sequence(ALL_THINGS, optional(_IS), manner.EMPTIED), to_be_empty),
         sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),
         UNTOUCHED,

@@ -69,15 +69,25 @@ def _listed(place: NounPhrase, things: Things) -> PutClause | None:
     return None if which else replace(put, far_fetched=1)
 
 
+_UP = "[back] (up|down|over|off|away)"
 VERBLESS = either(
     sequence(noun_phrase, COLON, ALL_THINGS, build=_listed),
     ANNOUNCED,
     sequence(
         # "Into the bin with it"
+        silent(optional(_UP)),
         either(INTO, ONTO),
         "with",
         ALL_THINGS,
         build=lambda where, things: put_to(things, (where,)),
+    ),
+    sequence(
+        # "Up with it onto the shelf"
+        _UP,
+        "with",
+        ALL_THINGS,
+        either(INTO, ONTO),
+        build=lambda things, where: put_to(things, (where,)),
     ),
     sequence(
         ALL_THINGS,

@@ -20,7 +20,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.reference.geometry import rows, space
 from etot_cli.reasoning.language.reference.geometry.vessels import lies_on
-from etot_cli.reasoning.language.reference.memory.by_now import is_off
+from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.by_now import is_off, open_by_now
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -132,7 +133,7 @@ class Places:
             if destination.toward is Toward.HERE:
                 therein = stays and destination.word in spellings(THEREIN)
                 there = where_they_are(self.discourse, Relation.INSIDE, themes) if therein else ()
-                found = list(there or self._here(destination.word, themes))
+                found = list(there or self._here(destination, themes))
             elif destination.toward is Toward.BESIDE and (
                 around := self._spots.around(destination.beside, themes)
             ):
@@ -319,7 +320,25 @@ class Places:
             if under and all(thing.name in names for names in under):
                 raise ReferenceProblem(phrase.text, f"it is on or in {thing.name} itself", 2)
 
-    def _here(self, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
-        if word == "down":
+    def _here(self, where: Destination, themes: Sequence[int]) -> tuple[Place, ...]:
+        """Where was spoken of; else the targets tell it, which are closed next."""
+        if where.word == "down":
             return (self.on_the_desk(),)
-        return places_here(self.discourse, word, themes)
+        if not where.targets:
+            return places_here(self.discourse, where.word, themes)
+        found: tuple[Place, ...] = ()
+        try:
+            found = places_here(self.discourse, where.word, themes)
+        except ReferenceProblem as problem:
+            if problem.why != UNCLEAR:
+                raise
+        spoken = [place.where for place in found if place.where is not None]
+        there = self.discourse.things(*spoken)
+        if found and all(open_by_now(thing, self.discourse) for thing in there):
+            return found
+        closed = self.of((Destination(Toward.INSIDE, where.targets),), themes)
+        after = self.discourse.things(*(at.where for at in closed if at.where is not None))
+        if found and {*there} != {*after}:
+            named = [self.discourse.referents[index].text for index in spoken]
+            raise AmbiguousReference(where.word, (*named, where.targets[0].text))
+        return found or closed
