@@ -286,6 +286,7 @@ PUT = either(
         build=lambda where, things: put_to(things, where),
     ),
     sequence(ALL_THINGS, _NEEDS_A_PLACE, WHERE, build=put_to),
+    variants(sequence(noun_phrase, "(will|would) do for", ALL_THINGS), _suiting),
     sequence(
         either(
             sequence(CHOICE, verbs.MODAL),
@@ -299,7 +300,6 @@ PUT = either(
         ),
         build=_one_and_the_other,
     ),
-    variants(sequence(noun_phrase, "(will|would) do for", ALL_THINGS), _suiting),
     sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
