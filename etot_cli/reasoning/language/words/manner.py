@@ -243,7 +243,9 @@ STANDS = f"""
 """
 """How things stand, ahead of where they do."""
 STANDING = f"{STANDS}, standing [up]"
-NOT_LYING = "[~comma] (not|and not|rather than|instead of) lying [down|flat]"
+NOT_LYING = """
+    [~comma] (not|and not|rather than|instead of) (lying|lie|be lying|on its side) [down|flat]
+"""
 """Behind how something is to stand."""
 TURNED_UP = f"""
     {STANDING}, to [be] {_UPRIGHT}, until (it|they) (stands|stand|is|are) {_UPRIGHT},

@@ -7,7 +7,7 @@ only tell something are left out; what they name is spoken of before the rest.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause, clauses_of
@@ -214,7 +214,7 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     if not (cut or granted) or (is_sentence(sentence) and not forced):
         return _Parted(sentence)
     left = [at for at in range(len(clauses)) if at not in cut]
-    rest = " ".join(clauses[at].text for at in left)
+    rest = " ".join(_left_of(clauses, at, cut) for at in left)
     while led := _LEADING.match(rest):
         rest = rest[led.end() :]
     first = left[0] if left else len(clauses)
@@ -223,6 +223,16 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
         tuple(clauses[at] for at in cut if at < first),
         tuple(clauses[at] for at in cut if at > first),
     )
+
+
+def _left_of(clauses: Sequence[Clause], at: int, cut: Collection[int]) -> str:
+    """A clause as it stands once others are cut: what goes on behind "which", as the verb of what
+    that was about, has no comma before it.
+    """
+    commented = at - 1 in cut and clauses[at - 1].kind == "comment"
+    listed = {*clauses[at].said.split()[:1]} & BEFORE_NAMES
+    goes_on = commented and not (clauses[at].joint or listed)
+    return clauses[at].said if goes_on else clauses[at].text
 
 
 def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:

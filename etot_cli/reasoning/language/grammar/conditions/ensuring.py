@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import (
     ALL_SO,
     ALWAYS,
+    EACH_SHOULD,
     IN_OR_ON_IT,
     IS_OPEN_OR_CLOSED,
     KEPT_THERE,
@@ -71,9 +72,6 @@ def _borne_by(np: NounPhrase, below: NounPhrase) -> EnsureClause | None:
     """What stands on something that it "needs under it"; "something" may be anything."""
     vague = np.pronoun or below.pronoun or matches_any(below.head, THING_NOUNS)
     return None if vague else EnsureClause((State((np,), (Destination(Toward.ON, (below,)),)),))
-
-
-_EACH = one_of({said: f"{said} [of them]" for said in ("each", "both", "all")})
 
 
 def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
@@ -359,16 +357,7 @@ ENSURE = either(
     quiet(
         sequence(
             NP_LIST,
-            either(
-                sequence(
-                    # "Must both be put", "are both to go"
-                    "should, must, shall, can, could, may, are, are to, have [to], need [to]",
-                    _EACH,
-                    f"[[meant|supposed] to] (be|go|stand|lie|sit|end up|(be|get) ({verbs.DONE}))",
-                ),
-                sequence(_EACH, verbs.MODAL),
-                sequence(verbs.MODAL, OPTIONAL_COMMA, _EACH),
-            ),
+            EACH_SHOULD,
             PREDICATE,
             build=lambda *said: ensured(each_so(*said)),
         )

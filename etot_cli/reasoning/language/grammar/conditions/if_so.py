@@ -50,6 +50,7 @@ _TAKEN_OUT = either(
         build=lambda: (),
     ),
     sequence(verbs.SET_DOWN, _IT, DESTINATIONS),
+    sequence("empty [out]", "it [out], them [out]", DESTINATIONS),
 )
 
 

@@ -44,6 +44,7 @@ def _but_these(nps: tuple[NounPhrase, ...], avoid: Avoid) -> AvoidClause:
 
 
 _MOVES = one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move, lift"})
+_SHIFT = one_of({Avoid.TOUCH: "touch", Avoid.MOVE: "move, shift"})
 _IS_MOVED = one_of(
     {
         Avoid.TOUCH: f"be ({forbidden.TOUCHED_ONLY})",
@@ -88,11 +89,14 @@ ONLY_THESE_MAY = either(
         build=_only_these,
     ),
     sequence(
-        # "You may only move the pen"
-        f"you ({forbidden.MAY})",
+        # "You may only move the pen", "move only the pen" where that is not all
         either(
-            sequence("only", _MOVES),
-            sequence(_MOVES, "only, just"),
+            sequence(
+                f"you ({forbidden.MAY})",
+                either(sequence("only", _MOVES), sequence(_MOVES, "only, just")),
+            ),
+            sequence("only", _SHIFT),
+            sequence(_SHIFT, "only, nothing but"),
         ),
         NP_LIST,
         build=lambda avoid, nps: replace(_only_these(nps, avoid), far_fetched=1),

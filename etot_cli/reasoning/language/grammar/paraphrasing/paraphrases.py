@@ -240,7 +240,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(?<=\w),? (?:please|pls|plz)(?= ?:)", ""),
     (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe) (?:please|pls|plz)(?=, |[.!;?]|$)", ""),
     (r"(?<! of )(?<!between )\bthe two of (?=(?:them|these|those)\b)", "both of "),
-    (rf"\bwhichever ([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"whichever \1 that is "),
+    (rf"\bwhichever (?!of\b)([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"whichever \1 that is "),
     (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
     (
         rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {WHERE}|[,.;!?]|$)",

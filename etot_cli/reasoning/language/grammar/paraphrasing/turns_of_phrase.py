@@ -21,6 +21,8 @@ _AFTERWARDS = (
 )
 _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _NOW = "currently|at present|at the moment|presently|right now|now|still"
+_FOUND_THERE = r"(?=(?:between|in|inside|on|behind|beside|under|next to|near)\b)"
+_YOU_FIND = r"you (?:will |can |should |may )?(?:find|see)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
@@ -220,15 +222,15 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"|at the moment|at present|just now)(?=[.,;!?]|$| (?:and|then)\b)",
         r"\1",
     ),
+    # "The knob (which) you will find in the tin"
     (
-        rf"(^|[.;!] )({NAMED} (?:\w+ )??(?!that\b|which\b)\w+) "
-        r"(?:that |which )?you (?:will |can )?find "
-        r"(?=(?:between|in|on|behind|beside|under|next to|near) [^.,;:]*? "
-        r"(?:belongs?|goes?|should|must|has to|needs to)\b)",
-        lambda said: (
-            f"{said[1]}{said[2]} that "
-            f"{'are' if said[2].endswith('s') and not said[2].endswith('ss') else 'is'} "
-        ),
+        rf"\b(that|which|whatever) (?:{_YOU_FIND}|(?:can|may) be found) {_FOUND_THERE}",
+        r"\1 is ",
+    ),
+    (
+        rf"\b({NAMED} (?:\w+ )??(?!that\b|which\b)\w+|everything|anything) "
+        rf"{_YOU_FIND} {_FOUND_THERE}",
+        r"\1 that is ",
     ),
     # What was opened is closed
     (

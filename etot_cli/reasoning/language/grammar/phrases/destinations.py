@@ -207,8 +207,11 @@ BESIDES = sequence(
     ),
     build=_besides,
 )
-INTO = sequence(places.INTO, TARGETS, build=_toward(Toward.INSIDE))
+_RIGHT = optional("right")
+"""Before where something goes it is no side ("right into the far corner")."""
+INTO = sequence(_RIGHT, places.INTO, TARGETS, build=_toward(Toward.INSIDE))
 ONTO = sequence(
+    _RIGHT,
     phrase(places.ONTO),
     either(TARGETS, ONE_OF_A_COLOR),
     build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
@@ -224,14 +227,17 @@ def _upon_what_is_in(outer: Destination, np: NounPhrase) -> Destination | None:
 
 
 _AT_END = sequence(
-    one_of(places.AT_END), TARGETS, build=lambda end, targets: Destination(Toward.ON, targets, end)
+    _RIGHT,
+    one_of(places.AT_END),
+    TARGETS,
+    build=lambda end, targets: Destination(Toward.ON, targets, end),
 )
 OVER = sequence(
     places.OVER, TARGETS, build=lambda targets: Destination(Toward.ON, targets, places.OVER)
 )
 
 
-_to = sequence(places.TO, TARGETS, build=_toward(Toward.TO))
+_to = sequence(_RIGHT, places.TO, TARGETS, build=_toward(Toward.TO))
 _in_front = sequence(
     places.IN_FRONT,
     not_ahead("of"),
@@ -367,7 +373,13 @@ def of_one_noun(found: tuple[Destination, ...]) -> tuple[Destination, ...]:
 
 
 _any_of_them = sequence(separated(destination, small_words.OR, most=5), build=of_one_noun)
-STANCE = either(phrase(manner.STANDS, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING))
+_NOT_LYING = f"({manner.NOT_LYING}) [~comma]"
+STANCE = either(
+    sequence(phrase(manner.STANDS, Nearby.UPRIGHT), optional(_NOT_LYING)),
+    phrase(manner.LAID, Nearby.LYING),
+    # "Should stand, not lie, in the box"
+    sequence(optional("standing"), _NOT_LYING, build=lambda: Nearby.UPRIGHT),
+)
 """How things are to be where they go, before that place."""
 
 

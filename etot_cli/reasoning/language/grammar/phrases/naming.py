@@ -147,8 +147,21 @@ def _nearest_to(
     return None if ordinal else NounPhrase(determiner, words, (Modifier(prep, (mark[1],)),))
 
 
-def _whichever(words: tuple[str, ...], modifier: Modifier, more: Any) -> NounPhrase:
+def _one_of_such(words: tuple[str, ...]) -> tuple[str, ...] | None:
+    """The noun for one of several things."""
+    one = singular(words[-1])
+    return None if one == words[-1] else (*words[:-1], one)
+
+
+def _whichever(
+    words: tuple[str, ...] | NounPhrase, modifier: Modifier, more: Any
+) -> NounPhrase | None:
     """The one that is so; whichever "is left" is the one that nothing else was done with."""
+    if isinstance(words, NounPhrase):
+        of_them = Modifier(Prep.OF, (words,))
+        if modifier.prep is not Prep.QUALITY or modifier.denied or words.pronoun:
+            return None  # told by counting all of them, as in "the taller of the two cups"
+        return NounPhrase("the", modifier.words, (of_them, *more))
     if modifier.words == ("left",) and not modifier.denied:
         return NounPhrase("the other", words, more)
     return NounPhrase("the only", words, (modifier, *more))
@@ -269,8 +282,12 @@ noun_phrase.define(
             ),
             sequence(
                 "whichever, whatever",
-                WORDS,
-                "[that] is",
+                either(
+                    WORDS,
+                    sequence("of (the|these|those|my|our)", WORDS, build=_one_of_such),
+                    sequence("of", noun_phrase),
+                ),
+                "[that] is [the]",
                 either(
                     PLAIN_MODIFIER,
                     quality_alone,

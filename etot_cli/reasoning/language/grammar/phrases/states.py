@@ -243,6 +243,20 @@ def each_so(
     return None if said == "both" and one else state_of(all_of(nps, said), predicate)
 
 
+_EACH = one_of({said: f"{said} [of them]" for said in ("each", "both", "all")})
+EACH_SHOULD = either(
+    sequence(
+        # "Must both be put", "are both to go"
+        "should, must, shall, can, could, may, are, are to, have [to], need [to]",
+        _EACH,
+        f"[[meant|supposed] to] (be|go|stand|lie|sit|end up|(be|get) ({verbs.DONE}))",
+    ),
+    sequence(_EACH, verbs.MODAL),
+    sequence(verbs.MODAL, OPTIONAL_COMMA, _EACH),
+)
+"""What several things are to be, and whether all or both of them."""
+
+
 def being(verb: str) -> Parser:
     """How things are, by a verb for that."""
     return sequence(

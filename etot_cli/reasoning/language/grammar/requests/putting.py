@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
     spanned,
+    valued,
     variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
@@ -33,7 +34,11 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID
 from etot_cli.reasoning.language.grammar.phrases.as_many import AS_MANY
-from etot_cli.reasoning.language.grammar.phrases.coordination import all_of, coordinated
+from etot_cli.reasoning.language.grammar.phrases.coordination import (
+    all_of,
+    coordinated,
+    said_of_all,
+)
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
     BESIDE,
     DESTINATIONS,
@@ -53,6 +58,7 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
     NP_LIST,
     THINGS,
 )
+from etot_cli.reasoning.language.grammar.phrases.states import EACH_SHOULD
 from etot_cli.reasoning.language.grammar.phrases.steads import TAKES_A_PLACE
 from etot_cli.reasoning.language.grammar.phrases.successions import (
     FIRST_THEN,
@@ -303,6 +309,7 @@ PUT = either(
     sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),
+            valued(sequence(NP_LIST, EACH_SHOULD, build=said_of_all), Things),
             sequence(verbs.WANTED, ALL_THINGS, optional(verbs.TO_BE_THERE)),
             sequence(verbs.CAN, ALL_THINGS, verbs.BE_PUT),
         ),

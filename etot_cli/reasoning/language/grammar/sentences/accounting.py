@@ -94,6 +94,7 @@ _FIXED = f"""
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|where), put back,
     back on [the] top of, right (next|by|behind|beside|in front|after|once|when),
+    right (into|onto|on top|(in|inside|on|at|to) (the|a|an|its|my|our|your)),
     not both [of them], (as|so) long as,
     right (above|below|under|underneath|beneath),
     at the very, (first|last) of all, last but not least,
@@ -123,7 +124,7 @@ _FIXED = f"""
     (is|are) all the same to (me|us),
     not (possible|feasible|doable), (does|do|will) not work,
     the right (home|place|spot) (for|of),
-    (standing|upright) [~comma] (and not|not) lying [down|flat],
+    (standing|upright|stand) [~comma] (and not|not) (lie|lying|on its side) [down|flat],
     (is|are) only [slightly|partly|partially|half|halfway|barely|a (bit|little|crack)]
 """
 """Phrases in which such words say something else, or nothing of their own."""

@@ -76,6 +76,7 @@ from etot_cli.reasoning.language.grammar.sentences.passives import (
 from etot_cli.reasoning.language.grammar.sentences.past import (
     ALL_LATER,
     EARLIER,
+    EARLIER_ALONE,
     LATER,
     UNDER_WAY,
     ahead_of,
@@ -203,7 +204,8 @@ JOINED = either(
         sequence(ALL_LATER, OPTIONAL_COMMA, LED_CLAUSE, build=done_later),
     ),
     joint("and", either(COMMA, LIST, small_words.JOINTS), NOT_BEFORE),
-    joint("after", OPTIONAL_COMMA, EARLIER),
+    joint("after", EARLIER),
+    joint("after", COMMA, EARLIER_ALONE),
     joint(
         # "… and once they are out, close it"
         "then",

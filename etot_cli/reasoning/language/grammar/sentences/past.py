@@ -60,8 +60,10 @@ SO = sequence(
     OPEN_OR_CLOSED,
     build=lambda things, word: MoveClause(things, word == "open"),
 )
+_HAS_COME = "(has|have) (come|gone)|come[s]"
 _TAKEN_BY_THEN = (
-    f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted|gone)"
+    f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted|gone),"
+    f" ({_HAS_COME})"
 )
 _TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
 _NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
@@ -120,7 +122,8 @@ _SO_BY_THEN = either(
     sequence(ALL_THINGS, _TAKEN_BY_THEN, SOURCE, build=RemoveClause),
     sequence(
         ALL_THINGS,
-        f"(is|are) (out|off|gone), (is|are|has been|have been) ({_TAKEN_AWAY})",
+        f"(is|are|{_HAS_COME}) (out|off), (is|are) gone,"
+        f" (is|are|has been|have been) ({_TAKEN_AWAY})",
         _NO_MORE,
         build=RemoveClause,
     ),
@@ -367,33 +370,41 @@ ALL_LATER = sequence(
     build=lambda first, more: sum(map(then_done, more), first),
 )
 """Likewise, where the rest comes behind it ("before you open it and put the pen in, …")."""
-EARLIER = valued(
-    either(
-        sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
-        sequence(
-            # "… have taken the pen off it and stood it in the cup"
-            small_words.AFTER,
-            plain(_HAVING_DONE),
-            "and [then]",
-            plain(_HAVING_DONE),
-            build=lambda first, next_: first + then_done(next_),
-        ),
-        sequence("having [first|already|just|previously|beforehand]", plain(_HAVING_DONE)),
-        sequence(
-            small_words.BY_THEN,
-            plain(_SO_BY_THEN),
-            some(
-                sequence(
-                    optional(COMMA),
-                    "and [(once|when|after|as soon as)]",
-                    # "… has been put on the tray and the pen in the cup"
-                    plain(either(_SO_BY_THEN, sequence(NP_LIST, DESTINATIONS, build=_gapped))),
-                ),
-                most=3,
+
+
+def _earlier(between: Parser | str) -> Parser:
+    return valued(
+        either(
+            sequence(small_words.AFTER, either(LED_CLAUSE, plain(_HAVING_DONE))),
+            sequence(
+                # "… have taken the pen off it and stood it in the cup"
+                small_words.AFTER,
+                plain(_HAVING_DONE),
+                "and [then]",
+                plain(_HAVING_DONE),
+                build=lambda first, next_: first + then_done(next_),
             ),
-            build=lambda first, more: sum(more, first),
+            sequence("having [first|already|just|previously|beforehand]", plain(_HAVING_DONE)),
+            sequence(
+                small_words.BY_THEN,
+                plain(_SO_BY_THEN),
+                some(
+                    sequence(
+                        between,
+                        # "… has been put on the tray and the pen in the cup"
+                        plain(either(_SO_BY_THEN, sequence(NP_LIST, DESTINATIONS, build=_gapped))),
+                    ),
+                    most=3,
+                ),
+                build=lambda first, more: sum(more, first),
+            ),
         ),
-    ),
-    _by_then,
-)
+        _by_then,
+    )
+
+
+_AND_ONCE = "and [(once|when|after|as soon as)]"
+EARLIER = _earlier(sequence(optional(COMMA), _AND_ONCE))
 """What comes before the rest of a sentence."""
+EARLIER_ALONE = _earlier(either("and", "[~comma] and (once|when|after|as soon as)"))
+"""The same between commas, behind which something else is asked for."""
