@@ -393,7 +393,10 @@ TAKEN = """
 GONE = "[to be] [(out|gone|away|down)] (out of|off [of]|(gone|out|down) from)"
 """Where something is wanted no longer."""
 KEEP = "keep[ing], leav(e|ing)"
-IGNORE = "ignore, ignoring, never mind, forget [about], skip, do not bother with"
+IGNORE = """
+    ignore, ignoring, never mind, forget [about], skip, do not bother with,
+    (do|doing) nothing [at all] (with|to), do not do anything [at all] (with|to)
+"""
 REORIENT = """
     re orient[ing], reorient[ing], rotat(e|ing), tilt[ing], flip[ping], upright, turn[ing],
     re orientat(e|ing), reorientat(e|ing), swivel[ing], pivot[ing]
