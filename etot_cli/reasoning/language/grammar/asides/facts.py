@@ -219,10 +219,9 @@ def _is_participle(word: str) -> bool:
 
 def _is_asked_for(words: Iterable[str]) -> bool:
     """Whether these may be what the robot is to do, or how things are to be."""
-    return any(
-        word in (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
-        for word in words
-    )
+    asked = (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
+    stems = {stem for word in words for stem in (word, word.removesuffix("d"), word[:-2])}
+    return bool(asked & stems)
 
 
 def _is_done(told: _Doing, is_name: IsName) -> bool:
