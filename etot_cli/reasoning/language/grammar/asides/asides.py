@@ -54,6 +54,7 @@ from etot_cli.reasoning.language.grammar.asides.remarks import (
     is_warning,
     told_of_thing,
 )
+from etot_cli.reasoning.language.grammar.asides.talk import is_talk
 from etot_cli.reasoning.language.grammar.asides.telling import (
     exclaims,
     goes_there,
@@ -206,7 +207,11 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     """A sentence and its asides."""
     said = (word for word in words_in(sentence) if word != QUESTION)
     clauses = clauses_of(" ".join(said).replace(COLON, COMMA))
-    if QUESTION in sentence and is_wondering(sentence):
+    if (QUESTION in sentence and is_wondering(sentence)) or (
+        QUESTION not in sentence
+        and is_talk(" ".join(clause.text for clause in clauses), is_name)
+        and not is_sentence(sentence)
+    ):
         return _Parted("", tuple(clauses))
     cut = [at for at in range(len(clauses)) if _is_aside(clauses, at, is_name)]
     if cut and all(at in cut or _is_sigh(item.said, is_name) for at, item in enumerate(clauses)):

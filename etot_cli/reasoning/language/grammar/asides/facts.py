@@ -48,12 +48,13 @@ _ADVERBS = word_set(
 _BE = word_set("is are am was were")
 _WAS = word_set("was were been")
 _HAVE = word_set("has have had")
-_PAST = word_set(
+PAST = word_set(
     """
     was were had broke came fell gave began went got sank ran flew died stank hurt burnt grew blew
     froze rose spoke stole tore woke wore ate drank bought brought made lost found saw slept spilt
     felt sent spent sold told taught thought understood forgot knew won met fed heard hid bit shook
-    stuck swam threw wrote dropped slipped
+    built used stuck swam threw wrote dropped slipped sat stood swore chose drew dreamt learnt lit
+    rode sang
     """
 )
 """Irregular forms that are no nouns and no present tense."""
@@ -63,7 +64,7 @@ _DONE = word_set(
     seen slept taken given written grown flown laid kept held stuck hidden bitten forgotten chosen
     worn torn stolen woken frozen spoken spilt burnt learnt sent spent built caught taught thought
     felt had heard read sold told stood understood won met fed led paid shut cut set hit hurt burst
-    dug hung begun left shaken thrown sunk risen
+    dug hung begun left shaken thrown sunk risen rung sung ridden drawn lit sat stood
     """
 )
 """Irregular participles."""
@@ -81,7 +82,7 @@ _WISHING = ASKING | DECREEING | PROPOSING | word_set("supposed meant intended pl
 _BIDDING = (
     word_set(
         """
-        want wants wanted need needs needed wish like likes prefer should must shall would may let
+        want wants wanted need needs needed wish prefer should must shall would may let
         lets letting
         ought belong belongs hoping wondering please unless instead except
         """
@@ -103,7 +104,7 @@ _BEFORE_PEOPLE = Expression(
     rf"(?=(?:{PEOPLE}|one) )"
 )
 """When, and with what sigh, somebody does something."""
-_HOLDING_TRUE = word_set(
+HOLDING_TRUE = word_set(
     """
     think believe guess suppose mean imagine figure reckon know see find feel assume understand
     remember like likes love loves hate hates prefers favour favor thinks believes knows ask tell
@@ -117,7 +118,12 @@ _STRANGE = (
     | {*THING_NOUNS}
 )  # fmt: skip
 """None of these is a thing that no scene has."""
-_MEANT = word_set("going asking telling wanting hoping having planning getting wishing expecting")
+_MEANT = word_set(
+    """
+    going asking telling wanting hoping having planning getting wishing expecting counting relying
+    trusting depending
+    """
+)
 """What somebody is doing who may ask for something by it ("I am having the cup moved")."""
 _LONGEST = 5
 """Words of what something is said of, at most."""
@@ -205,7 +211,7 @@ def _is_told(rest: Sequence[str]) -> bool | None:
         return over and not wished
     if verb in _BE and then.endswith("ing") and len(then) > len("thing"):
         return not (wished or then in _LASTING or _is_asked_for({then} - {"getting"}))
-    if verb in _PAST:
+    if verb in PAST:
         to_be = verb in ("was", "were") and (then == "to" or _is_asked_for([then]))
         return not (wished or to_be)
     if verb in _BE or verb in _HAVE:
@@ -229,6 +235,8 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
     did = told.did
     if told.who == "you" or not did or _BIDDING & {*did} or _goes_somewhere(did):
         return False
+    if "you" in did and "to" in did[did.index("you") :]:
+        return False  # "I rely on you to keep it closed"
     first, *more = did
     if first in ("told", "warned", "instructed") and {"to", "that"} & {*more}:
         return False
@@ -239,7 +247,7 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
     named = any(map(is_name, did))
     if first in _HAVE:
         if _is_participle(then):
-            return not _is_asked_for(more[:1]) and then not in _HOLDING_TRUE
+            return not _is_asked_for(more[:1]) and then not in HOLDING_TRUE
         return not named and not (REFERRING | {"to"}) & {*more}
     if first in _BE:
         if more[:2] == ["going", "to"]:
@@ -251,16 +259,16 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
     if first in ("do", "does", "did", "can", "could", "will", "might"):
         able = told.denied or first in ("will", "might")
         bears = then in ("stand", "bear") and not named  # "I can not stand that smell"
-        asked = _is_asked_for({then} - {"be"}) or then in _HOLDING_TRUE
+        asked = _is_asked_for({then} - {"be"}) or then in HOLDING_TRUE
         return able and bool(then) and (bears or not asked)
-    if first in _PAST or (first.endswith("ed") and len(first) > len("need")):
-        return first not in _HOLDING_TRUE
+    if first in PAST or (first.endswith("ed") and len(first) > len("need")):
+        return first not in HOLDING_TRUE
     return _is_habit(told, first, then) and not _is_placed(more, is_name)
 
 
 def _is_habit(told: _Doing, verb: str, then: str) -> bool:
     """Whether a verb in the present says what somebody does as people do, and robots do not."""
-    if verb in _HOLDING_TRUE or verb in _STRANGE - OTHER_VERBS - VERB_WORDS:
+    if verb in HOLDING_TRUE or verb in _STRANGE - OTHER_VERBS - VERB_WORDS:
         return False
     if verb in ("keep", "keeps"):
         return then.endswith("ing") and then not in _LASTING

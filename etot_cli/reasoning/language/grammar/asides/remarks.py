@@ -115,7 +115,7 @@ PROPOSING = word_set(
     """
 )
 """What somebody does who asks for something in a roundabout way."""
-_BIDDING = PROPOSING | word_set(
+BIDDING = PROPOSING | word_set(
     """
     asked agreed having decided chosen chose ordered promised arranged suggested recommended voted
     told warned instructed let lets letting
@@ -424,7 +424,7 @@ def is_remark(said: str, is_name: IsName) -> bool:
             verb, *more = person["did"].split()
             named = more if verb in OTHER_VERBS else words  # "I drink from it" is of no drink
             return not any(map(is_name, named)) and _does_nothing(person["did"])
-        if _BIDDING & {*words} and any(map(is_name, words)):
+        if BIDDING & {*words} and any(map(is_name, words)):
             return False
         did = person["did"].removeprefix(happened[0]).split()
         if happened[0].endswith((" to ", "will ")):
