@@ -133,7 +133,7 @@ LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|rele
 KEPT_HELD = """
     and [then] (keep hold of|keep holding|hold on to|hang on to|hold|keep|do not drop) (it|them)
     [there|up|in (the|your) (hand|gripper)|[up] in the air|in mid air],
-    and [then] wait [there], and do not let go [of it]
+    and [then] wait [there], and do not let go [of (it|them)]
 """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
@@ -319,6 +319,8 @@ GRIPPER = "gripper|hand|fingers|wrist"
 BY_HAND = "(with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm)"
 """Says nothing: it does all so."""
 _THE_HAND = f"(the|your|its) ({GRIPPER}) [held|kept|being|pointing]"
+HAND_COMES = "with (the|your|its) (arm|gripper|hand) (coming [in|down|at it]|approaching [it])"
+"""Before where it comes from."""
 HAND_LEVEL = f"{_THE_HAND} (horizontal|horizontally|level|sideways)"
 HAND_DOWN = f"{_THE_HAND} (vertical|vertically|[straight] (down|downward|downwards))"
 HAND_EITHER_WAY = (

@@ -25,7 +25,8 @@ HELD_UP = "it is held up, not handed over"
 SHIFT = "mov(e|ing), relocat(e|ing), shift[ing], switch[ing] [over]"
 """Of what is not to be moved, "on the tray" tells which it is rather than where to."""
 SET = """
-    put[ting] [away|down|back], plac(e|ing) [down], pick [up] and place, insert[ing],
+    put[ting] [away|down|back], (tidy[ing]|clear[ing]) away, plac(e|ing) [down],
+    pick [up] and place, insert[ing],
     set[ting] [down|back], stow[ing] [away], sit[ting] [down], park[ing],
     stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing] [down], stick[ing], slip[ping],
     tuck[ing], position[ing], load[ing], carry[ing], return[ing],

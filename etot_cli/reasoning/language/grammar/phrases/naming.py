@@ -159,6 +159,9 @@ def _whichever(
     """The one that is so; whichever "is left" is the one that nothing else was done with."""
     if isinstance(words, NounPhrase):
         of_them = Modifier(Prep.OF, (words,))
+        if modifier.prep is Prep.NEAREST:
+            one = ("one",) if words.pronoun else _one_of_such(words.words)
+            return one and NounPhrase("the", one, (of_them, modifier, *more))
         if modifier.prep is not Prep.QUALITY or modifier.denied or words.pronoun:
             return None  # told by counting all of them, as in "the taller of the two cups"
         return NounPhrase("the", modifier.words, (of_them, *more))

@@ -102,7 +102,7 @@ _FIXED = f"""
     each other, one another, (on|over) the other, none of, the other way (around|up),
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were|got) left,
-    (near|close|next|closer|nearer) to, near (the|each other|one another),
+    do not let go [of (it|them)], (near|close|next|closer|nearer) to, near (the|each other|one another),
     left (open|opened|closed|shut|ajar|empty|alone|untouched),
     left [standing|lying|sitting] [exactly|precisely|just|right] (as|where|like) (it|they),
     closer together, a (bit|little) (further|farther), contents and all,

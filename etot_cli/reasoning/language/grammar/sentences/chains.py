@@ -282,7 +282,7 @@ JOINED = either(
         LIST,
         after("first"),
         either(plain(sequence(THINGS, build=_another)), plain(VERBLESS)),
-        f"{small_words.COUNTED}, after that, afterward, later",
+        f"{small_words.COUNTED}, after [that|it|them], afterward, later",
     ),
     joint(
         "then",
