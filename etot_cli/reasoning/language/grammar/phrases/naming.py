@@ -334,6 +334,15 @@ noun_phrase.define(
             quiet(sequence("[the] same", WORDS, "as", noun_phrase, build=_where_it_is)),
             sequence(_FREE_CHOICE, WORDS, nouns.AS_YOU_LIKE, build=NounPhrase),
             sequence(
+                # "One of the drawers, either will do, …"
+                phrase("one of the, one of these, one of those, one of my, one of our"),
+                WORDS,
+                "~comma",
+                f"[(either|any) [one|of them]] ({small_words.ANY_WILL_DO})",
+                either(COMMA, at_end),
+                build=NounPhrase,
+            ),
+            sequence(
                 # "Of the two, take whichever is easier to reach"
                 _BEHIND_A_VERB,
                 "whichever, whatever",
