@@ -293,6 +293,13 @@ ON_THE_WAY = """
     during the (move|transport), in (transit|the process)
 """
 """Behind how something is kept while it is moved."""
+KEPT_UPRIGHT = f"""
+    ~comma (which|that) (must|should|may|can|shall|is to|has to|needs to) [always] (
+    not ((tip|fall|topple) over|topple|be (tipped [over]|tilted|knocked over))|
+    (stay|remain|be kept|be held|stand) [standing] upright
+    [{ON_THE_WAY.replace(",", "|")}]) ~comma
+"""
+"""Behind what is put somewhere, before where."""
 LEVELED = "level, straight [up], steady, standing [up|upright]"
 LEVEL = f"{UPRIGHT}, {LEVELED}"
 """How a thing is kept that must not be tilted."""

@@ -291,9 +291,9 @@ _END_HAS = """
     (should|must|shall|has to|needs to|is to) (have|show), the (result|outcome) should (have|show)
 """
 WANTED = f"{WANT}, {OTHERS_WANT}, {_END_HAS}"
-BE = """
+BE = f"""
     is, are, be, (is|are|be) (left|put|placed|stored|stowed|housed|kept|again|properly),
-    end[s] up, get[s],
+    end[s] up [{_BEING}], get[s],
     (is|are|be) left (lying|standing|sitting)
 """
 LIES = "lie[s], stand[s], sit[s], rest[s]"

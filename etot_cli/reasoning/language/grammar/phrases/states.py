@@ -197,9 +197,7 @@ def holding(
     return None if told and held[1:] else State((*held, *more), (Destination(toward, (np,)),))
 
 
-def _holding_together(
-    np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward
-) -> State | None:
+def _holding_together(np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward) -> State | None:
     """What one thing is to hold "together", which says that of one anyway."""
     one = singular(np.head) == np.head or np.determiner.startswith("one of")
     return holding(np, held, toward) if held[1:] and one else None
