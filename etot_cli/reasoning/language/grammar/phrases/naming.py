@@ -30,7 +30,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.comparing import ONE_COMPARED
-from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
+from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE, WHERE_THAT_IS
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     LEAVING_OUT,
     MODIFIERS,
@@ -161,7 +161,7 @@ def _whichever(
         of_them = Modifier(Prep.OF, (words,))
         if modifier.prep is Prep.NEAREST:
             one = ("one",) if words.pronoun else _one_of_such(words.words)
-            return one and NounPhrase("the", one, (of_them, modifier, *more))
+            return NounPhrase("the", one, (of_them, modifier, *more)) if one else None
         if modifier.prep is not Prep.QUALITY or modifier.denied or words.pronoun:
             return None  # told by counting all of them, as in "the taller of the two cups"
         return NounPhrase("the", modifier.words, (of_them, *more))
@@ -393,6 +393,12 @@ noun_phrase.define(
                 either(PLAIN_MODIFIER, quality_alone, sequence("inside", build=lambda: _INSIDE)),
                 MODIFIERS,
                 build=_what_is,
+            ),
+            sequence(
+                # "What the cup stands on"
+                "what, whatever",
+                WHERE_THAT_IS,
+                build=lambda where: NounPhrase("the", ("thing",), (where,)),
             ),
             sequence(
                 "(what|whatever|everything [that]) (was|were) [already]",

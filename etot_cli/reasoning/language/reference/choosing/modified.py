@@ -267,8 +267,7 @@ def left_out(
                     why = "say which are left out of"
                     raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                 named = _named_out(item, words[-1], things, landmarks)
-                of_one = {thing.name for thing in named} & {thing.name for thing in things}
-                if of_one and not named & {*things} and Thing(*of_one) in things:
+                if not named & {*things} and {Thing(thing.name) for thing in named} & {*things}:
                     # "On the shelf, not the top board" is still to be somewhere on it.
                     raise ReferenceProblem(item.text, "say in or on what it is not to be", 1)
                 several = [thing for thing in things if thing in named]
