@@ -115,11 +115,17 @@ _STAYS_EMPTY = either(
 
 KEEP_STILL = either(
     sequence(_STAYS_EMPTY, build=stays_empty),
-    spanned(
-        sequence(
-            optional("let"), THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)
+    sequence(
+        spanned(
+            sequence(
+                optional("let"),
+                THINGS,
+                either(_STAYS, _FINE),
+                build=partial(AvoidClause, Avoid.MOVE),
+            ),
+            _in_number,
         ),
-        _in_number,
+        build=lambda clause: clause,
     ),
     sequence(
         "let[ting], leav(e|ing)", THINGS, "be, in peace", build=partial(AvoidClause, Avoid.MOVE)
