@@ -120,8 +120,9 @@ def check_contrasted(
         text, out = discourse.referents[index].text, discourse.left_out.get(index, ())
         if moved & {*out}:
             raise ReferenceProblem(text, "what is no such place is to go there itself", 1)
-        spared = {thing for theme in contrasted for thing in discourse.left_out.get(theme, ())}
-        if spared & {*discourse.things(index)}:  # "the cup in the box, not box A" is about the box
+        spared = {out.name for theme in contrasted for out in discourse.left_out.get(theme, ())}
+        if spared & {thing.name for thing in discourse.things(index)}:
+            # "The cup in the box, not box A", "on the shelf, not its top board" tell of the place.
             raise ReferenceProblem(text, "it is said not to be meant", 1)
         for thing in out:
             if any(touches(thing, at, context.scene) for at in discourse.things(index)):

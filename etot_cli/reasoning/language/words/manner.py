@@ -134,7 +134,7 @@ LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|rele
 KEPT_HELD = """
     and [then] (keep hold of|keep holding|hold on to|hang on to|hold|keep|do not drop) (it|them)
     [there|up|in (the|your) (hand|gripper)|[up] in the air|in mid air],
-    and [then] wait [there], and do not let go [of it]
+    and [then] wait [there], and do not let go [of (it|them)]
 """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
@@ -294,6 +294,13 @@ ON_THE_WAY = """
     during the (move|transport), in (transit|the process)
 """
 """Behind how something is kept while it is moved."""
+KEPT_UPRIGHT = f"""
+    ~comma (which|that) (must|should|may|can|shall|is to|has to|needs to) [always] (
+    not ((tip|fall|topple) over|topple|be (tipped [over]|tilted|knocked over))|
+    (stay|remain|be kept|be held|stand) [standing] upright
+    [{ON_THE_WAY.replace(",", "|")}]) ~comma
+"""
+"""Behind what is put somewhere, before where."""
 LEVELED = "level, straight [up], steady, standing [up|upright]"
 LEVEL = f"{UPRIGHT}, {LEVELED}"
 """How a thing is kept that must not be tilted."""
@@ -320,6 +327,8 @@ GRIPPER = "gripper|hand|fingers|wrist"
 BY_HAND = "(with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm)"
 """Says nothing: it does all so."""
 _THE_HAND = f"(the|your|its) ({GRIPPER}) [held|kept|being|pointing]"
+HAND_COMES = "with (the|your|its) (arm|gripper|hand) (coming [in|down|at it]|approaching [it])"
+"""Before where it comes from."""
 HAND_LEVEL = f"{_THE_HAND} (horizontal|horizontally|level|sideways)"
 HAND_DOWN = f"{_THE_HAND} (vertical|vertically|[straight] (down|downward|downwards))"
 HAND_EITHER_WAY = (

@@ -34,7 +34,7 @@ WITHOUT_MEANING = f"""
     while you are (at|about) it,
     also, too, as well, just, simply, now, though, of course, obviously, naturally, evidently,
     needless to say, somehow [or other], in some way [or other], one way or another,
-    again,
+    again, once (more|again),
     immediately, right away, right now, for me, fully, completely, all the way,
     the rest of the way, wide, there after,
     one (by one|after the other|after another), one at a time, in the process, if you please,

@@ -25,7 +25,8 @@ HELD_UP = "it is held up, not handed over"
 SHIFT = "mov(e|ing), relocat(e|ing), shift[ing], switch[ing] [over]"
 """Of what is not to be moved, "on the tray" tells which it is rather than where to."""
 SET = """
-    put[ting] [away|down|back], plac(e|ing) [down], pick [up] and place, insert[ing],
+    put[ting] [away|down|back], (tidy[ing]|clear[ing]) away, plac(e|ing) [down],
+    pick [up] and place, insert[ing],
     set[ting] [down|back], stow[ing] [away], sit[ting] [down], park[ing],
     stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing] [down], stick[ing], slip[ping],
     tuck[ing], position[ing], load[ing], carry[ing], return[ing],
@@ -291,9 +292,9 @@ _END_HAS = """
     (should|must|shall|has to|needs to|is to) (have|show), the (result|outcome) should (have|show)
 """
 WANTED = f"{WANT}, {OTHERS_WANT}, {_END_HAS}"
-BE = """
+BE = f"""
     is, are, be, (is|are|be) (left|put|placed|stored|stowed|housed|kept|again|properly),
-    end[s] up, get[s],
+    end[s] up [{_BEING}], get[s],
     (is|are|be) left (lying|standing|sitting)
 """
 LIES = "lie[s], stand[s], sit[s], rest[s]"

@@ -347,7 +347,7 @@ ENSURE = either(
         either(
             sequence(optional("let"), STAYS),
             KEPT_THERE,
-            being("end[s] up"),
+            being(f"(end[s]|wind[s]|finish[es]) up [{verbs.BEING}]"),
             containing(verbs.CONTAIN),
             containing(verbs.TO_CARRY, Toward.ON),
             sequence(noun_phrase, verbs.END_WITH, NP_LIST, IN_OR_ON_IT, build=holding),

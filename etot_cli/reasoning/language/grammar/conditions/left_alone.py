@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
     some,
+    spanned,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIER
@@ -26,6 +27,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
 )
 from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words.lexicon import word_set
 
 _AWAY_FROM = "[well|far] (away from|clear of)"
 
@@ -95,6 +97,16 @@ _FINE = (
 )
 
 
+_OF_ONE = word_set("stays remains keeps retains")
+
+
+def _in_number(text: str, clause: AvoidClause) -> AvoidClause | None:
+    """What stays as it is; of "then the pen, and the cup stays where it is" the cup alone does."""
+    things = clause.things
+    several = things is not None and len(things.phrases) > 1 and not things.either
+    return None if several and _OF_ONE & {*text.split()} else clause
+
+
 _STAYS_EMPTY = either(
     sequence(noun_phrase, verbs.LEFT_THERE, "empty"),
     sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
@@ -104,7 +116,16 @@ _STAYS_EMPTY = either(
 KEEP_STILL = either(
     sequence(_STAYS_EMPTY, build=stays_empty),
     sequence(
-        optional("let"), THINGS, either(_STAYS, _FINE), build=partial(AvoidClause, Avoid.MOVE)
+        spanned(
+            sequence(
+                optional("let"),
+                THINGS,
+                either(_STAYS, _FINE),
+                build=partial(AvoidClause, Avoid.MOVE),
+            ),
+            _in_number,
+        ),
+        build=lambda clause: clause,
     ),
     sequence(
         "let[ting], leav(e|ing)", THINGS, "be, in peace", build=partial(AvoidClause, Avoid.MOVE)

@@ -63,6 +63,23 @@ _CAME_FROM = """
     (it|they) came (from|out of), (it|they) (was|were) [taken|removed] (from|in|on|out of),
     [you] (took|got|removed) (it|them) (from|out of|off)
 """
+WHERE_THAT_IS = quiet(
+    sequence(
+        optional("that, which"),
+        noun_phrase,
+        either(
+            phrase(f"(is|are) [{_POSED}], stands, stand, lies, lie, sits, sit", ()),
+            phrase(f"(was|were) [{_POSED}], stood, lay, sat", (HERE_BEFORE,)),
+        ),
+        optional(phrase("not", True), False),
+        spanned(one_of(places.STANDS_AT), lambda said, prep: (prep, tuple(said.split()[1:]))),
+        # "The cup that is not on" is one that nothing is said of.
+        build=lambda np, words, denied, at: (
+            None if np.text == "that" else Modifier(at[0], (np,), words + at[1], denied)
+        ),
+    )
+)
+"""Of what is meant, how something else is to it ("that the cup stands on")."""
 CONTENTS = either(
     sequence(
         # "The cup that has none", "the cup without one"
@@ -139,22 +156,7 @@ CONTENTS = either(
             None if np.pronoun and not words else Modifier(Prep.WITH, (np,), words, denied=denied)
         ),
     ),
-    quiet(
-        sequence(
-            optional("that, which"),
-            noun_phrase,
-            either(
-                phrase(f"(is|are) [{_POSED}], stands, stand, lies, lie, sits, sit", ()),
-                phrase(f"(was|were) [{_POSED}], stood, lay, sat", (HERE_BEFORE,)),
-            ),
-            optional(phrase("not", True), False),
-            spanned(one_of(places.STANDS_AT), lambda said, prep: (prep, tuple(said.split()[1:]))),
-            # "The cup that is not on" is one that nothing is said of.
-            build=lambda np, words, denied, at: (
-                None if np.text == "that" else Modifier(at[0], (np,), words + at[1], denied)
-            ),
-        )
-    ),
+    WHERE_THAT_IS,
     quiet(
         sequence(
             one_of({Prep.CONTAINING: "in which", Prep.BEARING: "on which"}),

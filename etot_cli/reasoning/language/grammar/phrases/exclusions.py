@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     TowerClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
     Modifier,
     NounPhrase,
     State,
@@ -56,12 +57,18 @@ def only_there(clause: Clause, left_out: Modifier) -> EnsureClause | None:
     if not isinstance(clause, AvoidClause) or clause.negated or not clause.not_left:
         return None
     phrases = clause.things.phrases if clause.things else ()
+    nothing = [np.words for np in phrases] == [("anything",)]
+    return alone_there(clause.destinations, left_out) if nothing else None
+
+
+def alone_there(where: tuple[Destination, ...], left_out: Modifier) -> EnsureClause | None:
+    """What alone is to be somewhere: what is excepted where nothing is to be there."""
     (first, *more), the = left_out.phrases, left_out.phrases[0].determiner or "the"
     excepted = left_out.prep is Prep.EXCEPT and not left_out.denied and the in THE_WORDS
-    if [np.words for np in phrases] != [("anything",)] or not excepted or first.pronoun:
+    if not excepted or first.pronoun:
         return None
     only = replace(first, determiner=f"only {the}")
-    return EnsureClause((State((only, *more), clause.destinations, alone=True),))
+    return EnsureClause((State((only, *more), where, alone=True),))
 
 
 def changed(

@@ -178,7 +178,7 @@ def denied(modifier: Modifier) -> Modifier | None:
 
 def _is_adjective(word: str) -> bool:
     """Whether a word is said of a thing and names none ("the orange", "the lime")."""
-    return is_descriptive(word) and word not in COMMON_NOUNS
+    return (is_descriptive(word) or word in LEVELS) and word not in COMMON_NOUNS
 
 
 def _one_of_them(np: NounPhrase) -> NounPhrase:

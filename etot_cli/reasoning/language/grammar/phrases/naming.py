@@ -30,7 +30,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.comparing import ONE_COMPARED
-from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
+from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE, WHERE_THAT_IS
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     LEAVING_OUT,
     MODIFIERS,
@@ -159,6 +159,9 @@ def _whichever(
     """The one that is so; whichever "is left" is the one that nothing else was done with."""
     if isinstance(words, NounPhrase):
         of_them = Modifier(Prep.OF, (words,))
+        if modifier.prep is Prep.NEAREST:
+            one = ("one",) if words.pronoun else _one_of_such(words.words)
+            return NounPhrase("the", one, (of_them, modifier, *more)) if one else None
         if modifier.prep is not Prep.QUALITY or modifier.denied or words.pronoun:
             return None  # told by counting all of them, as in "the taller of the two cups"
         return NounPhrase("the", modifier.words, (of_them, *more))
@@ -331,6 +334,15 @@ noun_phrase.define(
             quiet(sequence("[the] same", WORDS, "as", noun_phrase, build=_where_it_is)),
             sequence(_FREE_CHOICE, WORDS, nouns.AS_YOU_LIKE, build=NounPhrase),
             sequence(
+                # "One of the drawers, either will do, …"
+                phrase("one of the, one of these, one of those, one of my, one of our"),
+                WORDS,
+                "~comma",
+                f"[(either|any) [one|of them]] ({small_words.ANY_WILL_DO})",
+                either(COMMA, at_end),
+                build=NounPhrase,
+            ),
+            sequence(
                 # "Of the two, take whichever is easier to reach"
                 _BEHIND_A_VERB,
                 "whichever, whatever",
@@ -381,6 +393,12 @@ noun_phrase.define(
                 either(PLAIN_MODIFIER, quality_alone, sequence("inside", build=lambda: _INSIDE)),
                 MODIFIERS,
                 build=_what_is,
+            ),
+            sequence(
+                # "What the cup stands on"
+                "what, whatever",
+                WHERE_THAT_IS,
+                build=lambda where: NounPhrase("the", ("thing",), (where,)),
             ),
             sequence(
                 "(what|whatever|everything [that]) (was|were) [already]",

@@ -197,6 +197,12 @@ def holding(
     return None if told and held[1:] else State((*held, *more), (Destination(toward, (np,)),))
 
 
+def _holding_together(np: NounPhrase, held: tuple[NounPhrase, ...], toward: Toward) -> State | None:
+    """What one thing is to hold "together", which says that of one anyway."""
+    one = singular(np.head) == np.head or np.determiner.startswith("one of")
+    return holding(np, held, toward) if held[1:] and one else None
+
+
 def _holding_only(np: NounPhrase, held: NounPhrase, toward: Toward, said: str) -> State | None:
     """What alone is in or on something ("the box should hold the pen only")."""
     plain = held.determiner in ("the", "my", "this", "that") and not held.pronoun
@@ -225,6 +231,14 @@ def containing(verb: str, toward: Toward = Toward.INSIDE) -> Parser:
         holding_only(verb, toward),
         sequence(noun_phrase, verb, NP_LIST, optional(IN_OR_ON_IT, toward), build=holding),
         sequence(noun_phrase, verb, NP_LIST, IN_OR_ON_IT, _AS_WELL, build=holding),
+        sequence(
+            noun_phrase,
+            verb,
+            NP_LIST,
+            optional(IN_OR_ON_IT, toward),
+            "together",
+            build=_holding_together,
+        ),
     )
 
 

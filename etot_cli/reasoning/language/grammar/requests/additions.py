@@ -112,7 +112,7 @@ _EXTRA = sequence(
         _BACK_THERE,
         sequence(
             phrase(manner.STANDING, ("stance", Nearby.UPRIGHT)),
-            silent(optional(manner.NOT_LYING)),
+            silent(optional(f"{manner.NOT_LYING}, {manner.ON_THE_WAY}")),
         ),
         phrase(manner.LYING, ("stance", Nearby.LYING)),
         manner.FITTING,

@@ -215,7 +215,7 @@ GRASPED = sequence(
             optional(
                 "but, with, using, being, [being] (grasped|gripped|held|approached),"
                 "[while|by] (grasping|gripping|holding|approaching) (it|them),"
-                "[while|by] coming [in|at it], approaching,"
+                f"[while|by] coming [in|at it], approaching, ({manner.HAND_COMES}),"
                 "(grasp|grip) [~comma]"
             ),
             either(POSES, _ONE_OR_WORSE),
@@ -259,7 +259,7 @@ WITH_A_GRASP = spanned(
 )
 """Behind what is put somewhere."""
 HELD_SO = either(
-    sequence("us(e|ing), try[ing]", POSES),
+    sequence(f"us(e|ing), try[ing], coming [in|down], {manner.HAND_COMES}", POSES),
     sequence(
         "[by|while] (keep|keeping|hold|holding)",
         either(

@@ -129,7 +129,7 @@ _PUT_GROUP = sequence(
     ),
     optional(
         either(
-            phrase("standing [up]", Nearby.UPRIGHT),
+            phrase(f"standing [up], {manner.KEPT_UPRIGHT}", Nearby.UPRIGHT),
             sequence(silent(phrase("down")), STANCE),
             phrase(_PARTICLE),
         ),

@@ -39,7 +39,7 @@ SOURCE = sequence(places.SOURCE, noun_phrase)
 def _pick(
     ahead: Any, before: Any, verb: str, things: Things, source: Any, after: Any
 ) -> PickClause | None:
-    if (before and after) or (ahead and source):
+    if (before and after and before != after) or (ahead and source):
         return None
     poses = tuple(dict.fromkeys(before or after or ()))
     gathered = verb in _GATHERED and things.may_be_several and things.phrases[-1].modifiers

@@ -102,6 +102,7 @@ _FIXED = f"""
     each other, one another, (on|over) the other, none of, the other way (around|up),
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were|got) left,
+    do not let go [of (it|them)],
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     left (open|opened|closed|shut|ajar|empty|alone|untouched),
     left [standing|lying|sitting] [exactly|precisely|just|right] (as|where|like) (it|they),
@@ -131,6 +132,7 @@ _FIXED = f"""
 _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
     f", {manner.NOT_STACKED}, {manner.STANDS_SINGLY}, {manner.ANYHOW}, {SO_LONG}"
+    f", {manner.KEPT_UPRIGHT}"
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
     f", {SAFELY}, {A_SAFE_PLACE}, {verbs.OUT_OF_THE_WAY}"
 )

@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
     LEVELS,
+    MATERIALS,
     is_descriptive,
     singular,
 )
@@ -48,6 +49,16 @@ def _named_in(rest: Reading) -> list[NounPhrase] | None:
             return [np for state in states for np in state.subjects]
         case _:
             return None
+
+
+def _by_material(rest: Reading) -> Reading:
+    """With a noun for what is told by its material alone ("sort the cups: glass on the tray")."""
+
+    def named(np: NounPhrase) -> NounPhrase:
+        bare = not np.determiner and not np.modifiers and len(np.words) == 1
+        return replace(np, words=(*np.words, "ones")) if bare and np.head in MATERIALS else np
+
+    return _with_things(named, rest)
 
 
 _ALL_ELSE = frozenset({"everything else", "all else", "anything else", "the rest", "all the rest"})
@@ -70,15 +81,19 @@ def _rest_of(topic: Reading, rest: Reading) -> Reading:
             return np
         return replace(whole, determiner=_REST_OF_THEM, text=np.text)
 
+    return _with_things(limited, rest)
+
+
+def _with_things(change: Callable[[NounPhrase], NounPhrase], rest: Reading) -> Reading:
+    """The same with other phrases for what is put somewhere, or said to be somewhere."""
+
     def told(said: Spoken) -> Spoken:
         match said.clause:
             case PutClause(groups=groups) as put:
-                less = tuple(
-                    replace(group, things=_each(limited, group.things)) for group in groups
-                )
+                less = tuple(replace(group, things=_each(change, group.things)) for group in groups)
                 return replace(said, clause=replace(put, groups=less))
             case EnsureClause(states=states) as ensured:
-                so = tuple(replace(s, subjects=tuple(map(limited, s.subjects))) for s in states)
+                so = tuple(replace(s, subjects=tuple(map(change, s.subjects))) for s in states)
                 return replace(said, clause=replace(ensured, states=so))
             case _:
                 return said
@@ -92,7 +107,7 @@ def _each(change: Callable[[NounPhrase], NounPhrase], things: Things) -> Things:
 
 def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
-    rest = _rest_of(topic, rest)
+    rest = _by_material(_rest_of(topic, rest))
     named = _named_in(rest)
     everything = [np for said in rest for np in _named_in((said,)) or () if np.text in _ALL_ELSE]
     swept = any(np.determiner != _REST_OF_THEM and " else" in np.text for np in everything)

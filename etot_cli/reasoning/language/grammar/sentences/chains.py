@@ -7,6 +7,7 @@ from dataclasses import replace
 from etot_cli.reasoning.language.grammar.conditions.ensuring import OF_SEVERAL
 from etot_cli.reasoning.language.grammar.conditions.left_alone import UNTOUCHED
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
     Parser,
     Part,
     either,
@@ -24,6 +25,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     after,
 )
+from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
@@ -150,6 +152,11 @@ def joint(name: str, *parts: Part) -> Parser:
     return sequence(*parts, build=lambda reading: (name, reading))
 
 
+def _begins_with_place(given: Input, at: int) -> list[Result]:
+    """Whether a place comes first, as in "into the bin with it"."""
+    return [(at, NOTHING)] if given.words[0] in ("into", "onto", "in", "on") else []
+
+
 _SO = either(
     sequence(
         # "…, which should be closed afterwards", "…, whose door I want closed": what was named last
@@ -264,6 +271,15 @@ JOINED = either(
         either(plain(either(sequence(THINGS, build=once_more), NARRATED)), HEADLINE),
     ),
     joint(
+        # "Into the bin with the apple, then with the pear"
+        "then",
+        OPTIONAL_COMMA,
+        f"{small_words.THEN_JOINTS}, and",
+        Parser(_begins_with_place),
+        "with",
+        plain(sequence(THINGS, build=once_more)),
+    ),
+    joint(
         "then",
         OPTIONAL_COMMA,
         after("first", "firstly"),
@@ -284,7 +300,7 @@ JOINED = either(
         LIST,
         after("first"),
         either(plain(sequence(THINGS, build=_another)), plain(VERBLESS)),
-        f"{small_words.COUNTED}, after that, afterward, later",
+        f"{small_words.COUNTED}, after [that|it|them], afterward, later",
     ),
     joint(
         "then",

@@ -23,8 +23,8 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     after,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.exclusions import of_the_things
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, INTO, ONTO
+from etot_cli.reasoning.language.grammar.phrases.exclusions import alone_there, of_the_things
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     CONTRASTED,
 )
@@ -187,7 +187,14 @@ LEFT_SO = Rule(
         sequence(ALL_THINGS, IN_HAND, build=lambda things, _: PickClause(things)),
         sequence(ALL_THINGS, "pick up, pickup", build=_pick_up_named),
         variants(sequence(ALL_THINGS, optional(_IS), manner.EMPTIED), to_be_empty),
-        sequence("nothing [left] (in|on)", ALL_THINGS, build=emptied),
+        sequence("nothing [left] (in|on [[the] top of])", ALL_THINGS, build=emptied),
+        sequence(
+            "nothing [left]",
+            either(INTO, ONTO),
+            OPTIONAL_COMMA,
+            LEFT_OUT,
+            build=lambda where, out: alone_there((where,), out),
+        ),
         UNTOUCHED,
         BOTH_LEFT_SO,
         STATE_NAMED,

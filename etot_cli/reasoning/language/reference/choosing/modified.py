@@ -291,6 +291,9 @@ def left_out(
                     why = "say which are left out of"
                     raise AmbiguousReference(phrase.text, [t.name for t in things], why)
                 named = _named_out(item, words[-1], things, landmarks)
+                if not named & {*things} and {Thing(thing.name) for thing in named} & {*things}:
+                    # "On the shelf, not the top board" is still to be somewhere on it.
+                    raise ReferenceProblem(item.text, "say in or on what it is not to be", 1)
                 several = [thing for thing in things if thing in named]
                 if several[1:] and _is_one(item):
                     why = f"{names_of_things(several)} would be left out"
