@@ -224,8 +224,10 @@ EITHER_SIDE = sequence(
 
 
 def _whichever(np: NounPhrase, words: tuple[str, ...]) -> Things | None:
-    """One of some things, which is said again ("a red cup, any cup, …")."""
-    again = np.determiner.split()[:1] in _ANY_ONE and np.words[-len(words) :] == words
+    """One of some things, which is said again ("a cup, any cup, …"); of "a red cup, any cup" it is
+    open whether it has to be red.
+    """
+    again = np.determiner.split()[:1] in _ANY_ONE and np.words == words
     return Things((np,)) if again else None
 
 
