@@ -1944,3 +1944,15 @@ def coded_bench() -> SceneState:
         cup("cup_big", (0.30, 0.28), size=(0.09, 0.09, 0.11), color="green"),
         cup("cup_small", (0.30, -0.26), size=(0.06, 0.06, 0.07), color="green"),
     )
+
+
+def coin_nook() -> SceneState:
+    """Furniture called a drawer with a die in it and coins on top, a bin, a wrapper."""
+    return scene(
+        drawers("drawer", (0.60, 0.28), {"top": 0.9}, color="brown"),
+        item("die", "box", (0.50, 0.28), size=(0.03, 0.03, 0.03), on="drawer", inside="drawer"),
+        item("coins", "box", (0.62, 0.28), size=(0.06, 0.04, 0.02), color="yellow", on="drawer"),
+        item("bin", "bowl", (0.44, -0.30), size=(0.18, 0.18, 0.14), color="black"),
+        ball("wrapper", (0.34, 0.02), color="white"),
+        item("card", "box", (0.44, -0.04), size=(0.12, 0.08, 0.01), color="red"),
+    )

@@ -148,7 +148,7 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             for filling in first:
                 put(context, filling)
             clause, so = put_on_closed(context, clause)
-            put(context, clause)
+            put(context, clause, wherever=clause.wherever)
             _check_not_wanted(context, clause, moved)
             for state in so:
                 ensure(context, state)

@@ -22,7 +22,13 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
-from etot_cli.reasoning.language.reference.geometry.space import addresses, rests_on, touches
+from etot_cli.reasoning.language.reference.geometry.space import (
+    addresses,
+    is_drawer,
+    lies_in,
+    rests_on,
+    touches,
+)
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.world.state import DESK, SceneState
@@ -64,11 +70,14 @@ def rule_out_things(context: Context, clause: AvoidClause) -> None:
 
 
 def _is_there(thing: Thing, relation: Relation, mark: Thing, scene: SceneState) -> bool:
-    """Whether a thing is in or on something; what lies in a chest's drawer is not on the chest."""
+    """Whether a thing is in or on something; what lies in a chest's drawer is not on the chest, nor
+    is in a drawer what stands on its chest.
+    """
     inside = scene.states[thing.name].inside if thing.name in scene.states else None
     stowed = inside is not None and scene.part(inside) is not None
-    around = rests_on if relation is Relation.ON and stowed else touches
-    return around(thing, mark, scene)
+    if relation is Relation.INSIDE and is_drawer(mark, scene):
+        return lies_in(thing, mark, scene)
+    return (rests_on if relation is Relation.ON and stowed else touches)(thing, mark, scene)
 
 
 def _rule_out_below(

@@ -115,7 +115,9 @@ def _and_contents(
 
 
 def _is_the_one(np: NounPhrase) -> bool:
-    return quantity_of(np.determiner).definite and bool(np.words)
+    """Whether a phrase names a thing, be it any such ("a mug with a pencil in it")."""
+    named = np.determiner in ("a", "an") and not np.is_elliptic
+    return (named or quantity_of(np.determiner).definite) and bool(np.words)
 
 
 def _at_closed(

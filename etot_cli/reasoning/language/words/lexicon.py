@@ -277,6 +277,8 @@ STATES = {
     **dict.fromkeys(("empty", "free", "vacant", "unoccupied", "unused"), "empty"),
     **dict.fromkeys(("available", "spare"), "empty"),
     "full": "full", "filled": "full", "toppled": "toppled", "fallen": "toppled",
+    **dict.fromkeys(("tipped over", "toppled over", "knocked over", "fallen over"), "toppled"),
+    **dict.fromkeys(("on its side", "on their side", "on their sides"), "toppled"),
     "stacked": "stacked", "loose": "loose", "outside": "loose", "round": "round", "dark": "dark",
 }  # fmt: skip
 """Adjectives for what the scene's state says about an object, or its shape and shade."""

@@ -42,6 +42,7 @@ UNLESS_CLOSED = _UNLESS.format(so="(closed|shut)", other="open")
 EMPTIED = "empty, emptied [out], cleared [out], clear, free [again], bare"
 STATES = """
     open, opened, closed, shut, ajar, empty, full, stacked, filled, toppled, fallen, tipped over,
+    toppled over, knocked over, fallen over, on its side, on their side, on their sides,
     loose, outside, unused, round, dark
 """
 _RIGHT_WAY_UP = """(

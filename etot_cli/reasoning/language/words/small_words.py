@@ -40,7 +40,7 @@ WITHOUT_MEANING = f"""
     one (by one|after the other|after another), one at a time, in the process, if you please,
     {BY_HAND},
     pls, plz, thx, ty, lol, haha, hehe, btw, fyi, (would|will|could|can) you, any way you like,
-    at the moment, at present, for now,
+    at the moment, at present, for now, this time, (this|for) once,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
     [[and] that] is (it|all|everything) [{_I_ASK}|[that] there is [to it]],

@@ -266,6 +266,7 @@ WANT = """
     (would|is) it [be] possible to have,
     it would be [really|so] (great|nice|lovely|good) to (see|have),
     (i|we) would [rather] (have|see),
+    (i|we) would (feel|be) [much|a lot] (better|happier|safer|[more] at ease) with,
     (what|all [that]) (i|we) [really|just] (want|need|ask [for]) [to (have|see)] is,
     (what|all [that]) (i|we) would [really|just] (like|love) [to (have|see)] is,
     [what] (i am|we are) [really|just] after [is]
@@ -392,7 +393,10 @@ TAKEN = """
 GONE = "[to be] [(out|gone|away|down)] (out of|off [of]|(gone|out|down) from)"
 """Where something is wanted no longer."""
 KEEP = "keep[ing], leav(e|ing)"
-IGNORE = "ignore, ignoring, never mind, forget [about], skip, do not bother with"
+IGNORE = """
+    ignore, ignoring, never mind, forget [about], skip, do not bother with,
+    (do|doing) nothing [at all] (with|to), do not do anything [at all] (with|to)
+"""
 REORIENT = """
     re orient[ing], reorient[ing], rotat(e|ing), tilt[ing], flip[ping], upright, turn[ing],
     re orientat(e|ing), reorientat(e|ing), swivel[ing], pivot[ing]

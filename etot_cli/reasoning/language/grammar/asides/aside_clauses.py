@@ -7,7 +7,11 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open, leaves_choice
-from etot_cli.reasoning.language.grammar.asides.mishaps import BEFORE_IT_DOES, THING_WILL
+from etot_cli.reasoning.language.grammar.asides.mishaps import (
+    BEFORE_IT_DOES,
+    BY_ITSELF,
+    THING_WILL,
+)
 from etot_cli.reasoning.language.grammar.asides.remarks import ON_ARRIVAL, PEOPLE
 from etot_cli.reasoning.language.grammar.asides.where_needed import done_where_needed
 from etot_cli.reasoning.language.grammar.text.splitting import COMMA
@@ -33,11 +37,13 @@ _WITHIN = Expression(
     rf"|or(?= {THING_WILL}(?:$| {COMMA})))\b"
     r"|(?P<plain>(?:and|but|without)"
     r"(?= (?:only|do not|you|feel free|leave|move|take|touch|moving|taking|touching)\b"
-    r"[^~]* (?:if|unless|when) ))\b"
+    r"[^~]* (?:if|unless|when) )"
+    rf"|and(?= (?:it|the \w+) (?:is|was|will|has|does)\b| (?!you\b){PEOPLE} ))\b"
     r"|(?P<meanwhile>while(?= (?:i|we|my|our)\b))\b"
     r"|(?P<polite>if (?:you (?:do not|would not) mind|i may|(?:it|that) is (?:all right|alright"
     r"|ok|okay|fine|possible|not? (?:too much )?(?:to ask|trouble|bother))))\b"
-    r"|(?P<benefit>for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
+    rf"|(?P<benefit>to(?= {BY_ITSELF}(?:$| {COMMA}| and\b))"
+    r"|for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
     rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
     rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?: {ON_ARRIVAL})?(?:$| {COMMA}| who\b"
     rf"| and (?:\w+ )?(?:{_DOING})\b)))\b"

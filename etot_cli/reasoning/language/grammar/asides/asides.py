@@ -50,6 +50,7 @@ from etot_cli.reasoning.language.grammar.asides.remarks import (
     is_remark,
     is_told_apart_by,
     is_turning,
+    is_unused,
     is_warning,
     told_of_thing,
 )
@@ -74,11 +75,12 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     words_in,
 )
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import all_words
+from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
     JOINT_NOUNS,
     NUMBERS,
+    STATES,
     singular,
     word_set,
 )
@@ -207,6 +209,8 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     if QUESTION in sentence and is_wondering(sentence):
         return _Parted("", tuple(clauses))
     cut = [at for at in range(len(clauses)) if _is_aside(clauses, at, is_name)]
+    if cut and all(at in cut or _is_sigh(item.said, is_name) for at, item in enumerate(clauses)):
+        cut = [*range(len(clauses))]
     # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
     outside = len(cut) == len(clauses) and not is_of_people(sentence)
     forced = outside or any(_is_no_phrase(clauses[at], is_name) for at in cut)
@@ -223,6 +227,15 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
         tuple(clauses[at] for at in cut if at < first),
         tuple(clauses[at] for at in cut if at > first),
     )
+
+
+def _is_sigh(said: str, is_name: IsName) -> bool:
+    """Whether a few words beside what somebody tells ask for nothing: no verb, no pronoun and
+    nothing that is named is among them ("silly me").
+    """
+    words = {*said.split()}
+    asking = VERB_WORDS - {"me"} | OTHER_VERBS | BEFORE_NAMES | _PRONOUNS | {*STATES}
+    return len(words) <= MOST and not (words & asking or any(map(is_name, words)))
 
 
 def _left_of(clauses: Sequence[Clause], at: int, cut: Collection[int]) -> str:
@@ -363,6 +376,10 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             # "So that you can open it, …" and "so that it stands, …" may ask for that.
             ahead = at == 0 and clause.joint == "so that" and clauses[1:] != []
             ahead = ahead and is_of_people(clause.said) and not clause.said.startswith("you ")
+            if clause.joint == "so" and (
+                tells_fact(clause.said, is_name) or is_unused(clause.said)
+            ):
+                return True  # "We had soup, so I am not hungry"
             return (trailing or ahead or (kept and at > 0)) and is_purpose(
                 clause.said, is_name, where=where
             )

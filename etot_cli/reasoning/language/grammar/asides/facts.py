@@ -9,22 +9,26 @@ nothing, nor does what people do that the robot cannot, whatever they do it with
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from etot_cli.reasoning.language.grammar.asides.remarks import (
     ASKING,
     BEFORE_NAMES,
     CHANGING,
     DECREEING,
+    PEOPLE,
     PLACED,
     PROPOSING,
     REFERRING,
     WORK,
     IsName,
     asks_besides,
+    is_forbidding,
     is_told_apart_by,
     somebody,
 )
-from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -73,7 +77,32 @@ _LASTING = word_set(
     """
 )
 """What goes on may be said of how something is, or is to be ("the cup is standing on the tray")."""
-_WISHING = ASKING | DECREEING | PROPOSING | word_set("supposed meant intended planned hoped to")
+_WISHING = ASKING | DECREEING | PROPOSING | word_set("supposed meant intended planned hoped")
+_BIDDING = (
+    word_set(
+        """
+        want wants wanted need needs needed wish like likes prefer should must shall would may let
+        lets letting
+        ought belong belongs hoping wondering please unless instead except
+        """
+    )
+    | DECREEING
+    | PROPOSING
+)
+"""What people do, or words they use, who ask for something, wherever these stand."""
+_TOLD = {*STATES, *LEVELS, *SIDES} | word_set("here there back")
+"""How or where things are, and people seldom."""
+_HABITUAL = word_set("always usually often never sometimes constantly every whenever")
+_ANYBODY = ("i", "we", "one", "people", "nobody", "no one", "everybody", "everyone")
+"""What they do as a rule, the robot may be meant to do."""
+_ONCE = word_set("once if when until till unless soon provided before after")
+_BEFORE_PEOPLE = Expression(
+    r"^(?:(?:oh|ah|well|sorry|alas|unfortunately|sadly|luckily|honestly|you know|you see|anyway"
+    r"|(?:last|this|every|yesterday|tomorrow) (?:night|morning|evening|afternoon|week|year|day)"
+    r"|today|tonight|yesterday|nowadays|(?:at|in|for|since) (?:the|my|our|this) \w+) )+"
+    rf"(?=(?:{PEOPLE}|one) )"
+)
+"""When, and with what sigh, somebody does something."""
 _HOLDING_TRUE = word_set(
     """
     think believe guess suppose mean imagine figure reckon know see find feel assume understand
@@ -94,22 +123,54 @@ _LONGEST = 5
 """Words of what something is said of, at most."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Doing:
+    """What is said of somebody: the words for it without adverbs, whether it is denied, and whether
+    it is what he does time and again.
+    """
+
+    who: str
+    did: Sequence[str]
+    denied: bool
+    habit: bool
+
+
 def tells_fact(said: str, is_name: IsName) -> bool:
     """Whether this is what a clause does; where something was may be checked and is none."""
     if _WAS & {*said.split()} and PLACED & {*said.split()} and any(map(is_name, said.split())):
         return False
-    person = somebody(said)
+    said = _BEFORE_PEOPLE.sub("", said)
+    person = somebody(said) or _by_name(said, is_name)
+    if is_forbidding(said):
+        return False
     if person:
-        did = [word for word in person[1].split() if word not in _ADVERBS - {"not"}]
-        return not asks_besides(said) and _is_done(person[0], did, is_name)
+        who, told = person
+        did = [word for word in told.split() if word not in _ADVERBS]
+        denied = bool({"not", "never"} & {*told.split()[:4]})
+        habit = bool(_HABITUAL & {*said.split()}) and who not in _ANYBODY
+        doing = _Doing(who, did, denied=denied, habit=habit)
+        return not asks_besides(said) and _is_done(doing, is_name)
     words = said.split()
     for end in range(1, min(_LONGEST, len(words) - 1) + 1):
         subject, rest = words[:end], words[end:]
         while rest[:1] and rest[0] in _ADVERBS:
             rest = rest[1:]
-        if (happened := _is_told(rest)) is not None:
+        if (happened := _is_told(rest)) is None and rest[:1] and rest[0] in ("will", "does", "do"):
+            happened = _is_strange(subject, is_name) and not _is_asked_for(
+                [word for word in rest[1:] if word not in _ADVERBS][:1]
+            )
+        if happened is not None:
             return happened and _is_thing(subject, is_name) and not asks_besides(said)
     return False
+
+
+def _by_name(said: str, is_name: IsName) -> tuple[str, str] | None:
+    """Who a clause is about by his name, and what it says of him ("Karl never gives it back")."""
+    who, *did = said.split()
+    verb = next((word for word in did if word not in _ADVERBS), "")
+    stranger = who == "one" or (not is_name(who) and who not in all_words())
+    does = verb in (_BE | _HAVE) or (verb.endswith("s") and not verb.endswith("ss"))
+    return (who, " ".join(did)) if stranger and does and not is_name(verb) else None
 
 
 def _is_thing(words: Sequence[str], is_name: IsName) -> bool:
@@ -127,6 +188,12 @@ def _is_thing(words: Sequence[str], is_name: IsName) -> bool:
     )
 
 
+def _is_strange(subject: Sequence[str], is_name: IsName) -> bool:
+    """Whether something is told of what is not in the scene ("the bus will not wait")."""
+    known = any(map(is_name, subject)) or {*subject[1:]} & _STRANGE
+    return subject[0] in BEFORE_NAMES and len(subject) > 1 and not known
+
+
 def _is_told(rest: Sequence[str]) -> bool | None:
     """Whether what is said of a thing is over or goes on; none where no verb is found."""
     verb, *more = rest or [""]
@@ -139,7 +206,8 @@ def _is_told(rest: Sequence[str]) -> bool | None:
     if verb in _BE and then.endswith("ing") and len(then) > len("thing"):
         return not (wished or then in _LASTING or _is_asked_for({then} - {"getting"}))
     if verb in _PAST:
-        return not (wished or (verb in ("was", "were") and _is_asked_for(more[:1])))
+        to_be = verb in ("was", "were") and (then == "to" or _is_asked_for([then]))
+        return not (wished or to_be)
     if verb in _BE or verb in _HAVE:
         return False
     return None
@@ -151,26 +219,66 @@ def _is_participle(word: str) -> bool:
 
 def _is_asked_for(words: Iterable[str]) -> bool:
     """Whether these may be what the robot is to do, or how things are to be."""
-    return any(
-        word in (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
-        for word in words
-    )
+    asked = (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
+    stems = {stem for word in words for stem in (word, word.removesuffix("d"), word[:-2])}
+    return bool(asked & stems)
 
 
-def _is_done(who: str, did: Sequence[str], is_name: IsName) -> bool:
+def _is_done(told: _Doing, is_name: IsName) -> bool:
     """Whether this is what somebody does or did that is nothing to the robot."""
-    if who == "you" or not did or (_WISHING - {"not", "never"}) & {*did}:
+    did = told.did
+    if told.who == "you" or not did or _BIDDING & {*did} or _goes_somewhere(did):
         return False
     first, *more = did
-    denied = "not" in did
-    more = [word for word in more if word != "not"]
+    if first in ("told", "warned", "instructed") and {"to", "that"} & {*more}:
+        return False
     then = more[0] if more else ""
-    if first in _HAVE and then and _is_participle(then):
-        return not _is_asked_for(more[:1]) and then not in _HOLDING_TRUE
-    if first in _BE:
-        return then.endswith("ing") and not (then in _MEANT or _is_asked_for({then} - {"coming"}))
-    if first in ("do", "does", "did") and denied and then:
-        return not (_is_asked_for([then]) or then in _HOLDING_TRUE)
+    on_terms = next((at for at, word in enumerate(did) if word in _ONCE), len(did))
+    if any(map(is_name, did[on_terms:])):
+        return False  # "I will be happy once the cup is on the tray"
+    named = any(map(is_name, did))
     if first in _HAVE:
-        return not any(map(is_name, more)) and not (REFERRING | {"to"}) & {*more}
-    return first in _PAST and first not in _HOLDING_TRUE
+        if _is_participle(then):
+            return not _is_asked_for(more[:1]) and then not in _HOLDING_TRUE
+        return not named and not (REFERRING | {"to"}) & {*more}
+    if first in _BE:
+        if more[:2] == ["going", "to"]:
+            return not _is_asked_for(more[2:3])
+        if then.endswith("ing"):
+            return not (then in _MEANT or _is_asked_for({then} - {"coming"}))
+        over = first in ("was", "were") and not _is_placed(more, is_name)
+        return then != "to" and (over or not (named or _TOLD & {*more}))
+    if first in ("do", "does", "did", "can", "could", "will", "might"):
+        able = told.denied or first in ("will", "might")
+        bears = then in ("stand", "bear") and not named  # "I can not stand that smell"
+        asked = _is_asked_for({then} - {"be"}) or then in _HOLDING_TRUE
+        return able and bool(then) and (bears or not asked)
+    if first in _PAST or (first.endswith("ed") and len(first) > len("need")):
+        return first not in _HOLDING_TRUE
+    return _is_habit(told, first, then) and not _is_placed(more, is_name)
+
+
+def _is_habit(told: _Doing, verb: str, then: str) -> bool:
+    """Whether a verb in the present says what somebody does as people do, and robots do not."""
+    if verb in _HOLDING_TRUE or verb in _STRANGE - OTHER_VERBS - VERB_WORDS:
+        return False
+    if verb in ("keep", "keeps"):
+        return then.endswith("ing") and then not in _LASTING
+    if told.who in ("i", "we", "people"):
+        return not _is_asked_for([verb])
+    stems = {verb.removesuffix("s"), verb.removesuffix("es"), f"{verb.removesuffix('ies')}y"}
+    return verb.endswith("s") and (told.habit or not _is_asked_for({verb, *stems}))
+
+
+def _goes_somewhere(did: Sequence[str]) -> bool:
+    """Whether somebody, or something, goes where things may go ("it goes in the box")."""
+    went = [at for at, word in enumerate(did) if word in ("go", "goes")]
+    return any({*did[at + 1 : at + 2]} & (PLACED | {"there", "here", "back"}) for at in went)
+
+
+def _is_placed(words: Sequence[str], is_name: IsName) -> bool:
+    """Whether something of the scene is where another may be."""
+    return any(
+        word in PLACED and any(map(is_name, words[at + 1 : at + 4]))
+        for at, word in enumerate(words)
+    )

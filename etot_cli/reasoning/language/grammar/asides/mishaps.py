@@ -25,6 +25,11 @@ BEFALLS = (
 )
 """As a regular expression, behind what it happens to."""
 _THING = r"(?:it|they|something|anything|(?:the|my|our) (?:\w+ )?\w+)"
+BY_ITSELF = (
+    "(?:dry|cool|soak|thaw|defrost|charge|warm|set|harden|ripen|drain|air|chill|settle|marinate)"
+    "(?: (?:off|down|out|up|overnight|again|there|properly|a bit|a little)){0,2}"
+)
+"""What a thing is left somewhere to do, of which the robot does nothing ("on the rack to dry")."""
 _MIGHT = r"(?:will|would|might|may|could|can|is going to|are going to)"
 _KNOCKED = (
     r"(?:hit|struck|swept|knocked|pushed|dragged|bumped|caught|crushed|squashed|damaged|broken)"

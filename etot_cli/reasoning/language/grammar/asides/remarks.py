@@ -58,6 +58,7 @@ _PERSON = Expression(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
     r"never |hardly |rarely )*(?P<did>.+)$"
 )
+_SOMEBODY = Expression(rf"^(?P<who>{PEOPLE}) ")
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = Expression(
     r"^forgot to (?:put|take|tidy|pack|clear) (?:\w+ )?away$"
@@ -115,7 +116,10 @@ PROPOSING = word_set(
 )
 """What somebody does who asks for something in a roundabout way."""
 _BIDDING = PROPOSING | word_set(
-    "asked agreed having decided chosen chose ordered promised arranged suggested recommended voted"
+    """
+    asked agreed having decided chosen chose ordered promised arranged suggested recommended voted
+    told warned instructed let lets letting
+    """
 )
 """The same of what he has done or is doing ("we agreed on the cup")."""
 ASKING = word_set(
@@ -156,7 +160,9 @@ _TOO = Expression(
     r"^(?:it|they|that|(?:the|my|your|our) [^~]+) (?:is|are|looks?|gets?) (?:far |much )?too \w+"
 )
 _IN_GENERAL = Expression(
-    r"^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
+    rf"^it is (?:(?:already|nearly|almost|just|about) )*(?:half past|(?:a )?quarter (?:past|to)"
+    rf"|{'|'.join(sorted(set(NUMBERS) - {'a', 'an'}))})(?: (?:past|to) \w+)?(?: already)?$"
+    r"|^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
     r"|^it (?:is|gets|looks|feels) (?:so |very |too |"
     r"really |quite )?\w+ (?:in here|outside|out there)$"
     r"|^(?:the |our |my )?(?:\w+ )?\w*time is (?:over|up)(?: now)?$"
@@ -175,6 +181,8 @@ _IN_PASSING = Expression(
     r"|(?:it|they) (?:is|are) (?:going|about) to (?:be|get) (?P<done>\w+(?:ed|t|n))"
     r"(?: (?:today|tomorrow|tonight|soon|later|next week|this week|in a (?:minute|moment)))?"
 )
+_WHENEVER = Expression(r" (?:when|whenever|if|as soon as) (?:it|they|i|we|somebody|one) [^~]+$")
+"""When something does what it does ("the tube leaks when it lies down")."""
 _YONDER = Expression(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
 REFERRING = word_set(
     "it they them this that these those one ones two three other others another rest everything "
@@ -253,7 +261,24 @@ _TURNING = Expression(
     r"(?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
 )
 """Of whatever it is said, it asks for nothing."""
-_SO_PEOPLE = Expression(rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has)\b")
+
+
+_NOBODY_DOES = Expression(rf"^(?:nobody|no one) (?:ever )?(?:{'|'.join(sorted(_DOING))})(?:e?s)?\b")
+
+
+def is_forbidding(said: str) -> bool:
+    """Whether a clause may forbid what it says that nobody does ("nobody touches the cup")."""
+    return bool(_NOBODY_DOES.match(said))
+
+
+def is_unused(said: str) -> bool:
+    """Whether a clause tells that nobody needs something."""
+    return bool(_UNUSED.match(said))
+
+
+_SO_PEOPLE = Expression(
+    rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has|need not)\b"
+)
 _SO_NOTHING = Expression(
     r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
     r"|nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
@@ -297,8 +322,8 @@ def is_of_people(said: str) -> bool:
 
 def somebody(said: str) -> tuple[str, str] | None:
     """Who a clause is about, and what it says of him; none where it is about no person."""
-    found = _PERSON.match(said)
-    return (said[: found.start("did")].strip(), found["did"]) if found else None
+    found = _SOMEBODY.match(said)
+    return (found["who"], said[found.end() :]) if found else None
 
 
 _RELATIVE = Expression(rf"^(?:the|my|our|your|his|her) (?:\w+ )?(?:{_RELATIONS}) ")
@@ -388,6 +413,8 @@ def is_remark(said: str, is_name: IsName) -> bool:
         return True
     if asks_besides(said) or lacks_room(said):
         return lacks_room(said)
+    if is_forbidding(said):
+        return False
     if person:
         happened, habit = _HAPPENED.match(person["did"]), _HABIT.match(person["did"])
         takes = _TAKES.match(said) and not (ASKING | REFERRING | WORK - {"take"}) & {*words[2:]}
@@ -452,7 +479,7 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
     if unfit := _UNFIT_THERE.match(said):
         what = [word for word in unfit["what"].split() if word not in BEFORE_NAMES]
         return tuple(what) if is_name(what[-1]) or what[-1] in ("it", "they") else ()
-    words = _YONDER.sub("", said).split() or [""]
+    words = _YONDER.sub("", _WHENEVER.sub("", said)).split() or [""]
     end = _named_until(words, is_name)
     while words[end : end + 1] == ["and"] and words[end + 1 : end + 2] == ["the"]:
         end += 1 + _named_until(words[end + 1 :], is_name)  # "the tape and the pencil are trash"

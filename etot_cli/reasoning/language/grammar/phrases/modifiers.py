@@ -380,6 +380,10 @@ _modifier = either(
     _matching,
     sequence(nouns.RELATIVE, DESCRIBED),
     sequence(
+        "(that|which) (has|have) (fallen|toppled|tipped) [over|down]",
+        build=lambda: Modifier(Prep.QUALITY, words=("toppled",)),
+    ),
+    sequence(
         # "The cup that is standing there"
         either(nouns.RELATIVE, "already"),
         optional("up, down, over, in, on"),

@@ -367,25 +367,31 @@ ALL_SO = sequence(
 )
 
 
+_KEPT_SO = "kept, left, staying, remaining"
+
+
 def kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> EnsureClause:
     """What is to be open or closed all along."""
     return EnsureClause((State(nps, word=word, kept=True, always=always),))
 
 
+WITH_KEPT_SO = sequence(
+    "with",
+    NP_LIST,
+    either(
+        sequence(_KEPT_SO, OPEN_OR_CLOSED, ALWAYS),
+        sequence(OPEN_OR_CLOSED, phrase(small_words.ALL_ALONG, True)),
+    ),
+    build=lambda nps, said: kept_so(nps, *said),
+)
+"""What is to be open or closed all along ("with the drawer kept shut")."""
 MEANWHILE_SO = either(
     sequence("while", STAYS, build=ensured),
-    sequence(
-        "with",
-        NP_LIST,
-        "kept, staying, remaining",
-        OPEN_OR_CLOSED,
-        ALWAYS,
-        build=kept_so,
-    ),
+    WITH_KEPT_SO,
     sequence(
         # "…, the drawer staying shut", "… while keeping the drawer shut"
         either(
-            sequence(COMMA, NP_LIST, "staying, remaining"),
+            sequence(COMMA, NP_LIST, _KEPT_SO),
             sequence(OPTIONAL_COMMA, "while keeping", NP_LIST),
         ),
         OPEN_OR_CLOSED,
@@ -439,15 +445,6 @@ BESIDES_SO = either(
         PREDICATE,
         small_words.ALL_ALONG,
         build=lambda nps, said: ensured(_staying(nps, "", said, True)),
-    ),
-    sequence(
-        "with",
-        NP_LIST,
-        either(
-            sequence("kept, staying, remaining", OPEN_OR_CLOSED, ALWAYS),
-            sequence(OPEN_OR_CLOSED, small_words.ALL_ALONG, build=lambda word: (word, True)),
-        ),
-        build=lambda nps, said: kept_so(nps, *said),
     ),
 )
 """What is said of other things behind what is asked for (", with the cup on the desk")."""

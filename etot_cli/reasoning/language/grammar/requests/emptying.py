@@ -44,7 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import matches_any, singular
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -59,12 +59,9 @@ def contents_of(np: NounPhrase, where: Prep, part: tuple[str, ...] = ()) -> Noun
 def emptied(
     things: Things, where: Any = None, *, held: Prep | None = None, part: tuple[str, ...] = ()
 ) -> Clause:
-    """What takes all out of things, or off a ``part`` of them, and brings it somewhere; a drawer is
-    empty whatever stands on it.
-    """
-    inside = [np.words and matches_any(np.head, ("drawer",)) for np in things.phrases]
-    ways = [held or (Prep.IN if drawer else Prep.FROM) for drawer in inside]
-    contents = Things(tuple(map(partial(contents_of, part=part), things.phrases, ways)))
+    """What takes all out of things, or off a ``part`` of them, and brings it somewhere."""
+    where_from = partial(contents_of, where=held or Prep.FROM, part=part)
+    contents = Things(tuple(map(where_from, things.phrases)))
     if where is None:
         return RemoveClause(contents)
     # "Empty the box on the right" rather says which box.

@@ -105,6 +105,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.words import forbidden, manner, nouns, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
+    STATES,
     singular,
 )
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -245,6 +246,17 @@ _COMES_AND_GOES = """
 """
 
 
+def _one_and_the_other(one: Things, where: tuple[Destination, ...], more: Any) -> PutClause | None:
+    """Where one of some things is to be, and the other one; in what is closed it may stay so."""
+    groups = [PutGroup(one, where)]
+    for said, there in more:
+        other = NounPhrase("the other", ("one",), text=said)
+        groups.append(PutGroup(Things((other,)), there))
+        if any(word in STATES for item in there for np in item.targets for word in np.words):
+            return None
+    return PutClause(tuple(groups), wherever=True)
+
+
 def _suiting(said: tuple[NounPhrase, Things]) -> tuple[PutClause, ...]:
     """What "will do for" something: that goes in there, or it goes in that, whichever can hold the
     other.
@@ -281,8 +293,19 @@ PUT = either(
     ),
     sequence(ALL_THINGS, _NEEDS_A_PLACE, WHERE, build=put_to),
     variants(sequence(noun_phrase, "(will|would) do for", ALL_THINGS), _suiting),
-    sequence(CHOICE, verbs.MODAL, DESTINATIONS, build=put_to),
-    sequence(verbs.WANTED, CHOICE, optional("to be"), DESTINATIONS, build=put_to),
+    sequence(
+        either(
+            sequence(CHOICE, verbs.MODAL),
+            sequence(verbs.WANTED, CHOICE, optional("to be")),
+            sequence(verbs.ENSURE, CHOICE, verbs.BE),
+        ),
+        DESTINATIONS,
+        some(
+            sequence(LIST, phrase("the other [one]"), silent(optional(verbs.BE)), DESTINATIONS),
+            most=1,
+        ),
+        build=_one_and_the_other,
+    ),
     sequence(
         either(
             sequence(ALL_THINGS, verbs.MODAL),

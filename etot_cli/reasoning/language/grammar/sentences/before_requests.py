@@ -32,7 +32,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import STATE, states
+from etot_cli.reasoning.language.grammar.phrases.states import STATE, WITH_KEPT_SO, states
 from etot_cli.reasoning.language.grammar.requests.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY, IS_EMPTY, NOTHING_THERE
 from etot_cli.reasoning.language.grammar.requests.moves import IF_NOT_SO
@@ -452,6 +452,13 @@ WITH_MORE_BEFORE_IT = either(
     ),
     sequence(
         "if you (could|would)", CHAIN, COMMA, f"[then] ({small_words.WOULD_BE_NICE}), that would do"
+    ),
+    sequence(
+        # "With the drawer kept shut, …"
+        plain(WITH_KEPT_SO),
+        COMMA,
+        CHAIN,
+        build=add,
     ),
     sequence(
         "with",

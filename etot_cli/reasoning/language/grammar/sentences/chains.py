@@ -89,6 +89,7 @@ from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
 from etot_cli.reasoning.language.grammar.sentences.which_clauses import (
     THAT,
+    WHERE_MORE_GOES,
     WHICH_FIRST_GETS,
     WHICH_GOES_ON,
     WHICH_IN_TURN_IS,
@@ -250,6 +251,7 @@ JOINED = either(
     joint("and", COMMA, WHICH_IS_MOVED),
     joint("which", COMMA, WHICH_GOES_ON),
     joint("which in turn", COMMA, WHICH_IN_TURN_IS),
+    joint("and", COMMA, WHERE_MORE_GOES),
     joint("after", COMMA, WHICH_FIRST_GETS),
     joint("and", COMMA, so_in_turn(phrase("which", (NounPhrase(pronoun="it", text="which"),)))),
     joint("while", OPTIONAL_COMMA, small_words.WHILE, either(LED_CLAUSE, plain(UNDER_WAY))),

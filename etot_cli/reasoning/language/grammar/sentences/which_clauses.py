@@ -42,7 +42,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 
 WHICH = NounPhrase(pronoun="it", text="which")
@@ -201,6 +201,22 @@ WHICH_IN_TURN_IS = plain(
 """Where that in or on which something goes is to be itself ("in the cup, which in turn …"); what
 "should be" there rather is so by now.
 """
+
+_GOES_THERE = "(goes|go|should go|should be|must go|has to go|is to go|are to go)"
+WHERE_MORE_GOES = plain(
+    sequence(
+        "where",
+        either(
+            sequence(
+                ALL_THINGS,
+                f"{_GOES_THERE} {small_words.ALSO}, also {_GOES_THERE}, (should|must) also (go|be)",
+            ),
+            sequence("(i|we) [would] also (want|need|like)", ALL_THINGS),
+        ),
+        build=lambda things: put_to(things, (Destination(Toward.HERE, word="there"),)),
+    )
+)
+"""What goes where something else has just been put ("…, where the cup goes as well")."""
 
 
 def _received(first: Things, more: tuple[Things, ...]) -> tuple[PutClause, ...]:

@@ -100,6 +100,8 @@ class PutClause:
     """One group after the other, as they are said."""
     stays: bool = False
     """They are left or kept there, which is rather said of what is there already."""
+    wherever: bool = False
+    """It is said how things are to be, so that what is there already may be meant."""
     far_fetched: int = 0
     """By how much the words rather mean something else ("clear X into Y" what is in X)."""
 

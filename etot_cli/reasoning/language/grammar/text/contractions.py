@@ -34,7 +34,7 @@ CONTRACTIONS = (
         " is",
     ),
     (r"\b((?:no|some|every)(?:body| ?one))'s(?= \w+ing\b)", r"\1 is"),
-    (r"\b(that|which|it|there|here|what|who)'s\b", r"\1 is"),
+    (r"\b(that|which|it|there|here|what|who|he|she)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
     (r"\bdoesn't\b", "does not"),

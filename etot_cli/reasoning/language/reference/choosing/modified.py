@@ -88,6 +88,8 @@ def modified(
             raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)
         if modifier.words == CLEARED:
             _check_cleared(modifier, landmark_sets(modifier), scene)
+            if _are_drawers(landmark_sets(modifier), scene):
+                modifier = replace(modifier, prep=Prep.IN)
         ways: dict[tuple[Thing, ...], tuple[list[Thing], list[str]]] = {}
         for landmarks in landmark_sets(modifier):
             said: list[str] = []
@@ -117,6 +119,8 @@ def modified(
             ways = {tuple(things): ([], [_atop(things[0], scene)])}
         if not found:
             raise _untrue(phrase, modifier, things)
+        if modifier.prep is Prep.FROM and quantity.every:
+            _check_in_or_on(phrase, found, landmark_sets(modifier), scene)
         bare = modifier.denied and (
             modifier.prep in (Prep.WITH, Prep.FROM)
             or (modifier.prep in HOLDING and is_one(modifier.phrases[0]))
@@ -213,6 +217,25 @@ def _check_cleared(
         )
         if not (holds or bears):
             raise ReferenceProblem(modifier.phrases[0].text, "say where it is to go", 3)
+
+
+def _are_drawers(landmarks: Sequence[Sequence[Sequence[Thing]]], scene: SceneState) -> bool:
+    return all(
+        space.is_drawer(thing, scene) for way in landmarks for several in way for thing in several
+    )
+
+
+def _check_in_or_on(
+    phrase: NounPhrase,
+    things: Sequence[Thing],
+    landmarks: Sequence[Sequence[Sequence[Thing]]],
+    scene: SceneState,
+) -> None:
+    """Whether "everything from the drawer" is in it, or all of it stands on that."""
+    around = [mark for way in landmarks for several in way for mark in several]
+    inside = [t for t in things if any(space.lies_in(t, mark, scene) for mark in around)]
+    if _are_drawers(landmarks, scene) and 0 < len(inside) < len(things):
+        raise ReferenceProblem(phrase.text, "say whether what is in it or on it is meant", 3)
 
 
 def _is_one(phrase: NounPhrase) -> bool:

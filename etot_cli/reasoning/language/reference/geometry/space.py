@@ -129,6 +129,14 @@ def lies_in(thing: Thing, landmark: Thing, scene: SceneState) -> bool:
     ) or any(is_inside(scene, thing.name, address) for address in addresses(landmark, scene))
 
 
+def is_drawer(thing: Thing, scene: SceneState) -> bool:
+    """Whether a thing is a drawer, or furniture called so, which is empty whatever stands on it."""
+    info = scene.infos.get(thing.name)
+    called = info is not None and matches_any(info.label.split()[-1], ("drawer",))
+    slides = info is not None and any(part.joint_type == "slide" for part in info.parts)
+    return slides and (called or bool(thing.part))
+
+
 def rests_in_mouth(thing: Thing, vessel: Thing, scene: SceneState) -> bool:
     """Whether a thing rests on a vessel's rim and is said to be in it, which no lid is."""
     info, held = scene.infos.get(vessel.name), scene.infos.get(thing.name)

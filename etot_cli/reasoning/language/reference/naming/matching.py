@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     OTHER_SORTS,
     PACKS,
     PAIRED,
+    RUBBISH,
     STATES,
     THING_NOUNS,
     basic_color,
@@ -133,6 +134,9 @@ def match_words(
     packed = _packed(adjectives, head, vocabulary, phrase)
     if packed is not None:
         return packed
+    if _is_plain_bin(words, vocabulary):
+        found = match_words((*words[:-2], "bin"), vocabulary, phrase, noun)
+        return replace(found, notes=(*found.notes, f"read {' '.join(words[-2:])!r} as bin"))
     pools = _pools(vocabulary, head, adjectives, parts_first, upon)
     grades = {entry.grade(head) for entry in everything} - {None}
     if not grades:
@@ -158,6 +162,15 @@ def match_words(
         if found is not None and (level or not _is_of_another(head, found.entries, vocabulary)):
             return found
     raise nothing_fits(head, adjectives, number, vocabulary, phrase)
+
+
+def _is_plain_bin(words: Sequence[str], vocabulary: Vocabulary) -> bool:
+    """Whether a name of what rubbish goes into is that of a mere "bin", as nothing else has it."""
+    said = tuple(words[-2:])
+    if words[-1] not in ("can", "bin") or not {*said[:-1]} & RUBBISH:
+        return False
+    called = [e for e in vocabulary.objects if e.has_word(said[0]) or e.is_twin(said)]
+    return not called and any(entry.is_called(("bin",)) for entry in vocabulary.objects)
 
 
 def _packed(

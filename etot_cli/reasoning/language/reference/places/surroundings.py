@@ -403,6 +403,14 @@ class Surroundings:
         """
         discourse = self._discourse
         clause, mark, how = discourse.last_landmark
+        here = {item.referent for item in discourse.mentions if item.clause == discourse.clause}
+        contrasted = clause == discourse.clause - 1 and OPPOSITE.get(how) is relation
+        if contrasted and here <= {*themes} and mark not in themes:
+            # "… to the right of the plate and set the mug to its left"
+            names = names_of_things(discourse.things(mark))
+            discourse.notes.append(f"read {phrase.text!r} as that of {names}")
+            discourse.mention_again(mark, Role.ANY)
+            return mark
         if clause == discourse.clause:
             same = (item for item in discourse.mentions if item.clause == clause)
             moved = {item.referent for item in same if item.role is Role.THEME} - {*themes}
