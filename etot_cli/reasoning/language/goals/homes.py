@@ -100,7 +100,8 @@ def where_is(
     """
     (where, *more) = group.destinations
     # "Drop it not in the bowl where the apple is" says nothing of which it is.
-    denied = any(item.denied for np in group.things.phrases for item in np.modifiers)
+    told = (item for np in group.things.phrases for item in np.modifiers)
+    denied = where.word != "join" and any(item.denied for item in told)
     if more or clause.conditions or denied:
         raise ReferenceProblem(where.word, REASONS["where"], 3)
     pronoun = any(np.pronoun for np in where.targets)

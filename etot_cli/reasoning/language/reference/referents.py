@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.reference.naming.usual_form import (
     GENERAL,
     around_itself,
     chooses,
+    how_many_out,
     is_robot,
     usual_form,
 )
@@ -364,7 +365,11 @@ class Referents(Meanings):
         is the one on which what was told by it is.
         """
         owner = [] if phrase.owner is None else [(Prep.OF, phrase.owner)]
-        told_by = [item for item in phrase.modifiers if item.prep is not Prep.CONTRAST]
+        told_by = [
+            item
+            for item in phrase.modifiers
+            if item.prep is not Prep.CONTRAST and how_many_out(item) is None
+        ]
         named = [(item.prep, landmark) for item in told_by for landmark in item.phrases]
         noun = usual_form(phrase).head
         for prep, landmark in (*owner, *named):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.verbs import SHIFT, THE_ROBOT
 
 DO_NOT = f"""
-    (do not|don t|never) [(let|have|make) ({THE_ROBOT})], must not, avoid,
+    (do not|don t|never|at no (point|time|stage|moment)) [(let|have|make) ({THE_ROBOT})],
+    must not, avoid,
     (you|{THE_ROBOT}) (must|may|should) not, ({THE_ROBOT}) is not to,
     [you had] better not, but do not, and do not, [but|and] (make|be) sure not to,
     [but|and] be careful not to, [but|and] take care not to

@@ -150,9 +150,9 @@ COMMON_NOUNS = word_set(
     pan pot kettle lid toaster stove sink faucet fridge refrigerator freezer dishwasher
     towel napkin cloth sponge soap brush broom book magazine newspaper paper notebook letter
     envelope stapler scissors tape glue ruler eraser phone telephone laptop computer
-    keyboard mouse monitor camera lamp light bulb battery cable clock watch key wallet purse
-    bag basket bin trash bucket hat shoe sock glove shirt coat scarf toy doll bear duck car
-    truck train robot dice coin card button bell whistle screw nut bolt hammer wrench
+    keyboard mouse monitor camera control coaster lamp light bulb battery cable clock watch
+    key wallet purse bag basket bin trash bucket hat shoe sock glove shirt coat scarf toy doll bear
+    duck car truck train robot dice coin card button bell whistle screw nut bolt hammer wrench
     screwdriver drill saw nail chair sofa couch bed pillow blanket door window wall floor
     vase flower plant candle picture frame mirror bottle can jar cup mug glass bowl dish box
     block cube ball pen pencil marker stick shelf drawer cabinet table desk cake caddy moka

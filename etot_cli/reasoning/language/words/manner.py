@@ -183,6 +183,8 @@ ANYHOW = """
     [either] (separately|apart|individually) or together,
     in (any|whichever|whatever) combination [you (like|want)|[that] (works|fits|suits you) [best]]
 """
+NOT_REVERSED = "[~comma] [and|but] not (the other way around|vice versa|the reverse)"
+"""Behind what goes on or in what."""
 TOGETHER = "[all|both] together, [all|both] (in|on) the same (one|place)"
 SEPARATELY = """
     separately, apart from each other, individually, apart,
@@ -291,7 +293,7 @@ ON_THE_WAY = """
     (while|as|when) you (move|carry|lift|put|lower|bring|do|are moving|are carrying)
     [(it|them|so|that)] [over|down|up|there],
     (while|when) (moving|carrying|lifting|lowering) (it|them) [over|down|up|there],
-    during the (move|transport), in (transit|the process)
+    during the (move|transport), in (transit|the process), at any (point|time|stage|moment)
 """
 """Behind how something is kept while it is moved."""
 KEPT_UPRIGHT = f"""

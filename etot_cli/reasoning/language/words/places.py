@@ -145,6 +145,11 @@ TO_BEAR, TO_HOLD = f"as (a|the) ({_TO_BEAR}) for", f"as (a|the) ({_TO_HOLD}) for
 """What something is used as, of others that go on or in it."""
 BETWEEN = "[in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between"
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
+ONE_AT_EACH_SIDE = """
+    ~comma one [(on|to) (the|its)] left [~comma] [and] one [(on|to) (the|its)] right,
+    ~comma one [(on|to) (the|its)] right [~comma] [and] one [(on|to) (the|its)] left
+"""
+"""Behind that."""
 _LEFT = "to [the] left [hand] [side] of, left of, to the left from"
 _RIGHT = "to [the] right [hand] [side] of, right of, to the right from"
 NEARBY: dict[Nearby, str] = {

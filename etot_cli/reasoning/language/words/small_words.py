@@ -52,7 +52,8 @@ WITHOUT_MEANING = f"""
     (any|whichever) ({_HOLDING}), with (any|whichever|whatever) ({_HOLDING}),
     ({_HOLDING}) (of your [own] (choice|choosing)|as you (like|please|wish|prefer)),
     (whichever|whatever) [one|ones|of (them|these|the two)]
-    you (like|want|prefer|choose|fancy|can reach) [best], [it is] your choice,
+    you (like|want|prefer|choose|fancy|[can] (reach|grasp|get [(at|to)]|find))
+    [best|first|[the] (easier|easiest)|(more|most) (easily|comfortably)], [it is] your choice,
     [it is|that is] up to you, you (choose|decide|pick) [which [one]], the choice is yours,
     wherever (you (like|want)|there is [some] (room|space)|it fits), (it fits|they fit) (in|into),
     (can|will) (take|hold|accommodate) (it|them), has [enough] (room|space) for (it|them),

@@ -144,6 +144,8 @@ KEEP_STILL = either(
         # After "the cups" rather one of them that is left out.
         either(
             sequence(verbs.KEEP, THINGS, f"{manner.AS_IT_IS}, {_THERE}"),
+            # "Upright as it is": how it stands no more than where
+            sequence(verbs.KEEP, THINGS, "[~comma] upright", manner.AS_NOW),
             sequence(
                 f"leav(e|ing) [me|us], keep[ing], {verbs.IGNORE}, you can leave",
                 THINGS,

@@ -58,6 +58,12 @@ def _to_do(told: re.Match[str]) -> str:
 
 
 PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "The cup is to be moved, to the left of the plate"
+    (
+        r"\b((?:is|are) to be (?:moved|put|placed|brought)), "
+        r"(?=(?:to the (?:left|right)|in front|behind|next to|beside|between|onto|into)\b)",
+        r"\1 ",
+    ),
     (_ONCE_DONE, _to_do),
     # "Empty the box and the bag; their contents go in the bin"
     (

@@ -37,6 +37,11 @@ def after(*said: str) -> Parser:
     return Parser(lambda given, at: [(at, NOTHING)] if {*said} & {*given.words[:at]} else [])
 
 
+def ahead(*words: str) -> Parser:
+    """Nothing, where one of some words comes next."""
+    return Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] in words else [])
+
+
 def not_ahead(*words: str) -> Parser:
     """Nothing, where none of some words comes next."""
     return Parser(lambda given, at: [] if given.ahead[at] in words else [(at, NOTHING)])

@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST_COMMA,
     OPTIONAL_COMMA,
     after,
+    ahead,
     exceptions,
     not_ahead,
     noun_phrase,
@@ -387,6 +388,12 @@ _modifier = either(
         either(nouns.RELATIVE, "already"),
         optional("up, down, over, in, on"),
         "there",
+        build=lambda: Modifier(Prep.FROM, (NounPhrase(pronoun="it", text="there"),)),
+    ),
+    # "The cups there must not be moved"
+    sequence(
+        "there",
+        ahead("must", "should", "may", "can", "stay", "remain", "are"),
         build=lambda: Modifier(Prep.FROM, (NounPhrase(pronoun="it", text="there"),)),
     ),
     sequence(

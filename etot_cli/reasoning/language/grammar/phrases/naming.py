@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -17,7 +16,6 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     quiet,
     sequence,
-    silent,
     some,
     spanned,
     valued,
@@ -75,6 +73,15 @@ DETERMINER = either(
 PRONOUN = phrase("it, them, they, this, that, these, those, its, he, him, she, her")
 ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
 WORDS = some(NOUN_WORD, least=1, most=6)
+
+
+def _any_again(
+    words: tuple[str, ...], modifiers: tuple[Modifier, ...], again: tuple[str, ...]
+) -> NounPhrase | None:
+    """One of some things, which is said again ("a cup, any cup, …"); of "a red cup, any cup" it is
+    open whether it has to be red.
+    """
+    return NounPhrase("any", words, modifiers) if again in ((), words) else None
 
 
 def _any_but(
@@ -241,7 +248,7 @@ ALREADY_THERE = either(
 """In or on what was spoken of."""
 OPTIONAL_DETERMINER = optional(DETERMINER, "")
 _OF_THEM = sequence(COMMA, phrase("all, both, each, every one"), "of them", either(COMMA, at_end))
-_ANY_ONE = either("one, of them", silent(NOUN_WORD))
+_ANY_ONE = either(phrase("one, of them", ()), WORDS)
 _BEHIND_A_VERB = Parser(
     lambda given, at: [(at, NOTHING)] if {*given.words[at - 1 : at]} & {*VERB_WORDS, "up"} else []
 )
@@ -368,7 +375,7 @@ noun_phrase.define(
                 "any",
                 _ANY_ONE,
                 either(COMMA, at_end),
-                build=partial(NounPhrase, "any"),
+                build=_any_again,
             ),
             sequence(
                 # "A cup, any cup but the red one"

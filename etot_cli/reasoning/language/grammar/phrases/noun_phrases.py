@@ -223,12 +223,6 @@ EITHER_SIDE = sequence(
 """Behind one of some things: which they are."""
 
 
-def _whichever(np: NounPhrase, words: tuple[str, ...]) -> Things | None:
-    """One of some things, which is said again ("a red cup, any cup, …")."""
-    again = np.determiner.split()[:1] in _ANY_ONE and np.words[-len(words) :] == words
-    return Things((np,)) if again else None
-
-
 COMPARED_CHOICE = sequence(
     alternatives(noun_phrase, 3),
     COMMA,
@@ -255,7 +249,6 @@ CHOICE = Rule(
                 None if (one := one_out_of(np, nps)) is None else Things(one, either=True)
             ),
         ),
-        sequence(noun_phrase, COMMA, "any", WORDS, either(COMMA, at_end), build=_whichever),
         sequence(
             alternatives(noun_phrase, 1),
             "~comma [but] not both ~comma",

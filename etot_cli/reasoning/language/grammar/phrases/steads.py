@@ -66,14 +66,14 @@ INSTEAD_OF_IT = spanned(
 )
 """Behind a place: what is there goes elsewhere; "one" is rather another such place."""
 
-_PLACE_OF = either(
+PLACE_OF = either(
     sequence("the (place|spot|position) of", noun_phrase),
     sequence(noun_phrase, "'s", "[old] (place|spot|position)"),
     phrase("its place [there]", NounPhrase(pronoun="it", text="its")),
     phrase("their place [there], their places", NounPhrase(pronoun="them", text="their")),
 )
 TAKES_A_PLACE = spanned(
-    sequence(silent(phrase(verbs.TAKE_THE_PLACE)), _PLACE_OF),
+    sequence(silent(phrase(verbs.TAKE_THE_PLACE)), PLACE_OF),
     lambda text, np: Destination(Toward.STEAD, (np,), text.replace("'s ", " ")),
 )
 """The same, by a verb for that: who takes the cup's place makes it go away."""

@@ -112,7 +112,7 @@ _EXTRA = sequence(
         _BACK_THERE,
         sequence(
             phrase(manner.STANDING, ("stance", Nearby.UPRIGHT)),
-            silent(optional(f"{manner.NOT_LYING}, {manner.ON_THE_WAY}")),
+            silent(optional(f"{manner.NOT_LYING}, {manner.ON_THE_WAY}, {manner.AS_NOW}")),
         ),
         phrase(manner.LYING, ("stance", Nearby.LYING)),
         manner.FITTING,
@@ -153,6 +153,7 @@ _EXTRA = sequence(
         ),
         phrase(manner.IN_THIS_ORDER, ("ordered", ())),
         "one (by one|after the other|after another), in (any|whatever) order",
+        manner.NOT_REVERSED,
     ),
     build=lambda *found: found[0] if found else (),
 )

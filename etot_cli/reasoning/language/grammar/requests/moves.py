@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 
 
 def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
@@ -200,8 +201,27 @@ _IF_SO = either(
     sequence(_IF, NP_LIST, f"(is|are) not [{_SO_FAR}]", _NOT_SO),
     sequence("unless", NP_LIST, f"(is|are|happen[s] to be) [{_SO_FAR}]", _NOT_SO),
 )
+_IF_EMPTY = either(
+    sequence(
+        "(if there is|in case there is|should there be) (nothing|not anything) [left|else]",
+        "in, inside, on",
+        noun_phrase,
+    ),
+    sequence(_IF, noun_phrase, f"is [{_SO_FAR}] empty"),
+)
+
+
+def _if_empty(np: NounPhrase, moved: MoveClause) -> MoveClause | None:
+    """What is closed if nothing is in it is what is empty, and nothing else."""
+    (again, *more) = moved.things.phrases
+    known = np.determiner in THE_WORDS and np.words and not more and again.pronoun == "it"
+    empty = Things((replace(np, words=("empty", *np.words)),))
+    return replace(moved, things=empty) if known else None
+
+
 IF_NOT_SO = quiet(
     either(
+        sequence(_IF_EMPTY, _NOW, _THEN, EMPTY_WORDS, _PLAIN_MOVE, build=_if_empty),
         sequence(
             _IF_SO,
             _NOW,

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    one_of,
     optional,
     phrase,
     separated,
     sequence,
+    silent,
     some,
     word,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import COMMA
+from etot_cli.reasoning.language.grammar.parsers.common import COLON, COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.tower_bases import NEXT
 from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause, put_to
@@ -25,7 +28,12 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, places, verbs
-from etot_cli.reasoning.language.words.lexicon import SIZES, basic_color
+from etot_cli.reasoning.language.words.lexicon import (
+    SIZES,
+    basic_color,
+    is_descriptive,
+    singular,
+)
 
 
 def _piled(
@@ -79,6 +87,43 @@ PILED = sequence(
     build=_piled,
 )
 """Behind a verb."""
+
+
+def _one_of_two(
+    nested: bool, whole: Things, upper: NounPhrase, toward: Toward, lower: NounPhrase
+) -> TowerClause | None:
+    """Two things that are announced together, one on or in the other; they may leave out the noun
+    ("stack the two boxes, small on big").
+    """
+    (np, *more) = whole.phrases
+    noun = (*np.words[:-1], singular(np.head)) if np.words else ()
+
+    def named(one: NounPhrase) -> NounPhrase:
+        bare = one.words and all(map(is_descriptive, one.words)) and not one.determiner
+        return replace(one, determiner="the", words=(*one.words, *noun)) if bare else one
+
+    within = toward is Toward.INSIDE
+    if more or noun == np.words or (nested and not within):
+        return None
+    things = Things((named(lower), named(upper)))
+    return TowerClause(things, upward=True, whole=whole, nested=within)
+
+
+_BARE = sequence(
+    some(word(lambda given, text: is_descriptive(text)), least=1, most=2),
+    build=lambda words: NounPhrase(words=words, text=" ".join(words)),
+)
+ONE_OF_TWO = sequence(
+    either(phrase(verbs.STACK, False), phrase(verbs.NEST, True)),
+    THINGS,
+    either(COMMA, COLON),
+    either(_BARE, noun_phrase),
+    one_of({Toward.ON: places.ONTO, Toward.INSIDE: places.INTO}),
+    either(_BARE, noun_phrase),
+    silent(optional(manner.NOT_REVERSED)),
+    build=_one_of_two,
+)
+"""How two things are to stand."""
 PUT_ON_COLOR = sequence(
     # "Take green off blue and put it on red"
     either(verbs.STACK, verbs.PUT),
@@ -92,7 +137,13 @@ PUT_ON_COLOR = sequence(
 PAIR_BY_PAIR = sequence(
     # "Blue on red, yellow on blue"
     separated(
-        sequence(COLOR, f"{places.ONTO}, above, over", COLOR, build=lambda *pair: pair),
+        sequence(
+            COLOR,
+            silent(optional(verbs.MODAL)),
+            f"{places.ONTO}, above, over",
+            COLOR,
+            build=lambda *pair: pair,
+        ),
         NEXT,
         most=5,
     ),

@@ -25,13 +25,20 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, STANCE, WHERE
+from etot_cli.reasoning.language.grammar.phrases.destinations import (
+    ACROSS,
+    BESIDE,
+    FILLED,
+    STANCE,
+    WHERE,
+)
 from etot_cli.reasoning.language.grammar.phrases.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.phrases.modifiers import NONE_OF_THEM
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Beside,
     Destination,
     Modifier,
     NounPhrase,
@@ -162,7 +169,35 @@ PUT_GROUP = either(
     ),
     quiet(sequence(noun_phrase, "per, to each, to every", WORDS, build=_per_place)),
 )
-PUT_GROUPS = Rule(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns))
+
+
+_OTHER_SIDE = {Nearby.LEFT: Nearby.RIGHT, Nearby.RIGHT: Nearby.LEFT}
+
+
+def _on_opposite_sides(
+    first: Things, side: Nearby, other: Things, where: tuple[Beside, ...]
+) -> tuple[PutGroup, ...] | None:
+    """Two things, of which the place of the second tells that of the first, too ("the cup left and
+    the mug right of the plate").
+    """
+    if [item.relation for item in where] != [_OTHER_SIDE[side]]:
+        return None
+    sides = (replace(where[0], relation=side), *where)
+    told = (Destination(Toward.BESIDE, beside=(item,)) for item in sides)
+    return tuple(PutGroup(t, (at,)) for t, at in zip((first, other), told, strict=True))
+
+
+_ON_OPPOSITE_SIDES = sequence(
+    THINGS,
+    one_of({Nearby.LEFT: "left", Nearby.RIGHT: "right"}),
+    LIST,
+    THINGS,
+    BESIDE,
+    build=_on_opposite_sides,
+)
+PUT_GROUPS = Rule(
+    either(variants(separated(PUT_GROUP, LIST, most=5), lending_nouns), _ON_OPPOSITE_SIDES)
+)
 PAIRS = quiet(
     sequence(
         separated(

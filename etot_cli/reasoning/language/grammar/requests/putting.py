@@ -59,7 +59,7 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
     THINGS,
 )
 from etot_cli.reasoning.language.grammar.phrases.states import EACH_SHOULD
-from etot_cli.reasoning.language.grammar.phrases.steads import TAKES_A_PLACE
+from etot_cli.reasoning.language.grammar.phrases.steads import PLACE_OF, TAKES_A_PLACE
 from etot_cli.reasoning.language.grammar.phrases.successions import (
     FIRST_THEN,
     FROM_FIRST_TO_LAST,
@@ -333,6 +333,14 @@ PUT = either(
         build=lambda things, stead: put_to(things, (stead,)),
     ),
     sequence(
+        # "Give the cup's place to the jar"
+        "giv(e|ing)",
+        PLACE_OF,
+        "[over] to",
+        ALL_THINGS,
+        build=lambda np, things: put_to(things, (Destination(Toward.STEAD, (np,), "place"),)),
+    ),
+    sequence(
         # "The ball should change jars: from the big one into the small one"
         noun_phrase,
         "[should|must|shall|has to|is to|needs to] change[s]",
@@ -387,6 +395,7 @@ PUT = either(
         optional("one"),
         ON_BOTH_SIDES,
         noun_phrase,
+        silent(optional(places.ONE_AT_EACH_SIDE)),
         build=lambda things, where, said, np: flanking(things, said, np, where),
     ),
     sequence(

@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.nesting import NESTED
-from etot_cli.reasoning.language.grammar.requests.piles import PAIR_BY_PAIR, PILED
+from etot_cli.reasoning.language.grammar.requests.piles import ONE_OF_TWO, PAIR_BY_PAIR, PILED
 from etot_cli.reasoning.language.grammar.requests.tower_bases import (
     A_TOWER,
     FIRST_TO_LAST,
@@ -230,6 +230,7 @@ _TOWER = either(
         build=lambda things, upward, base, ends: _tower(things, upward, ends, base),
     ),
     PILED,
+    ONE_OF_TWO,
     NESTED,
     sequence(
         # "Put the blocks on the tray, stacked", "the blocks go on the tray in a stack"

@@ -9,6 +9,7 @@ from dataclasses import replace
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     optional,
+    phrase,
     quiet,
     sequence,
     valued,
@@ -81,6 +82,22 @@ def _fronted(where: tuple[Destination, ...], nps: tuple[NounPhrase, ...]) -> Put
     return replace(put_to(Things(nps), where), far_fetched=int(vague))
 
 
+def _in_order(
+    where: tuple[Destination, ...], ahead: bool, nps: tuple[NounPhrase, ...], behind: bool
+) -> PutClause | None:
+    """The same, in the order in which things are named where that is said."""
+    put = _fronted(where, nps)
+    return None if put is None else replace(put, ordered=ahead or behind)
+
+
+_IN_THIS_ORDER = optional(
+    sequence(
+        OPTIONAL_COMMA,
+        phrase(manner.IN_THIS_ORDER, True),
+        either(COLON, OPTIONAL_COMMA),
+    ),
+    False,
+)
 FRONTED = quiet(
     sequence(
         either(
@@ -92,8 +109,10 @@ FRONTED = quiet(
                 either(verbs.PUT, "go[es], belong[s], come[s]"),
             ),
         ),
+        _IN_THIS_ORDER,
         NP_LIST,
-        build=_fronted,
+        _IN_THIS_ORDER,
+        build=_in_order,
     )
 )
 """The place before the thing."""

@@ -100,6 +100,8 @@ _FIXED = f"""
     at the very, (first|last) of all, last but not least,
     one (by|after) (one|the other|another), in back, at last,
     each other, one another, (on|over) the other, none of, the other way (around|up),
+    not (the other way around|vice versa|the reverse), (no|not) (sooner|earlier),
+    at any (point|time|stage|moment), upright [exactly|just] (as|like|the way) (it|they) (is|are),
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were|got) left,
     do not let go [of (it|them)],

@@ -129,7 +129,9 @@ def any_such(rest: Reading, said: NounPhrase) -> Reading | None:
         return None
 
     def told(np: NounPhrase) -> NounPhrase | None:
-        fits = np.determiner in _CHOICE and np.words and (said.is_elliptic or np.head == said.head)
+        # Of "a red cup, any cup" it is open whether it has to be red.
+        of_these = said.is_elliptic or (np.head == said.head and {*np.words} <= {*said.words})
+        fits = np.determiner in _CHOICE and np.words and of_these
         more = tuple(word for word in said.words[:-1] if word not in np.words)
         return replace(np.told_by(*said.modifiers), words=(*more, *np.words)) if fits else None
 

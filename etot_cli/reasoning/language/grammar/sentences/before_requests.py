@@ -80,7 +80,7 @@ from etot_cli.reasoning.language.grammar.sentences.past import (
     out_of_the_way,
     same_receiver,
 )
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.sentences.togetherness import PARTED
 from etot_cli.reasoning.language.grammar.sentences.topics import (
     AS_IT_IS,
@@ -274,14 +274,24 @@ _SO_BY_THEN = plain(
 """How things are by then, behind "with" ("with the drawer open, …")."""
 
 
+def _about_at_first(order: Order, topic: Reading, rest: Reading) -> Reading | None:
+    """What is named before a clause speaks of it, which is done first where that is said."""
+    (said, *more) = rest
+    timed = rest if order is Order.SAID else (replace(said, order=order), *more)
+    return about(topic, timed)
+
+
 WITH_MORE_BEFORE_IT = either(
     sequence(small_words.LOOK_FOR, NAMED, _AND, CHAIN, build=done_there),
     sequence(
-        optional(small_words.LOOK_FOR),
+        optional(
+            either(phrase(small_words.LOOK_FOR, Order.SAID), phrase("first", Order.FIRST)),
+            Order.SAID,
+        ),
         NAMED,
         either(COMMA, "[~comma] and, and then, then, [~comma] so"),
         CHAIN,
-        build=about,
+        build=_about_at_first,
     ),
     sequence(
         # "Here is how the shelf should look: books on the upper board, …"
@@ -500,7 +510,7 @@ WITH_MORE_BEFORE_IT = either(
     sequence(
         EARLIER,
         OPTIONAL_COMMA,
-        optional("[and] only then, [and] not before [then|that]"),
+        optional("[and] only then, [and] not before [then|that], [and] (no|not) (sooner|earlier)"),
         OPTIONAL_COMMA,
         either(CHAIN, INVERTED),
         build=lambda earlier, rest: once_done(earlier, same_receiver(earlier, rest)),

@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.requests.additions import (
     EXTRAS,
     put_of,
 )
+from etot_cli.reasoning.language.grammar.requests.flanking import ON_BOTH_SIDES, flanking
 from etot_cli.reasoning.language.grammar.requests.laying import lies_flat
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.requests.putting import brought
@@ -49,6 +50,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
+from etot_cli.reasoning.language.words import places
 
 
 def put_down(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
@@ -104,6 +106,14 @@ VERBLESS = either(
         build=lambda things, *moved: PutClause((brought(things, *moved),)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=put_down),
+    sequence(
+        # "Candles on either side of the vase"
+        ALL_THINGS,
+        ON_BOTH_SIDES,
+        noun_phrase,
+        silent(optional(places.ONE_AT_EACH_SIDE)),
+        build=flanking,
+    ),
     sequence(
         FIRST_THEN,
         silent(optional(either(COMMA, COLON))),

@@ -118,6 +118,7 @@ WANTED = either(
             sequence(ALL_THINGS, verbs.JOIN),
         ),
         noun_phrase,
+        silent(optional("there")),
         build=lambda things, np: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
     sequence(

@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.reference.memory.antecedents import (
 )
 from etot_cli.reasoning.language.reference.naming.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.naming.entries import EXACT, HEAD
+from etot_cli.reasoning.language.reference.naming.usual_form import how_many_out
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
@@ -256,6 +257,22 @@ def _named_out(
         with suppress(ReferenceProblem):
             return set(landmarks(item, noun, among=things))
     return set(landmarks(item, noun))
+
+
+def all_but(phrase: NounPhrase, things: Sequence[Thing]) -> tuple[NounPhrase, int | None]:
+    """A phrase without "but one", where that says of how many all but so many are meant, and how
+    many these are; None where it says no such thing.
+    """
+    for modifier in phrase.modifiers:
+        out = how_many_out(modifier)
+        (item, *_) = modifier.phrases or (NounPhrase(),)
+        of_them = (m.prep is Prep.OF and m.phrases[0].pronoun for m in item.modifiers)
+        if out and item.words in ((), ("one",), phrase.words) and all(of_them):
+            rest = tuple(m for m in phrase.modifiers if m is not modifier)
+            if out >= len(things):
+                raise ReferenceProblem(phrase.text, "nothing is left without those", 1)
+            return replace(phrase, modifiers=rest), len(things) - out
+    return phrase, None
 
 
 def left_out(

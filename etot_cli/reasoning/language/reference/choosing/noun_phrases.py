@@ -32,7 +32,7 @@ from etot_cli.reasoning.language.reference.choosing.instances import (
     with_their_whole,
 )
 from etot_cli.reasoning.language.reference.choosing.landmarks import is_one
-from etot_cli.reasoning.language.reference.choosing.modified import left_out, modified
+from etot_cli.reasoning.language.reference.choosing.modified import all_but, left_out, modified
 from etot_cli.reasoning.language.reference.choosing.nouns import (
     matched,
     names_part,
@@ -253,6 +253,11 @@ class Resolver:
         )
         meant = partial(self._landmarks, pronoun)
         words = asked.words
+        if quantity.every or match.plural:
+            phrase, so_many = all_but(phrase, things)
+            if so_many is not None:
+                quantity = Quantity(count=so_many)
+                asked = replace(asked, phrase=phrase, quantity=quantity)
         things, unmeant = left_out(
             things, phrase, words, self._vocabulary, self._scene, meant, notes
         )

@@ -59,6 +59,16 @@ def is_robot(phrase: NounPhrase) -> bool:
     )
 
 
+def how_many_out(modifier: Modifier) -> int | None:
+    """How many are left out of some things ("all but one"), whichever; None where it is said which
+    these are.
+    """
+    (item, *more) = modifier.phrases or (NounPhrase(),)
+    number = NUMBERS.get((item.determiner.split() or [""])[0])
+    said = modifier.prep is Prep.EXCEPT and not (more or modifier.denied)
+    return number if said else None
+
+
 def usual_form(phrase: NounPhrase) -> NounPhrase:
     """The phrase in the usual form: "the bigger of the mugs" is the bigger mug."""
     if {*phrase.words[1:-1]} & _LIKE_THAT:  # "the lime coloured ball", "the cup shaped holder"
@@ -107,8 +117,17 @@ def usual_form(phrase: NounPhrase) -> NounPhrase:
         phrase = replace(phrase, determiner=phrase.determiner.removeprefix("only "))
     out = next((item for item in phrase.modifiers if item.prep is Prep.EXCEPT), None)
     if not last and out is not None and out.phrases[0].words:
-        head = out.phrases[0].words[-1]
-        return replace(phrase, words=(head if singular(head) != head else f"{head}s",))
+        (left_out, *_) = out.phrases
+        head = left_out.words[-1]
+        plural = head if singular(head) != head else f"{head}s"
+        if how_many_out(out) is None:
+            return replace(phrase, words=(plural,))
+        # "All but one of the red cups on the tray": of the red cups there all but one
+        bare = replace(out, phrases=(NounPhrase(left_out.determiner, text=left_out.text),))
+        modifiers = (*left_out.modifiers, *(bare if m is out else m for m in phrase.modifiers))
+        return usual_form(
+            replace(phrase, words=(*left_out.words[:-1], plural), modifiers=modifiers)
+        )
     of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
     if of is not None and last and of.phrases[0].words:
         (inner, *_) = of.phrases

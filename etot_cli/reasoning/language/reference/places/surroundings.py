@@ -83,6 +83,9 @@ class Surroundings:
         moved = set(self._discourse.things(*self._discourse.put))
         for item in near:
             things = self._discourse.things(*item.landmarks)
+            if len(item.landmarks) == 2 and len(things) == 1:
+                text = " and ".join(self._discourse.referents[i].text for i in item.landmarks)
+                raise ReferenceProblem(text, "nothing is between one thing and itself", 1)
             things = tuple(thing for thing in things if thing not in moved)
             if below - {DESK} and any(thing.name in below for thing in things):
                 raise ReferenceProblem(things[0].name, "nothing is beside itself", 2)
