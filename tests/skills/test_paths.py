@@ -7,9 +7,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from etot_cli.skills.motion.clearance import CLEARANCES
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm
-from etot_cli.skills.motion.transit import CLEARANCES, edge_free, plan_transit
+from etot_cli.skills.motion.transit import edge_free, plan_transit
 from etot_cli.world.pose import Pose, rotation_from_axes
 from tests.skills.helpers import BALL
 from tests.world.helpers import make_scene, set_up

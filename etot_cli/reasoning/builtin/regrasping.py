@@ -183,13 +183,12 @@ def _other_poses(
 
 
 def _is_out_of_reach(failed: FailedStep, cause: CauseKind) -> bool:
-    """Whether what is put down does not get there from above, or is let fall there: a hand that
-    points down reaches less far, and less high, than one that lies level.
+    """Whether the hand does not get from above to what is taken, or to where it is put down, or
+    lets it fall there: a hand that points down reaches less far, and less high, than one that lies
+    level.
     """
     verb = failed.branch.actions[failed.index].verb
-    return (cause is CauseKind.UNREACHABLE and verb in PUTS) or (
-        cause is CauseKind.REBOUND and verb is Verb.PUT_ON
-    )
+    return cause is CauseKind.UNREACHABLE or (cause is CauseKind.REBOUND and verb is Verb.PUT_ON)
 
 
 def _is_roofed(failed: FailedStep) -> bool:
