@@ -141,6 +141,30 @@ def test_what_is_pressed_out_of_the_fingers_at_a_front_is_grasped_both_ways() ->
     assert plan.format("(vertical) ") in revisions(step)
 
 
+@pytest.mark.parametrize(
+    ("kind", "named", "level"),
+    [
+        (CauseKind.UNREACHABLE, (), True),
+        (CauseKind.BLOCKED, ("chest",), True),
+        (CauseKind.BLOCKED, ("nut",), False),
+        (CauseKind.BLOCKED, (), True),
+    ],
+)
+def test_what_stands_high_is_grasped_from_the_side(
+    kind: CauseKind, named: tuple[str, ...], level: bool
+) -> None:
+    """Wherever the hand does not get to it from above; what can be moved goes first."""
+    start = scenes.scene(
+        scenes.drawers("chest", (0.62, 0.1), {"top": 0.0}),
+        scenes.item("can", at=(0.62, 0.1), on="chest", z=0.2),
+        scenes.ball("nut", (0.3, 0.3)),
+    )
+    step = failed(start, "[PICK UP, can] [PUT ON, desk]", 0, cause(kind, *named, "can"))
+    assert ("[PICK UP, can] (horizontal) [PUT ON, desk]" in revisions(step)) == level
+    asked = failed(start, "[PICK UP, can] (vertical) [PUT ON, desk]", 0, cause(kind, *named, "can"))
+    assert not any("horizontal" in plan for plan in revisions(asked))
+
+
 def test_what_something_fastened_covers_is_grasped_from_the_side() -> None:
     info, state = scenes.item("bridge", at=(0.5, 0.0))
     bridge = (replace(info, movable=False), state)
@@ -322,7 +346,7 @@ def test_what_bears_the_picked_object_is_not_relocated() -> None:
 def test_furniture_is_not_relocated() -> None:
     start = scenes.pens()
     reason = cause(CauseKind.BLOCKED, "drawer", "white_holder")
-    assert revision(failed(start, "[PICK UP, white_holder]", 0, reason)) is None
+    assert revision(failed(start, "[PICK UP, white_holder] (vertical)", 0, reason)) is None
 
 
 def test_only_the_first_movable_blocker_moves_and_only_once() -> None:

@@ -7,9 +7,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from etot_cli.skills.motion.clearance import BESIDE, CLEARANCES
 from etot_cli.skills.motion.collision import Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm
-from etot_cli.skills.motion.transit import CLEARANCES, edge_free, plan_transit
+from etot_cli.skills.motion.transit import edge_free, plan_transit
 from etot_cli.world.pose import Pose, rotation_from_axes
 from tests.skills.helpers import BALL
 from tests.world.helpers import make_scene, set_up
@@ -108,3 +109,40 @@ def test_edge_check_sees_a_short_obstacle() -> None:
     assert edge_free(start, end, lambda q: bool(asked.append(float(q[0])) or True))
     assert max(asked) == 1.0
     assert np.diff(sorted(asked)).max() <= 0.08 + 1e-9
+
+
+class Beside(Course):
+    """A place a few millimetres beside the wall, to go from, over it, to the other side."""
+
+    def __init__(self, gap: float) -> None:
+        super().__init__(0.30)
+        for y in np.linspace(-0.12, -0.02, 401):
+            start = self.arm.reach(Pose(np.array([0.4, y, 0.22]), DOWN), self.start).joints
+            if self.checker.hits(start, clearance=gap):
+                break
+            self.start = start
+
+    def distances(self, path: np.ndarray) -> list[tuple[float, bool]]:
+        """How far each point of a path is from the start [rad], and whether it is near the wall."""
+        found = []
+        for a, b in pairwise(path):
+            count = int(np.ceil(np.abs(b - a).max() / 0.01))
+            for share in np.linspace(0.0, 1.0, count + 1):
+                joints = a + share * (b - a)
+                near = bool(self.checker.hits(joints, clearance=0.4 * CLEARANCES[1]))
+                found.append((float(np.abs(joints - self.start).max()), near))
+        return found
+
+
+@pytest.mark.parametrize("gap", [0.001, 0.003])
+@pytest.mark.parametrize("seed", range(4))
+def test_what_the_hand_is_close_to_is_left_and_not_grazed(gap: float, seed: int) -> None:
+    """It is as close to it there, and nowhere else, and never runs into it."""
+    course = Beside(gap)
+    assert course.checker.hits(course.start, clearance=0.5 * CLEARANCES[1]), "it is close"
+    path = course.plan(seed)
+    assert path is not None
+    assert not any(near for away, near in course.distances(path) if away > BESIDE)
+    for a, b in pairwise(path):
+        for share in np.linspace(0.0, 1.0, int(np.ceil(np.abs(b - a).max() / 0.01)) + 1):
+            assert not course.checker.hits(a + share * (b - a), clearance=0.0)

@@ -160,8 +160,8 @@ def _other_poses(
 ) -> list[tuple[GraspPose, str]]:
     """The poses to try where none was asked for, and their names: from above where the object
     slipped; from the side where the hand has no room above it, does not reach that far or that high
-    from above, or where a rod stands in the hand, which lays it down from there, as it does all
-    that is to lie.
+    from above, or is stopped on its way, or where a rod stands in the hand, which lays it down
+    from there, as it does all that is to lie.
 
     What is pressed out of the fingers at a front has slipped in a hand that came from above as
     likely as in a level one, so that both are tried; the level one gets in.
@@ -175,6 +175,7 @@ def _other_poses(
     if (
         (cause in _NO_ROOM_ABOVE and _is_roofed(failed))
         or _is_out_of_reach(failed, cause)
+        or _is_barred(failed, cause)
         or _stands_in_hand(failed)
         or _is_to_lie(failed)
     ):
@@ -183,13 +184,24 @@ def _other_poses(
 
 
 def _is_out_of_reach(failed: FailedStep, cause: CauseKind) -> bool:
-    """Whether what is put down does not get there from above, or is let fall there: a hand that
-    points down reaches less far, and less high, than one that lies level.
+    """Whether the hand does not get from above to what is taken, or to where it is put down, or
+    lets it fall there: a hand that points down reaches less far, and less high, than one that lies
+    level.
     """
     verb = failed.branch.actions[failed.index].verb
-    return (cause is CauseKind.UNREACHABLE and verb in PUTS) or (
-        cause is CauseKind.REBOUND and verb is Verb.PUT_ON
-    )
+    return cause is CauseKind.UNREACHABLE or (cause is CauseKind.REBOUND and verb is Verb.PUT_ON)
+
+
+def _is_barred(failed: FailedStep, cause: CauseKind) -> bool:
+    """Whether the arm that was to take something was stopped, and by nothing that could make way: a
+    hand that comes from the side gets to it another way.
+    """
+    scene, action = failed.record.before, failed.branch.actions[failed.index]
+    told = failed.verdict.cause or failed.record.cause
+    if told is None or cause is not CauseKind.BLOCKED or action.verb is not Verb.PICK_UP:
+        return False
+    others = {owner_of(name) for name in told.objects} - {owner_of(action.target)}
+    return not any(scene.infos[name].movable for name in others if name in scene.infos)
 
 
 def _is_roofed(failed: FailedStep) -> bool:

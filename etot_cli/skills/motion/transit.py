@@ -11,7 +11,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from etot_cli.skills.motion.collision import CLEARANCE, Attached, CollisionChecker
+from etot_cli.skills.motion.clearance import CLEARANCES, Clearances
+from etot_cli.skills.motion.collision import Attached, CollisionChecker
 from etot_cli.skills.motion.kinematics import Arm
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose
@@ -41,61 +42,57 @@ def plan_transit(
     """A joint path (k, n) from ``start`` to ``goal`` that keeps clear of everything.
 
     Tries the straight joint line, then ways over lifted tool poses, then RRT-Connect within bounds.
-    A start that is itself too close to something (a hand beside furniture, say) may keep that
-    distance, but not shorten it.
+    What start or goal is itself too close to (a hand beside furniture, say) may be so there.
 
     Returns:
         The path, or None.
     """
+    ends = (start, goal)
     for wanted in (CLEARANCES, CLEARANCES[1:]):
-        free = _free(checker, start, goal, attached, wanted)
-        if edge_free(start, goal, free):
-            return np.stack([start, goal])
+        free = Clearances(checker, ends, attached, wanted)
+        straight = np.stack([start, goal])
+        if edge_free(start, goal, free) and free.hold(straight):
+            return straight
         for lift in LIFTS:
             path = _over(arm, start, goal, lift, free)
-            if path is not None:
+            if path is not None and free.hold(path):
                 return path
-    found = _rrt_connect(start, goal, arm, free, rng)
-    return None if found is None else _shortcut(found, free, rng)
+    return _searched(arm, checker, ends, attached, rng)
 
 
-CLEARANCES = (0.02, CLEARANCE, 0.0005)
-"""Clearances [m]: that simple ways are tried with first, as much as the edge of an open drawer is
-off where its unit is believed 5 mm and 3° wrong; what all ways keep; and what suffices near what
-start or goal is already close to."""
-
-
-def _free(
+def _searched(
+    arm: Arm,
     checker: CollisionChecker,
-    start: Vector,
-    goal: Vector,
+    ends: tuple[Vector, Vector],
     attached: Attached | None,
-    clearances: tuple[float, ...],
-) -> Free:
-    """Tells joints that keep the first distance [m] from everything, or the next from what either
-    end is closer to.
+    rng: np.random.Generator,
+) -> Vector | None:
+    """A path found by search: one that keeps its distance in between its checks, after a second
+    search with finer ones, if need be, and one close all along to what an end is close to, where
+    there is no other. Of those that do not keep it, the first: physics decides.
     """
-    near = [
-        {*checker.hits(start, attached, clearance=distance)}
-        | {*checker.hits(goal, attached, clearance=distance)}
-        for distance in clearances[:-1]
-    ]
+    anyhow: Vector | None = None
+    free = Clearances(checker, ends, attached, CLEARANCES[1:])
+    step = EDGE_STEP
+    for _ in range(3):
+        found = _rrt_connect(*ends, arm, free, rng, step)
+        path = None if found is None else _shortcut(found, free, rng, step)
+        if path is not None and free.hold(path):
+            return path
+        anyhow = path if anyhow is None else anyhow
+        if path is not None and step == EDGE_STEP:
+            step = EDGE_STEP / 4
+        elif free.is_tight and anyhow is None:
+            free = Clearances(checker, ends, attached, CLEARANCES[1:], beside=np.inf)
+            step = EDGE_STEP
+        else:
+            break
+    return anyhow
 
-    def free(joints: Vector) -> bool:
-        for distance, touching in zip(clearances, near, strict=False):
-            hits = checker.hits(joints, attached, clearance=distance)
-            if not hits:
-                return True
-            if not set(hits) <= touching:
-                return False
-        return not checker.hits(joints, attached, clearance=clearances[-1])
 
-    return free
-
-
-def edge_free(start: Vector, end: Vector, free: Free) -> bool:
+def edge_free(start: Vector, end: Vector, free: Free, step: float = EDGE_STEP) -> bool:
     """Whether the straight joint line is free; checked coarse to fine so collisions show early."""
-    count = max(int(np.ceil(np.abs(end - start).max() / EDGE_STEP)), 1)
+    count = max(int(np.ceil(np.abs(end - start).max() / step)), 1)
     order = _bisection(count)
     return all(free(start + (end - start) * (index / count)) for index in order)
 
@@ -129,7 +126,7 @@ def _over(arm: Arm, start: Vector, goal: Vector, lift: float, free: Free) -> Vec
 
 
 def _rrt_connect(
-    start: Vector, goal: Vector, arm: Arm, free: Free, rng: np.random.Generator
+    start: Vector, goal: Vector, arm: Arm, free: Free, rng: np.random.Generator, spacing: float
 ) -> list[Vector] | None:
     """Bidirectional rapidly-exploring random trees (Kuffner and LaValle, 2000)."""
     if not free(goal):
@@ -140,12 +137,12 @@ def _rrt_connect(
     for iteration in range(RRT_ITERATIONS):
         near, far = trees[iteration % 2], trees[(iteration + 1) % 2]
         sample = rng.uniform(low, high)
-        reached = _extend(near, sample, free)
+        reached = _extend(near, sample, free, spacing)
         if reached is None:
             continue
         target = near[0][reached]
         for _ in range(RRT_ITERATIONS):
-            linked = _extend(far, target, free)
+            linked = _extend(far, target, free, spacing)
             if linked is None:
                 break
             if np.abs(far[0][linked] - target).max() < 1e-9:
@@ -154,7 +151,9 @@ def _rrt_connect(
     return None
 
 
-def _extend(tree: tuple[list[Vector], list[int]], target: Vector, free: Free) -> int | None:
+def _extend(
+    tree: tuple[list[Vector], list[int]], target: Vector, free: Free, spacing: float
+) -> int | None:
     nodes, parents = tree
     distances = np.abs(np.array(nodes) - target).max(axis=1)
     nearest = int(distances.argmin())
@@ -162,7 +161,7 @@ def _extend(tree: tuple[list[Vector], list[int]], target: Vector, free: Free) ->
     if distance < 1e-12:
         return nearest
     step = nodes[nearest] + (target - nodes[nearest]) * min(1.0, RRT_STEP / distance)
-    if not edge_free(nodes[nearest], step, free):
+    if not edge_free(nodes[nearest], step, free, spacing):
         return None
     nodes.append(step)
     parents.append(nearest)
@@ -177,11 +176,11 @@ def _trace(tree: tuple[list[Vector], list[int]], index: int) -> list[Vector]:
     return path
 
 
-def _shortcut(path: list[Vector], free: Free, rng: np.random.Generator) -> Vector:
+def _shortcut(path: list[Vector], free: Free, rng: np.random.Generator, spacing: float) -> Vector:
     for _ in range(SHORTCUTS):
         if len(path) <= 2:
             break
         i, j = sorted(int(value) for value in rng.integers(0, len(path), size=2))
-        if j - i >= 2 and edge_free(path[i], path[j], free):
+        if j - i >= 2 and edge_free(path[i], path[j], free, spacing):
             path = path[: i + 1] + path[j:]
     return np.stack(path)
