@@ -77,6 +77,10 @@ class ObjectInfo:
     """Clear width of that opening [m]; 0 where there is none."""
     plain_color: bool = True
     """``color`` is its colour itself, not that of a neighbour (cyan, which has no word here)."""
+    on: str | None = None
+    """What a fastened thing stands on, as its scene has it: no contact tells of that."""
+    inside: str | None = None
+    """The container that a fastened thing is in, as its scene has it."""
 
     @property
     def bears(self) -> bool:
@@ -131,6 +135,15 @@ class SceneState:
                 if address in (part.address, f"{part.owner}.{part.name}"):
                     return part
         return None
+
+    def supports(self, name: str) -> tuple[str, ...]:
+        """What an object rests on, or stands on for good where it is fastened."""
+        state, info = self.states[name], self.infos[name]
+        return state.on if state.on or info.on is None else (info.on,)
+
+    def container(self, name: str) -> str | None:
+        """The container that an object lies in, or is in for good where it is fastened."""
+        return self.states[name].inside or self.infos[name].inside
 
     def openness(self, part: PartInfo) -> float:
         """How far a part is open, 0…1."""

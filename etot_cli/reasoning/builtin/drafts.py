@@ -97,8 +97,13 @@ class Draft:
     def _place(self, atom: Atom) -> None:
         name, place = atom.names
         relation = Relation.ON if atom.key == "on" else Relation.INSIDE
+        target_role = Role.SURFACE if atom.key == "on" else Role.CONTAINER
+        if self._stays(name) and place not in self.moved:
+            self._refer(place, target_role)
+            if is_at(self.scene, name, relation, place) != atom.denied:
+                return
         theme = self._refer(name, Role.THEME)
-        target = self._refer(place, Role.SURFACE if atom.key == "on" else Role.CONTAINER)
+        target = self._refer(place, target_role)
         if not atom.denied:
             self.steps.append(Put((theme,), (Place(relation, target),)))
             return
@@ -128,12 +133,16 @@ class Draft:
             place = Place(Relation.ON, surface, (near,), if_needed=bool(landmarks))
             self.steps.append(Put((theme,), (place,)))
 
+    def _stays(self, name: str) -> bool:
+        """Whether a thing is one that cannot be moved: what holds of it needs no picking up."""
+        info = self.scene.infos.get(name)
+        return info is not None and not info.movable
+
     def _stays_so(self, name: str, where: Whereabouts) -> bool:
         """Whether what cannot be moved is where it should be, or may come to be so by what is to be
         done with its landmarks; the end will tell.
         """
-        info = self.scene.infos.get(name)
-        if info is None or info.movable or not {*where.landmarks} <= {*self.scene.states}:
+        if not self._stays(name) or not {*where.landmarks} <= {*self.scene.states}:
             return False
         goes = not self.moved.isdisjoint(where.landmarks)
         return goes or spatial.holds(where, name, self.scene)
@@ -177,6 +186,8 @@ class Draft:
 
     def _in_hand(self, atom: Atom) -> None:
         name = atom.names[0]
+        if atom.denied and self._stays(name):
+            return
         theme = self._refer(name, Role.THEME)
         if not atom.denied:
             self.steps.append(Pick(theme))
