@@ -174,7 +174,10 @@ def _inside(
     else:
         return  # a mesh or MJCF object: its hollow is known to the physics world only
     if size is not None:
-        narrow, wide = sorted((size[1], size[1]) if stands_in(item, vessel) else size[:2])
+        # A vessel nests in another one by its foot.
+        foot = item.foot_diameter if isinstance(item, Cup) else None
+        stands = (size[1], size[1]) if stands_in(item, vessel) else size[:2]
+        narrow, wide = sorted((foot, foot) if foot is not None else stands)
         if narrow > min(opening) and wide > max(opening):
             yield Problem(
                 ("objects", name, "inside"),

@@ -77,6 +77,8 @@ class ObjectInfo:
     """Clear width of that opening [m]; 0 where there is none."""
     plain_color: bool = True
     """``color`` is its colour itself, not that of a neighbour (cyan, which has no word here)."""
+    foot: float = 0.0
+    """Width of a vessel's foot, where that is narrower than its rim [m]; else 0."""
     on: str | None = None
     """What a fastened thing stands on, as its scene has it: no contact tells of that."""
     inside: str | None = None

@@ -19,7 +19,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
 )
-from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_at
+from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_at, sinks
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.world import spatial
@@ -63,6 +63,7 @@ class Draft:
     held: frozenset[str]
     referents: list[Referent] = field(default_factory=list)
     steps: list[Step] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
     def add(self, atom: Atom) -> None:
         """Adds what makes a statement true.
@@ -90,7 +91,8 @@ class Draft:
             UnsatisfiableError: two objects would have to stay in the hand.
         """
         try:
-            return settled(Goal(tuple(self.referents), tuple(self.steps)), self.scene)
+            goal = Goal(tuple(self.referents), tuple(self.steps), notes=tuple(self.notes))
+            return settled(goal, self.scene)
         except ReferenceProblem as error:
             raise contradiction(error.phrase, error.why) from error
 
@@ -104,6 +106,9 @@ class Draft:
                 return
         theme = self._refer(name, Role.THEME)
         target = self._refer(place, target_role)
+        if relation is Relation.ON and self._sinks(name, place):
+            relation = Relation.INSIDE
+            self.notes.append(f"read 'on: [{name}, {place}]' as inside: it goes through its mouth")
         if not atom.denied:
             self.steps.append(Put((theme,), (Place(relation, target),)))
             return
@@ -132,6 +137,13 @@ class Draft:
             surface = None if landmarks else self._refer(DESK, Role.SURFACE)
             place = Place(Relation.ON, surface, (near,), if_needed=bool(landmarks))
             self.steps.append(Put((theme,), (place,)))
+
+    def _sinks(self, name: str, place: str) -> bool:
+        """Whether what is put on something is in it; nothing is in a vessel that lies or stands on
+        its head.
+        """
+        infos, state = self.scene.infos, self.scene.states.get(place)
+        return state is not None and not state.toppled and sinks(infos[name], infos[place])
 
     def _stays(self, name: str) -> bool:
         """Whether a thing is one that cannot be moved: what holds of it needs no picking up."""

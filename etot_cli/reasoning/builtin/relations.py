@@ -52,6 +52,16 @@ def is_at(scene: SceneState, name: str, relation: Relation, place: str) -> bool:
     return (is_on if relation is Relation.ON else is_inside)(scene, name, place)
 
 
+def sinks(info: ObjectInfo, vessel: ObjectInfo) -> bool:
+    """Whether a thing as it stands, or the foot of one that is a vessel, goes through another
+    vessel's mouth: what is put on that is in it.
+    """
+    if vessel.surface or not vessel.container:
+        return False
+    across = (math.hypot if info.kind == "box" else max)(*info.size[:2])
+    return (info.foot or across) < vessel.mouth
+
+
 def container_parts(info: ObjectInfo) -> tuple[PartInfo, ...]:
     """Movable parts that things can be put into."""
     return tuple(part for part in info.parts if part.container)
