@@ -196,6 +196,8 @@ class Cause:
     text: str
     time_s: float | None = None
     """Simulated time within the action, when there was one."""
+    lasting: bool = False
+    """It lies in the object as it stands: elsewhere, and at another time, it is the same."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -105,6 +105,9 @@ def _corrections(case: FailedCase) -> Iterator[Correction]:
 
 
 def _of_pick(case: FailedCase) -> Iterator[Correction]:
+    if case.cause.lasting:  # neither another place nor another order helps
+        yield from regrasped(case.failed, case.index, case.cause.kind)
+        return
     if case.action.onward is not None and case.is_full:
         yield from set_down_for(case.failed)
         return
