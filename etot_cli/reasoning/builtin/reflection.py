@@ -146,7 +146,9 @@ def _of_pick(case: FailedCase) -> Iterator[Correction]:
         yield from taken_out_first(case, placed, name)
     yield from taken_before_moved(case)
     yield from regrasped(case.failed, case.index, case.cause.kind)
-    yield from set_down_elsewhere(case.failed, case.action.target)
+    # Where the hand has no room though nothing stands near, it has none elsewhere on the desk.
+    if culprits or case.cause.kind is not CauseKind.NO_GRASP:
+        yield from set_down_elsewhere(case.failed, case.action.target)
 
 
 def _of_put(case: FailedCase) -> Iterator[Correction]:

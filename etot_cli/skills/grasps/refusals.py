@@ -64,9 +64,11 @@ def explain(
     text = f"the hand has no room at any grasp of {name}"
     if blockers.always(name):  # as of what is round and broader than the line that would fit
         text = f"the fingers meet {name} itself at every grasp that is narrow enough for them"
+    # Those whose absence has been seen not to help are not to blame.
+    unseen = suspects if len(blockers.most(excluding=[name])) > len(suspects) else ()
     return failed(
         CauseKind.NO_GRASP,
-        [*suspects, name],
+        [*unseen, name],
         f"{text} (opening {opening * 1000:.0f} mm)",
     )
 
