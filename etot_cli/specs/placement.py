@@ -167,9 +167,7 @@ def _centre(scene: Scene, item: ObjectBase, under: Placed | None) -> Vector:
     return (under.x, under.y)
 
 
-def fastened_at(
-    item: ObjectBase, placed: Placed, desk_top: float
-) -> tuple[str | None, str | None]:
+def fastened_at(item: ObjectBase, placed: Placed, desk_top: float) -> tuple[str | None, str | None]:
     """On what, and in what, a fastened thing is: as it says, else on the desk, unless its foot is
     above that.
     """

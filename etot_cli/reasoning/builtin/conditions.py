@@ -162,7 +162,11 @@ def _alternatives(
             off_desk = denied and pair[1] == DESK
             elsewhere = [(item,) for item in _off_the_desk(pair[0], scene)] if off_desk else []
             # Where it lies on the desk now it does not get off it by being left alone.
-            stays = not (elsewhere and pair[0] in scene.states and is_at(scene, pair[0], Relation.ON, pair[1]))
+            stays = not (
+                elsewhere
+                and pair[0] in scene.states
+                and is_at(scene, pair[0], Relation.ON, pair[1])
+            )
             return [*([(atom,)] if stays else []), *elsewhere]
     for key in ("in_hand", "open", "closed", *STANCES, "present"):
         name: str | None = getattr(condition, key)
