@@ -70,6 +70,7 @@ def explain(
         CauseKind.NO_GRASP,
         [*unseen, name],
         f"{text} (opening {opening * 1000:.0f} mm)",
+        lasting=blockers.always(name) and lasts(belief, name, pose),
     )
 
 
