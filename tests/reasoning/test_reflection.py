@@ -1343,5 +1343,5 @@ def test_what_has_not_been_away_is_not_brought_back() -> None:
     other = parse_plan("[PICK UP, ball] [PUT ON, desk]")
     for idle in (back, (*safe, *back), (*safe, *safe, *back), (*other, *back)):
         assert "jar" in put_back_at_once(idle, start)
-    for meant in ((*safe, *other, *back), (*away, *back), (*safe, *other), safe):
+    for meant in ((*safe, *other, *back), (*away, *back), (*safe, *other), safe, away[:1], ()):
         assert "jar" not in put_back_at_once(meant, start)

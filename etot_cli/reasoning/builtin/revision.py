@@ -193,10 +193,7 @@ def put_back_at_once(actions: Sequence[Action], scene: SceneState) -> frozenset[
     for index, pick in enumerate(actions):
         end, name = index, pick.target
         # Waits elsewhere end in the same way.
-        while pick.verb is Verb.PICK_UP and [
-            (other.verb in PUTS and other.safe, other.target)
-            for other in actions[end + 1 : end + 3]
-        ] == [(True, actions[end + 1].target), (False, name)]:
+        while pick.verb is Verb.PICK_UP and _waits(actions[end + 1 : end + 3], name):
             end += 2
         put = actions[end + 1] if end + 1 < len(actions) else pick
         lasting = put.verb in PUTS and not put.safe and not put.where
@@ -205,6 +202,14 @@ def put_back_at_once(actions: Sequence[Action], scene: SceneState) -> frozenset[
             found.add(name)
         walk.do(pick)
     return frozenset(found)
+
+
+def _waits(following: Sequence[Action], name: str) -> bool:
+    """Whether something held is set down at a safe place next and picked up again at once."""
+    if len(following) < 2:
+        return False
+    put, pick = following
+    return put.verb in PUTS and put.safe and (pick.verb, pick.target) == (Verb.PICK_UP, name)
 
 
 def taken_at_once(actions: Actions, before: Actions) -> Iterator[Actions]:
