@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from etot_cli.reasoning.builtin import BuiltinReasoner
-from etot_cli.reasoning.builtin.revision import put_back_at_once, taken_at_once, without_idle
+from etot_cli.reasoning.builtin.revision import taken_at_once, without_idle
 from etot_cli.reasoning.protocol import Assignment, Branch, FailedStep
 from etot_cli.skills.action import Action, GraspPose, Verb, format_plan, parse_plan
 from etot_cli.specs.task import Condition
@@ -1329,19 +1329,3 @@ def test_what_no_hand_takes_anywhere_is_not_set_down_elsewhere(lasting: bool) ->
     plan = "[PICK UP, bowl] [PUT ON, desk] [PICK UP, bowl] (horizontal) [PUT ON, rack.bottom]"
     why = replace(cause(CauseKind.NO_GRASP, "ball", "bowl"), lasting=lasting)
     assert (revisions(failed(start, plan, 2, why)) == []) == lasting
-
-
-def test_what_has_not_been_away_is_not_brought_back() -> None:
-    start = scenes.scene(
-        scenes.item("rack", "shelf", (0.6, 0.0), boards=("bottom", "top")),
-        scenes.cup("jar", (0.6, 0.0), on="rack.bottom"),
-        scenes.ball("ball", (0.4, 0.05)),
-    )
-    away = parse_plan("[PICK UP, jar] [PUT ON, desk]")
-    safe = (away[0], replace(away[1], safe=True))
-    back = parse_plan("[PICK UP, jar] [PUT ON, rack.bottom]")
-    other = parse_plan("[PICK UP, ball] [PUT ON, desk]")
-    for idle in (back, (*safe, *back), (*safe, *safe, *back), (*other, *back)):
-        assert "jar" in put_back_at_once(idle, start)
-    for meant in ((*safe, *other, *back), (*away, *back), (*safe, *other), safe, away[:1], ()):
-        assert "jar" not in put_back_at_once(meant, start)

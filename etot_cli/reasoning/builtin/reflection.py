@@ -43,7 +43,6 @@ from etot_cli.reasoning.builtin.revision import (
     opened_before,
     placed_by,
     purpose,
-    put_back_at_once,
     taken_at_once,
     without_idle,
 )
@@ -82,7 +81,6 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
     if case.action.verb is Verb.OPEN:
         opened = (*opened, case.action.target)
     seen = {case.actions}
-    idle = put_back_at_once(case.actions, failed.start)
     for found, change, anew in _corrections(case):
         alike = closed_alike(found, case.actions)
         whole = without_idle(alike, failed.start, reopened_at_once(case.actions))
@@ -90,8 +88,6 @@ def reflect_on(failed: FailedStep) -> Iterator[Branch]:
             if actions in seen:
                 continue
             seen.add(actions)
-            if not put_back_at_once(actions, failed.start) <= idle:
-                continue
             may_stay = (*opened, *closed_by_others(actions, failed.start))
             if case.serves(actions, aim) and not check_plan(actions, failed.start, may_stay):
                 yield Branch(actions, f"{change}, because {cause.text}")

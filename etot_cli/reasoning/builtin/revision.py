@@ -184,34 +184,6 @@ def without_idle(actions: Actions, scene: SceneState, turned: Collection[str] = 
     return actions
 
 
-def put_back_at_once(actions: Sequence[Action], scene: SceneState) -> frozenset[str]:
-    """What is picked up and put where it has been all along, no matter where there, with nothing
-    else done meanwhile: that comes of a new order in which what was to be brought back has not been
-    away.
-    """
-    walk, found = Sketch(scene), set[str]()
-    for index, pick in enumerate(actions):
-        end, name = index, pick.target
-        # Waits elsewhere end in the same way.
-        while pick.verb is Verb.PICK_UP and _waits(actions[end + 1 : end + 3], name):
-            end += 2
-        put = actions[end + 1] if end + 1 < len(actions) else pick
-        lasting = put.verb in PUTS and not put.safe and not put.where
-        relation = Relation.ON if put.verb is Verb.PUT_ON else Relation.INSIDE
-        if pick.verb is Verb.PICK_UP and lasting and walk.holds(name, relation, put.target):
-            found.add(name)
-        walk.do(pick)
-    return frozenset(found)
-
-
-def _waits(following: Sequence[Action], name: str) -> bool:
-    """Whether something held is set down at a safe place next and picked up again at once."""
-    if len(following) < 2:
-        return False
-    put, pick = following
-    return put.verb in PUTS and put.safe and (pick.verb, pick.target) == (Verb.PICK_UP, name)
-
-
 def taken_at_once(actions: Actions, before: Actions) -> Iterator[Actions]:
     """A revised branch without the first of the objects set down that only are to be grasped anew:
     after other actions than ``before`` the object may well be grasped so at once.
