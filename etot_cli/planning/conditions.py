@@ -69,12 +69,14 @@ def _denied(condition: Condition, scene: SceneState) -> bool:
 
 
 def _on(name: str, support: str, scene: SceneState) -> bool:
-    state = _object(name, scene)
-    if support in state.on:
+    _object(name, scene)
+    supports = scene.supports(name)
+    if support in supports:
         return True
     _check_place(support, scene)
     # A thing on one of a shelf's boards is on the shelf; a thing in a drawer is not on the unit.
-    return state.inside is None and any(item.partition(".")[0] == support for item in state.on)
+    outside = scene.container(name) is None
+    return outside and any(item.partition(".")[0] == support for item in supports)
 
 
 def _inside(name: str, container: str, scene: SceneState) -> bool:
@@ -85,7 +87,8 @@ def _inside(name: str, container: str, scene: SceneState) -> bool:
     current: str | None = name
     while current is not None and current not in seen:
         seen.add(current)
-        around = _object(current, scene).inside
+        _object(current, scene)
+        around = scene.container(current)
         if around is None:
             return False
         if wanted & _addresses(around, scene):

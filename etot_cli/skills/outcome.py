@@ -33,10 +33,12 @@ def failed(
     time_s: float | None = None,
     *,
     another_way: bool = False,
+    lasting: bool = False,
 ) -> SkillOutcome:
     """A failure with its physical cause; duplicate and foreign names are dropped."""
     names = tuple(dict.fromkeys(owner_of(name) for name in objects))
-    cause = Cause(kind, names, text, None if time_s is None else round(time_s, 3))
+    at_s = None if time_s is None else round(time_s, 3)
+    cause = Cause(kind, names, text, at_s, lasting)
     return SkillOutcome(False, cause, another_way)
 
 

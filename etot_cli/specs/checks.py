@@ -174,7 +174,10 @@ def _inside(
     else:
         return  # a mesh or MJCF object: its hollow is known to the physics world only
     if size is not None:
-        narrow, wide = sorted((size[1], size[1]) if stands_in(item, vessel) else size[:2])
+        # A vessel nests in another one by its foot.
+        foot = item.foot_diameter if isinstance(item, Cup) else None
+        stands = (size[1], size[1]) if stands_in(item, vessel) else size[:2]
+        narrow, wide = sorted((foot, foot) if foot is not None else stands)
         if narrow > min(opening) and wide > max(opening):
             yield Problem(
                 ("objects", name, "inside"),
@@ -247,8 +250,8 @@ def _comparable(scene: Scene, first: str, second: str) -> bool:
 
 
 def _depth(scene: Scene, first: str, second: str, placed: dict[str, Placed]) -> tuple[float, str]:
-    """How deep two objects overlap seen from above [m], 0 when they are at different heights, and
-    at which part if not with their bodies.
+    """How deep two objects overlap seen from above [m], 0 when they are at different heights, or
+    nothing tells how high one of them is, and at which part if not with their bodies.
     """
     one, two = scene.objects[first], scene.objects[second]
     here, there = placed[first], placed[second]
@@ -259,8 +262,11 @@ def _depth(scene: Scene, first: str, second: str, placed: dict[str, Placed]) -> 
     level = (one.on or one.inside or DESK) == (two.on or two.inside or DESK)
     planar = all(item.at is None or len(item.at) == 2 for item in (one, two))
     found = [(0.0, "")]
-    if (level and planar) or _meet(here, there):
+    comparable = here.above == there.above
+    if (level and planar) or (comparable and _meet(here, there)):
         found.append((overlap(here.footprint, there.footprint), ""))
+    if not comparable:
+        return max(found, key=lambda item: item[0])
     mine, theirs = [*protrusions(one, here)], [*protrusions(two, there)]
     pairs: list[tuple[str, Solid, Placed | Solid]] = [(first, part, there) for part in mine]
     for part in theirs:

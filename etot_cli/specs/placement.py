@@ -43,6 +43,10 @@ UPSIDE_DOWN = -0.99
 """Height of a unit vector along its own z axis up to which a vessel stands on its rim: 8° askew,
 more than a quaternion that is written with two digits."""
 
+STANDS_AT = 0.001
+"""What a fastened thing's foot is this close above stands there: heights are told in millimetres
+[m]."""
+
 
 @dataclass(frozen=True, slots=True)
 class Placed:
@@ -52,6 +56,8 @@ class Placed:
         x, y: centre.
         base, top: heights of its lowest and highest point.
         footprint: outline seen from above; None for an object of unknown size.
+        above: the object of unknown size that it stands on or in, perhaps by way of others, above
+            whose foot its heights are told then; None where they are true heights.
     """
 
     x: float
@@ -59,6 +65,7 @@ class Placed:
     base: float
     top: float
     footprint: Footprint | None
+    above: str | None = None
 
 
 def size_of(item: ObjectBase) -> Size | None:
@@ -118,11 +125,14 @@ def _place(scene: Scene, name: str, placed: dict[str, Placed]) -> Placed:
         if is_turned_by_itself and vessel is not None and stands_in(item, vessel):
             size = (size[1], size[1], size[0])
         footprint, height = _outline(item, size, x, y)
+    above = None
     if item.at is not None and len(item.at) == 3:
         base = item.at[2] - height / 2
     else:
         base = _floor(scene, item, under)
-    placed[name] = Placed(x, y, base, base + height, footprint)
+        if under is not None:
+            above = below if under.footprint is None else under.above
+    placed[name] = Placed(x, y, base, base + height, footprint, above)
     return placed[name]
 
 
@@ -155,6 +165,16 @@ def _centre(scene: Scene, item: ObjectBase, under: Placed | None) -> Vector:
     if isinstance(unit, DrawerUnit) and drawer is not None:
         return shifted(under.x, under.y, turned((drawer.open, 0.0), yaw_of(unit)))
     return (under.x, under.y)
+
+
+def fastened_at(item: ObjectBase, placed: Placed, desk_top: float) -> tuple[str | None, str | None]:
+    """On what, and in what, a fastened thing is: as it says, else on the desk, unless its foot is
+    above that.
+    """
+    if item.inside is not None:
+        return None, item.inside
+    lifted = item.at is not None and len(item.at) == 3 and placed.base > desk_top + STANDS_AT
+    return (item.on or (None if lifted else DESK)), None
 
 
 def drawer_of(unit: ObjectBase, address: str | None) -> Drawer | None:

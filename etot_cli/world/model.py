@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from etot_cli.errors import WorldError
 from etot_cli.specs import objects as specs
+from etot_cli.specs.placement import fastened_at, place_all
 from etot_cli.specs.scene import Scene
 from etot_cli.world.build.mjcf_panels import with_panel
 from etot_cli.world.build.mjcf_parts import mjcf_parts
@@ -119,7 +120,7 @@ def build_world(scene: Scene, *, dressed: bool = False, loose_furniture: bool = 
     except ValueError as error:
         raise WorldError(f"the scene does not compile: {error}") from error
     _scale_masses(model, scene)
-    entries = {}
+    entries, placed = {}, place_all(scene)
     for name, entry in drafts.items():
         spec = scene.objects[name]
         if isinstance(spec, specs.Mjcf):
@@ -128,7 +129,9 @@ def build_world(scene: Scene, *, dressed: bool = False, loose_furniture: bool = 
             size = _extents(model, name)
             entry = entry_of(name, spec, parts, regions, surfaces, size)
         mass = float(model.body(entry.body).subtreemass[0])
-        entries[name] = replace(entry, info=replace(entry.info, mass=mass))
+        on, inside = (None, None) if entry.free else fastened_at(spec, placed[name], scene.desk.top)
+        info = replace(entry.info, mass=mass, on=on, inside=inside)
+        entries[name] = replace(entry, info=info)
     index = robot_index(model, robot)
     actuate(model, index, scene.actuation)
     return World(scene, model, index, entries, _addresses(model, entries, index))

@@ -77,6 +77,12 @@ class ObjectInfo:
     """Clear width of that opening [m]; 0 where there is none."""
     plain_color: bool = True
     """``color`` is its colour itself, not that of a neighbour (cyan, which has no word here)."""
+    foot: float = 0.0
+    """Width of a vessel's foot, where that is narrower than its rim [m]; else 0."""
+    on: str | None = None
+    """What a fastened thing stands on, as its scene has it: no contact tells of that."""
+    inside: str | None = None
+    """The container that a fastened thing is in, as its scene has it."""
 
     @property
     def bears(self) -> bool:
@@ -132,6 +138,15 @@ class SceneState:
                     return part
         return None
 
+    def supports(self, name: str) -> tuple[str, ...]:
+        """What an object rests on, or stands on for good where it is fastened."""
+        state, info = self.states[name], self.infos[name]
+        return state.on if state.on or info.on is None else (info.on,)
+
+    def container(self, name: str) -> str | None:
+        """The container that an object lies in, or is in for good where it is fastened."""
+        return self.states[name].inside or self.infos[name].inside
+
     def openness(self, part: PartInfo) -> float:
         """How far a part is open, 0…1."""
         return self.states[part.owner].openness[part.name]
@@ -181,6 +196,8 @@ class Cause:
     text: str
     time_s: float | None = None
     """Simulated time within the action, when there was one."""
+    lasting: bool = False
+    """It lies in the object as it stands: elsewhere, and at another time, it is the same."""
 
 
 @dataclass(frozen=True, slots=True)

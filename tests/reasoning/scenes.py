@@ -33,6 +33,8 @@ def item(
     openness: Mapping[str, float] | None = None,
     boards: tuple[str, ...] = (),
     plain_color: bool = True,
+    foot: float = 0.0,
+    fixed_on: str | None = None,
 ) -> Item:
     """An object of a kind, with what follows from the kind."""
     furniture = kind in ("drawer_unit", "cabinet", "shelf")
@@ -43,7 +45,7 @@ def item(
         color=color,
         size=size,
         mass=mass,
-        movable=not furniture,
+        movable=not furniture and fixed_on is None,
         container=kind in ("cup", "bowl"),
         surface=furniture or kind in ("box", "cylinder"),
         elongated=kind == "pen",
@@ -51,12 +53,14 @@ def item(
         boards=boards,
         mouth=size[0] - 0.006 if kind in ("cup", "bowl") else 0.0,
         plain_color=plain_color,
+        foot=foot,
+        on=fixed_on,
     )
     opening = dict(openness or {})
     state = ObjectState(
         position=(*at, TOP + size[2] / 2 if z is None else z),
         quaternion=UPRIGHT,
-        on=(on,) if on else (),
+        on=(on,) if on and fixed_on is None else (),
         inside=inside,
         openness=opening,
         opened={part: value >= 0.75 for part, value in opening.items()},

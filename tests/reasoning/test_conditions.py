@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from etot_cli.errors import InstructionError, UnsatisfiableError
+from etot_cli.planning.conditions import holds
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.builtin.branching import MAX_ALTERNATIVES
 from etot_cli.reasoning.builtin.goal import Relation
@@ -120,6 +121,81 @@ def test_what_is_not_to_be_there_goes_elsewhere(
         scenes.ball("nut", (0.4, 0.4)),
     )
     assert plans(state, condition) == wanted
+
+
+def fastened() -> SceneState:
+    return scenes.scene(
+        scenes.item("scale", size=(0.2, 0.14, 0.04), fixed_on="desk"),
+        scenes.item("clock", at=(0.6, 0.0), fixed_on="rack.top"),
+        scenes.item("rack", "shelf", (0.6, 0.0), boards=("bottom", "top"), fixed_on="desk"),
+        scenes.cup("jar", (0.4, 0.3)),
+        scenes.ball("pill", (0.4, -0.3)),
+    )
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        {"on": ["scale", "desk"]},
+        {"on": ["rack", "desk"]},
+        {"on": ["clock", "rack"]},
+        {"on": ["clock", "rack.top"]},
+        {"not": {"on": ["scale", "jar"]}},
+        {"not": {"on": ["clock", "desk"]}},
+        {"not": {"inside": ["scale", "jar"]}},
+        {"not": {"in_hand": "rack"}},
+        {"any": [{"inside": ["scale", "jar"]}, {"on": ["scale", "desk"]}]},
+    ],
+)
+def test_what_holds_of_a_fastened_thing_needs_no_picking_up(condition: dict[str, Any]) -> None:
+    state = fastened()
+    assert plans(state, condition) == []
+    assert holds(Condition.model_validate(condition), state)
+    assert plans(state, condition, {"inside": ["pill", "jar"]}) == [
+        "[PICK UP, pill] [PUT INTO, jar]"
+    ]
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        {"on": ["scale", "rack"]},
+        {"on": ["clock", "rack.bottom"]},
+        {"inside": ["scale", "jar"]},
+        {"not": {"on": ["scale", "desk"]}},
+        {"in_hand": "rack"},
+    ],
+)
+def test_what_does_not_hold_of_a_fastened_thing_is_refused(condition: dict[str, Any]) -> None:
+    with pytest.raises(InstructionError, match="cannot be picked up"):
+        plans(fastened(), condition)
+    assert not holds(Condition.model_validate(condition), fastened())
+
+
+@pytest.mark.parametrize(
+    ("upper", "verb"),
+    [
+        ({"kind": "cylinder", "size": (0.05, 0.05, 0.1)}, "PUT INTO"),
+        ({"kind": "bowl", "size": (0.17, 0.17, 0.05), "foot": 0.13}, "PUT INTO"),
+        ({"kind": "bowl", "size": (0.17, 0.17, 0.05)}, "PUT ON"),
+        ({"kind": "cylinder", "size": (0.18, 0.18, 0.01)}, "PUT ON"),
+        ({"kind": "box", "size": (0.13, 0.13, 0.02)}, "PUT ON"),
+    ],
+)
+def test_what_goes_through_a_mouth_is_put_in_where_it_is_to_be_on(
+    upper: dict[str, Any], verb: str
+) -> None:
+    """A box by its diagonal, and a vessel by its foot, as it nests in another one."""
+    dish = scenes.item("dish", "bowl", (0.4, 0.2), size=(0.17, 0.17, 0.05))
+    state = scenes.scene(dish, scenes.item("it", at=(0.4, -0.2), **upper))
+    wish = {"on": ["it", "dish"]}
+    assert plans(state, wish) == [f"[PICK UP, it] [{verb}, dish]"]
+    within = scenes.item("it", at=(0.4, 0.2), on="dish", inside="dish", **upper)
+    there = scenes.scene(dish, within)
+    if verb == "PUT INTO":
+        assert plans(there, wish) == []
+        assert plans(there, {"not": wish}) == ["[PICK UP, it] [PUT ON, desk]"]
+    assert holds(Condition.model_validate(wish), there)
 
 
 @pytest.mark.parametrize("keys", [("left_of", "right_of"), ("in_front_of", "behind")])

@@ -1341,3 +1341,15 @@ def test_beside_what_comes_later_is_beside_where_that_will_be() -> None:
         "[PICK UP, box] [PUT ON, desk] (right of cup, room for cup at 0.400 0.500) "
         "[PICK UP, cup] [PUT ON, desk] (at 0.400 0.500)"
     )
+
+
+@pytest.mark.parametrize("lasting", [False, True])
+def test_what_no_hand_takes_anywhere_is_not_set_down_elsewhere(lasting: bool) -> None:
+    start = scenes.scene(
+        scenes.item("rack", "shelf", (0.6, 0.0), boards=("bottom", "top")),
+        scenes.item("bowl", "bowl", (0.4, 0.2), size=(0.13, 0.13, 0.06)),
+        scenes.ball("ball", (0.4, 0.05)),
+    )
+    plan = "[PICK UP, bowl] [PUT ON, desk] [PICK UP, bowl] (horizontal) [PUT ON, rack.bottom]"
+    why = replace(cause(CauseKind.NO_GRASP, "ball", "bowl"), lasting=lasting)
+    assert (revisions(failed(start, plan, 2, why)) == []) == lasting

@@ -361,3 +361,30 @@ def test_what_is_round_and_too_broad_beside_its_middle_is_itself_in_the_way() ->
     assert cause is not None
     assert cause.kind is CauseKind.NO_GRASP and cause.objects == ("can",)
     assert "the fingers meet can itself" in cause.text
+    assert cause.lasting
+
+
+@pytest.mark.parametrize("at", [[0.38, 0.25], [0.3, -0.3], [0.45, 0.0]])
+@pytest.mark.parametrize(("diameter", "lasting"), [(0.13, True), (0.10, True), (0.07, False)])
+def test_a_bowl_too_wide_for_a_level_hand_is_so_everywhere(
+    at: list[float], diameter: float, lasting: bool
+) -> None:
+    bowl = {"kind": "bowl", "diameter": diameter, "height": 0.065, "mass": 0.2, "at": at}
+    cause = episode(bowl=bowl).do("[PICK UP, bowl] (horizontal)").record.cause
+    assert (cause is not None and cause.lasting) == lasting, cause
+
+
+@pytest.mark.parametrize(("yaw", "lasting"), [(0, False), (37, False), (90, False)])
+def test_a_box_of_which_some_sides_fit_may_be_taken_elsewhere(yaw: float, lasting: bool) -> None:
+    box = {"kind": "box", "size": [0.07, 0.16, 0.08], "mass": 0.2, "at": [0.4, 0.1], "yaw_deg": yaw}
+    cause = episode(box=box).do("[PICK UP, box] (horizontal)").record.cause
+    assert cause is None or cause.lasting == lasting
+
+
+def test_who_is_near_and_not_in_the_way_is_not_to_blame() -> None:
+    """The desk keeps a level hand from what is thin, whoever lies beside it."""
+    lid = {"kind": "cylinder", "diameter": 0.078, "height": 0.015, "mass": 0.05, "at": [0.45, -0.3]}
+    tea = {"kind": "box", "size": [0.03, 0.03, 0.02], "mass": 0.02, "at": [0.37, -0.24]}
+    cause = episode(lid=lid, tea=tea).do("[PICK UP, lid] (horizontal)").record.cause
+    assert cause is not None
+    assert cause.kind is CauseKind.NO_GRASP and cause.objects == ("lid",)

@@ -371,6 +371,31 @@ def test_things_of_unknown_size_are_only_placed(tmp_path: Path) -> None:
     )
 
 
+def test_what_is_above_a_thing_of_unknown_height_may_be_above_others(tmp_path: Path) -> None:
+    """Only what is on the same thing is told apart in the plane, and by heights that it shares."""
+    write(tmp_path, "a.xml", "<mujoco/>")
+    bench = "{kind: mjcf, file: a.xml, at: [0.4, 0.0], surface_site: top, fixed: true}"
+    under = {"bench": bench, "under": BALL.format("at: [0.4, 0.0]")}
+    ok(tmp_path, **under, top=BALL.format("on: bench"))
+    ok(tmp_path, **under, top=BOX.format("on: bench"), upon=BALL.format("on: top"))
+    ok(tmp_path, bench=bench, high=BALL.format("at: [0.4, 0.0, 0.3]"), top=BALL.format("on: bench"))
+    beside = {"bench": bench, "one": BALL.format("on: bench"), "two": BALL.format("on: bench")}
+    assert "overlaps 'one'" in scene_error(tmp_path, objects(**beside))
+    stacked = {"bench": bench, "box": BOX.format("on: bench"),
+               "ball": BALL.format("on: box, at: [0.4, 0.04]"), "lamp": BOX.format("on: bench, at: [0.4, 0.16]"),
+               "globe": BOX.format("on: lamp, at: [0.4, 0.12]")}  # fmt: skip
+    assert "overlaps" in scene_error(tmp_path, objects(**stacked))
+
+
+def test_a_vessel_nests_by_its_foot(tmp_path: Path) -> None:
+    plate = "{{kind: bowl, diameter: 0.17, foot_diameter: {}, height: 0.045, {}}}"
+    low = plate.format(0.13, "at: [0.4, 0.0]")
+    for place in ("inside: low", "on: low"):
+        ok(tmp_path, low=low, high=plate.format(0.13, place))
+    error = scene_error(tmp_path, objects(low=low, high=plate.format(0.168, "inside: low")))
+    assert "does not fit into 'low'" in error
+
+
 def test_tilted_boxes(tmp_path: Path) -> None:
     # Turned by 90° about y the long side stands up.
     upright = "quaternion: [0.70710678, 0, 0.70710678, 0]"

@@ -72,7 +72,7 @@ def _with_harm(cause: Cause, harmed: Sequence[Harm]) -> Cause:
     objects = tuple(dict.fromkeys((*cause.objects, *(harm.name for harm in harmed))))
     unsaid = [harm.words() for harm in harmed if harm.words() not in cause.text]
     text = f"{cause.text}; {_listed(unsaid)}" if unsaid else cause.text
-    return Cause(cause.kind, objects, text, cause.time_s)
+    return replace(cause, objects=objects, text=text)
 
 
 def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[Harm]) -> Cause:

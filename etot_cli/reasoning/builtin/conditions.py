@@ -13,9 +13,10 @@ from etot_cli.reasoning.builtin.circles import circle
 from etot_cli.reasoning.builtin.drafts import BESIDE, STANCES, Atom, Draft, contradiction
 from etot_cli.reasoning.builtin.goal import (
     Goal,
+    Relation,
     Thing,
 )
-from etot_cli.reasoning.builtin.relations import is_on
+from etot_cli.reasoning.builtin.relations import is_at
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.turning import turned
 from etot_cli.specs.task import BESIDE_KEYS, Condition
@@ -39,12 +40,13 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
         UnsatisfiableError: they contradict each other.
     """
     alternatives = _conjunctions([_alternatives(item, scene, denied=False) for item in conditions])
+    fastened = {name for name, info in scene.infos.items() if not info.movable}
     goals: list[Goal] = []
     objection: InstructionError | None = None
     for atoms in alternatives:
         draft = Draft(
             scene,
-            moved=_brought(atoms, "on", "inside", "in_hand", BESIDE),
+            moved=_brought(atoms, "on", "inside", "in_hand", BESIDE) - fastened,
             held=_brought(atoms, "in_hand"),
         )
         try:
@@ -160,7 +162,11 @@ def _alternatives(
             off_desk = denied and pair[1] == DESK
             elsewhere = [(item,) for item in _off_the_desk(pair[0], scene)] if off_desk else []
             # Where it lies on the desk now it does not get off it by being left alone.
-            stays = not (elsewhere and pair[0] in scene.states and is_on(scene, *pair))
+            stays = not (
+                elsewhere
+                and pair[0] in scene.states
+                and is_at(scene, pair[0], Relation.ON, pair[1])
+            )
             return [*([(atom,)] if stays else []), *elsewhere]
     for key in ("in_hand", "open", "closed", *STANCES, "present"):
         name: str | None = getattr(condition, key)

@@ -19,7 +19,7 @@ from etot_cli.reasoning.builtin.goal import (
     Step,
     Thing,
 )
-from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_at
+from etot_cli.reasoning.builtin.relations import ROLLING_KINDS, is_at, sinks
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.world import spatial
@@ -63,6 +63,7 @@ class Draft:
     held: frozenset[str]
     referents: list[Referent] = field(default_factory=list)
     steps: list[Step] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
     def add(self, atom: Atom) -> None:
         """Adds what makes a statement true.
@@ -90,15 +91,24 @@ class Draft:
             UnsatisfiableError: two objects would have to stay in the hand.
         """
         try:
-            return settled(Goal(tuple(self.referents), tuple(self.steps)), self.scene)
+            goal = Goal(tuple(self.referents), tuple(self.steps), notes=tuple(self.notes))
+            return settled(goal, self.scene)
         except ReferenceProblem as error:
             raise contradiction(error.phrase, error.why) from error
 
     def _place(self, atom: Atom) -> None:
         name, place = atom.names
         relation = Relation.ON if atom.key == "on" else Relation.INSIDE
+        target_role = Role.SURFACE if atom.key == "on" else Role.CONTAINER
+        if self._stays(name) and place not in self.moved:
+            self._refer(place, target_role)
+            if is_at(self.scene, name, relation, place) != atom.denied:
+                return
         theme = self._refer(name, Role.THEME)
-        target = self._refer(place, Role.SURFACE if atom.key == "on" else Role.CONTAINER)
+        target = self._refer(place, target_role)
+        if relation is Relation.ON and self._sinks(name, place):
+            relation = Relation.INSIDE
+            self.notes.append(f"read 'on: [{name}, {place}]' as inside: it goes through its mouth")
         if not atom.denied:
             self.steps.append(Put((theme,), (Place(relation, target),)))
             return
@@ -128,12 +138,23 @@ class Draft:
             place = Place(Relation.ON, surface, (near,), if_needed=bool(landmarks))
             self.steps.append(Put((theme,), (place,)))
 
+    def _sinks(self, name: str, place: str) -> bool:
+        """Whether what is put on something is in it; nothing is in a vessel that lies or stands on
+        its head.
+        """
+        infos, state = self.scene.infos, self.scene.states.get(place)
+        return state is not None and not state.toppled and sinks(infos[name], infos[place])
+
+    def _stays(self, name: str) -> bool:
+        """Whether a thing is one that cannot be moved: what holds of it needs no picking up."""
+        info = self.scene.infos.get(name)
+        return info is not None and not info.movable
+
     def _stays_so(self, name: str, where: Whereabouts) -> bool:
         """Whether what cannot be moved is where it should be, or may come to be so by what is to be
         done with its landmarks; the end will tell.
         """
-        info = self.scene.infos.get(name)
-        if info is None or info.movable or not {*where.landmarks} <= {*self.scene.states}:
+        if not self._stays(name) or not {*where.landmarks} <= {*self.scene.states}:
             return False
         goes = not self.moved.isdisjoint(where.landmarks)
         return goes or spatial.holds(where, name, self.scene)
@@ -177,6 +198,8 @@ class Draft:
 
     def _in_hand(self, atom: Atom) -> None:
         name = atom.names[0]
+        if atom.denied and self._stays(name):
+            return
         theme = self._refer(name, Role.THEME)
         if not atom.denied:
             self.steps.append(Pick(theme))

@@ -105,6 +105,9 @@ def _corrections(case: FailedCase) -> Iterator[Correction]:
 
 
 def _of_pick(case: FailedCase) -> Iterator[Correction]:
+    if case.cause.lasting:  # neither another place nor another order helps
+        yield from regrasped(case.failed, case.index, case.cause.kind)
+        return
     if case.action.onward is not None and case.is_full:
         yield from set_down_for(case.failed)
         return
@@ -143,7 +146,9 @@ def _of_pick(case: FailedCase) -> Iterator[Correction]:
         yield from taken_out_first(case, placed, name)
     yield from taken_before_moved(case)
     yield from regrasped(case.failed, case.index, case.cause.kind)
-    yield from set_down_elsewhere(case.failed, case.action.target)
+    # Where the hand has no room though nothing stands near, it has none elsewhere on the desk.
+    if culprits or case.cause.kind is not CauseKind.NO_GRASP:
+        yield from set_down_elsewhere(case.failed, case.action.target)
 
 
 def _of_put(case: FailedCase) -> Iterator[Correction]:

@@ -118,6 +118,8 @@ def laid_down(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[Co
     info, stance = failed.record.before.infos[name], any(w.relation.is_stance for w in put.where)
     if stance or info.container or info.kind in ROLLING_KINDS or not can_lie(info):
         return
+    if min(info.size[:2]) >= info.size[2]:
+        return  # it is no lower on its side
     lying = replace(put, where=(*put.where, Whereabouts(Nearby.LYING)))
     laid = (*actions[: failed.index], lying, *actions[failed.index + 1 :])
     yield Correction(laid, f"{name} is laid down")

@@ -40,8 +40,26 @@ def parts_of(scene: SceneState, thing: Thing) -> tuple[PartInfo, ...]:
 
 
 def is_at(scene: SceneState, name: str, relation: Relation, place: str) -> bool:
-    """Whether an object is on or in a place."""
+    """Whether an object is on or in a place, be it for good."""
+    info = scene.infos[name]
+    if relation is Relation.ON and info.on is not None:
+        return place in (info.on, owner_of(info.on))
+    if relation is Relation.INSIDE and info.inside is not None:
+        around = container_address(scene, info.inside) or info.inside
+        owner = owner_of(around)
+        own = place == around or container_address(scene, place) == around
+        return own or (owner in scene.infos and is_inside(scene, owner, place))
     return (is_on if relation is Relation.ON else is_inside)(scene, name, place)
+
+
+def sinks(info: ObjectInfo, vessel: ObjectInfo) -> bool:
+    """Whether a thing as it stands, or the foot of one that is a vessel, goes through another
+    vessel's mouth: what is put on that is in it.
+    """
+    if vessel.surface or not vessel.container:
+        return False
+    across = (math.hypot if info.kind == "box" else max)(*info.size[:2])
+    return (info.foot or across) < vessel.mouth
 
 
 def container_parts(info: ObjectInfo) -> tuple[PartInfo, ...]:

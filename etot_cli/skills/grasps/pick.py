@@ -14,7 +14,7 @@ from etot_cli.skills.foresight import Foresight
 from etot_cli.skills.grasps.approach import LIFT, STANDOFF, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.candidates import fingertip_grasps, sample_grasps
 from etot_cli.skills.grasps.ranking import Grasp, GraspSet
-from etot_cli.skills.grasps.refusals import explain, goes_nowhere, too_wide
+from etot_cli.skills.grasps.refusals import explain, goes_nowhere, lasts, too_wide
 from etot_cli.skills.grasps.variants import spun, variants
 from etot_cli.skills.motion.motion import (
     GRIP_TIME,
@@ -101,7 +101,7 @@ def pick_motions(
     if action.onward is not None and foresight is not None and foresight.refused:
         yield goes_nowhere(name, action.onward, foresight.refused)
     else:
-        yield explain(belief, name, found(), blockers, unreachable)
+        yield explain(belief, action, found(), blockers, unreachable)
 
 
 def _prepare(
@@ -200,10 +200,15 @@ def pick_outcome(
     name, before = action.target, belief.object_pose(action.target)
     raised = float(np.linalg.norm(after.states[name].position - before.position))
     width, opening = motion.details["width"], belief.world.robot.spec.gripper.opening
+
+    def wide() -> SkillOutcome:
+        lasting = lasts(belief, name, action.pose)
+        return too_wide(name, width, opening, trace.seconds, lasting=lasting)
+
     if after.holding == name and raised >= 0.3 * LIFT:
         # What fingers that cannot open any further were pushed against may come along, wedged
         # before their tips by friction alone. No hand that is a millimetre off would do it again.
-        return DONE if width <= opening else too_wide(name, width, opening, trace.seconds)
+        return DONE if width <= opening else wide()
     # Where it is wider than the gripper opens, the other grasps of this kind pinch it no better.
     another = width <= opening
     stopped = trace.stopped
@@ -219,7 +224,7 @@ def pick_outcome(
         struck = [item for item in trace.touching if item != name]
         if not struck and width > opening:
             # Tried all the same, since physics decides; what stopped the hand is the thing itself.
-            return too_wide(name, width, opening, trace.seconds)
+            return wide()
         met = trace.against(name if stopped.name == "lift" else None)
         against = sorted(met, key=lambda address: address == name)
         return arm_stopped(where, against, [name], trace.seconds)
@@ -228,7 +233,7 @@ def pick_outcome(
         text = f"the fingers closed without getting hold of {name} {widths}"
     elif width > opening:
         # The fingers came to rest on it: they were never around it.
-        return too_wide(name, width, opening, trace.seconds)
+        return wide()
     else:
         text = f"{name} slipped out of the fingers {_too_heavy(belief, name) or widths}"
     return failed(CauseKind.SLIP, [name], text, trace.seconds, another_way=another)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import Action, GraspPose, Verb
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import NARROW_ROOMS, PreparedGrasp, prepare_grasp
 from etot_cli.skills.grasps.ranking import GraspSet
@@ -14,14 +14,23 @@ from etot_cli.skills.outcome import Blockers, SkillOutcome, failed
 from etot_cli.world.placing import object_bounds
 from etot_cli.world.state import CauseKind, owner_of
 
+ROUND = frozenset({"cup", "bowl", "cylinder", "sphere"})
+"""Kinds that are the same from all sides as long as they stand."""
+LEVEL_TOP = 0.99
+"""What rises by this along its own z axis stands (cosine; 8°)."""
 MAX_SUSPECTS = 4
 """Objects that are taken away, one at a time and together, to see whether that helps."""
 
 
 def explain(
-    belief: Belief, name: str, found: GraspSet, blockers: Blockers, unreachable: int
+    belief: Belief,
+    action: Action,
+    found: GraspSet,
+    blockers: Blockers,
+    unreachable: int,
 ) -> SkillOutcome:
     """Why no grasp goes: whoever is in the way is found by looking again without them."""
+    name, pose = action.target, action.pose
     opening = belief.world.robot.spec.gripper.opening
     # Lines that cut off a corner are short enough, but the fingers do not pass the object itself.
     suspects = blockers.most(excluding=[name])[:MAX_SUSPECTS]
@@ -31,7 +40,11 @@ def explain(
             [name],
             f"no two opposed upright sides of {name} fit the gripper, which opens "
             f"{opening * 1000:.0f} mm",
+            lasting=lasts(belief, name, pose),
         )
+    if not found.grasps and found.narrowest > opening and lasts(belief, name, pose):
+        # Who is in the way of fingers that could not close anyhow is no matter.
+        return too_wide(name, found.narrowest, opening, lasting=True)
     guilty = _guilty(belief, name, found, suspects)
     if guilty:
         return failed(
@@ -51,10 +64,13 @@ def explain(
     text = f"the hand has no room at any grasp of {name}"
     if blockers.always(name):  # as of what is round and broader than the line that would fit
         text = f"the fingers meet {name} itself at every grasp that is narrow enough for them"
+    # Those whose absence has been seen not to help are not to blame.
+    unseen = suspects if len(blockers.most(excluding=[name])) > len(suspects) else ()
     return failed(
         CauseKind.NO_GRASP,
-        [*suspects, name],
+        [*unseen, name],
         f"{text} (opening {opening * 1000:.0f} mm)",
+        lasting=blockers.always(name) and lasts(belief, name, pose),
     )
 
 
@@ -115,7 +131,21 @@ def _guilty(belief: Belief, name: str, found: GraspSet, suspects: Sequence[str])
     return guilty
 
 
-def too_wide(name: str, width: float, opening: float, time_s: float | None = None) -> SkillOutcome:
+def lasts(belief: Belief, name: str, pose: GraspPose | None) -> bool:
+    """Whether an object that stands and has no grasp has none wherever it stands: which of its
+    sides are seen depends on the place, unless they are all alike or all too far apart.
+    """
+    info = belief.world.entries[name].info
+    if belief.data.body(name).xmat[8] < LEVEL_TOP:
+        return False
+    too_far = min(info.size[:2]) > belief.world.robot.spec.gripper.opening
+    walled = info.container and pose is not GraspPose.HORIZONTAL
+    return info.kind in ROUND or (too_far and not walled)
+
+
+def too_wide(
+    name: str, width: float, opening: float, time_s: float | None = None, *, lasting: bool = False
+) -> SkillOutcome:
     """``width`` and ``opening`` in metres."""
     return failed(
         CauseKind.NO_GRASP,
@@ -123,6 +153,7 @@ def too_wide(name: str, width: float, opening: float, time_s: float | None = Non
         f"{name} is {width * 1000:.0f} mm wide where the fingers would close, the gripper opens "
         f"{opening * 1000:.0f} mm and needs a little to spare",
         time_s,
+        lasting=lasting,
     )
 
 

@@ -136,6 +136,7 @@ def entry_of(
             if isinstance(spec, specs.Cup)  # a conical one is wider above than inside
             else min((2 * min(half) for half in open_tops), default=0.0)
         ),
+        foot=(spec.foot_diameter or 0.0) if isinstance(spec, specs.Cup) else 0.0,
         plain_color=spec.color is None or is_basic(spec.color),
     )
     upright = not isinstance(spec, specs.Sphere | specs.Pen | specs.Capsule)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import Thing
+from etot_cli.reasoning.builtin.relations import sinks
 from etot_cli.reasoning.language.reference.geometry.space import is_flat
 from etot_cli.reasoning.language.words.lexicon import is_drunk_from
 from etot_cli.world.state import DESK, SceneState
@@ -19,24 +20,14 @@ def _width(thing: Thing, scene: SceneState) -> float:
     return math.inf if thing.name == DESK else max(scene.infos[thing.name].size[:2])
 
 
-def _sinks(thing: Thing, mouth: float, scene: SceneState) -> bool:
-    """Whether a thing as it lies goes through a round mouth [m]."""
-    if thing.name == DESK:
-        return True
-    info = scene.infos[thing.name]
-    return (math.hypot if info.kind == "box" else max)(*info.size[:2]) < mouth
-
-
 def lies_on(things: Sequence[Thing], below: Thing, scene: SceneState) -> bool:
     """Whether things stay on top of another one and do not sink into its mouth."""
     if below.name == DESK or below.board is not None:
         return True
     info = scene.infos[below.name]
-    return (
-        info.surface
-        or not info.container
-        or not any(_sinks(thing, info.mouth, scene) for thing in things)
-    )
+    if info.surface or not info.container:
+        return True
+    return not any(one.name == DESK or sinks(scene.infos[one.name], info) for one in things)
 
 
 def bears(below: Sequence[Thing], laid: Sequence[Thing], scene: SceneState) -> bool:
