@@ -84,7 +84,7 @@ class FailedCase:
 
         What this branch has changed did not stand in the way at the start. What has been taken out
         of the way already comes last, and what lies in a vessel that is to blame after that vessel,
-        which takes it along.
+        which takes it along. So does a vessel that the branch has brought there with what is named.
         """
         scene = self.scene
         named = dict.fromkeys(owner_of(name) for name in self.cause.objects)
@@ -96,6 +96,8 @@ class FailedCase:
         opened = {owner_of(self.actions[i].target) for i in opened_before(self.actions, self.index)}
         if not others and self.cause.kind is CauseKind.NO_ROOM:
             others = self._occupants()
+        others += [vessel for name in others for vessel in self._brought_with(name)]
+        others = list(dict.fromkeys(others))
         vessels = {name for name in others if scene.infos[name].movable}
         return sorted(
             others,
@@ -105,6 +107,25 @@ class FailedCase:
                 not vessels.isdisjoint(map(owner_of, enclosing(scene, name))),
             ),
         )
+
+    def _brought_with(self, name: str) -> list[str]:
+        """The vessels with which the branch has brought an object to where it is.
+
+        Among the contents of one vessel, and for what goes into it, its place decides nothing.
+        """
+        if placed_by(self.actions, name, self.index) is not None or relocations(self.actions, name):
+            return []
+        own = {self.acted, owner_of(self.action.target)}
+        own |= {vessel for thing in own & {*self.scene.states} for vessel in self._around(thing)}
+        return [
+            vessel
+            for vessel in self._around(name)
+            if vessel not in own and placed_by(self.actions, vessel, self.index) is not None
+        ]
+
+    def _around(self, name: str | None) -> list[str]:
+        """The vessels around an object, from the nearest outwards."""
+        return [] if name is None else [owner_of(item) for item in enclosing(self.scene, name)]
 
     def is_furniture_alone(self) -> bool:
         """Whether only what cannot be moved is in the way."""
