@@ -39,12 +39,13 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
         UnsatisfiableError: they contradict each other.
     """
     alternatives = _conjunctions([_alternatives(item, scene, denied=False) for item in conditions])
+    fixed = {name for name, info in scene.infos.items() if not info.movable}
     goals: list[Goal] = []
     objection: InstructionError | None = None
     for atoms in alternatives:
         draft = Draft(
             scene,
-            moved=_brought(atoms, "on", "inside", "in_hand", BESIDE),
+            moved=_brought(atoms, "on", "inside", "in_hand", BESIDE) - fixed,
             held=_brought(atoms, "in_hand"),
         )
         try:
@@ -109,9 +110,7 @@ def _without_implied(atoms: Sequence[Atom], scene: SceneState) -> list[Atom]:
     held = {atom.names[0] for atom in atoms if atom.key == "in_hand" and not atom.denied}
     denied = (atom for atom in atoms if atom.denied and atom.key in ("on", "inside"))
     implied += [
-        atom
-        for atom in denied
-        if atom.names[0] in held or not _ends_up_at(atom, places, scene)
+        atom for atom in denied if atom.names[0] in held or not _ends_up_at(atom, places, scene)
     ]
     return [atom for atom in atoms if atom not in implied]
 

@@ -97,6 +97,10 @@ class Draft:
     def _place(self, atom: Atom) -> None:
         name, place = atom.names
         relation = Relation.ON if atom.key == "on" else Relation.INSIDE
+        if self._is_fixed(name):
+            self._refer(place, Role.ANY)
+            if is_at(self.scene, name, relation, place) != atom.denied:
+                return
         theme = self._refer(name, Role.THEME)
         target = self._refer(place, Role.SURFACE if atom.key == "on" else Role.CONTAINER)
         if not atom.denied:
@@ -132,11 +136,15 @@ class Draft:
         """Whether what cannot be moved is where it should be, or may come to be so by what is to be
         done with its landmarks; the end will tell.
         """
-        info = self.scene.infos.get(name)
-        if info is None or info.movable or not {*where.landmarks} <= {*self.scene.states}:
+        if not self._is_fixed(name) or not {*where.landmarks} <= {*self.scene.states}:
             return False
         goes = not self.moved.isdisjoint(where.landmarks)
         return goes or spatial.holds(where, name, self.scene)
+
+    def _is_fixed(self, name: str) -> bool:
+        """Whether a thing of the scene stays where it is, whatever is done."""
+        info = self.scene.infos.get(name)
+        return info is not None and not info.movable
 
     def _stance(self, atom: Atom) -> None:
         """Standing, or lying, where it is put; on the desk where it does not yet and is put nowhere

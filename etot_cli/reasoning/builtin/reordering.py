@@ -114,7 +114,12 @@ def filled_before(case: FailedCase) -> Iterator[Correction]:
     # Who else is to blame is so wherever the vessel stands, or makes way where it stands.
     others = (name for name in case.culprits() if case.scene.infos[name].movable)
     hidden = case.cause.kind is CauseKind.UNREACHABLE or case.is_furniture_alone()
-    if case.action.verb is Verb.PUT_INTO and placed is not None and hidden and {*others} <= {vessel}:
+    if (
+        case.action.verb is Verb.PUT_INTO
+        and placed is not None
+        and hidden
+        and {*others} <= {vessel}
+    ):
         yield from done_earlier(case, placed, vessel)
 
 
