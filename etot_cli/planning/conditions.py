@@ -70,7 +70,7 @@ def _denied(condition: Condition, scene: SceneState) -> bool:
 
 def _on(name: str, support: str, scene: SceneState) -> bool:
     state = _object(name, scene)
-    if support in state.on:
+    if support in state.on or (support == DESK and scene.is_fastened_to_desk(name)):
         return True
     _check_place(support, scene)
     # A thing on one of a shelf's boards is on the shelf; a thing in a drawer is not on the unit.

@@ -15,6 +15,8 @@ STAYS_OPEN_AT = 0.65
 may push it back a little (hysteresis)."""
 CLOSED_AT = 0.06
 """A part counts as closed up to this share of its travel."""
+HANGS = 0.01
+"""What is fastened with its foot higher above the desk than this does not stand on it [m]."""
 
 
 def triple(values: Iterable[float]) -> tuple[float, float, float]:
@@ -135,6 +137,13 @@ class SceneState:
     def openness(self, part: PartInfo) -> float:
         """How far a part is open, 0…1."""
         return self.states[part.owner].openness[part.name]
+
+    def is_fastened_to_desk(self, name: str) -> bool:
+        """Whether an object is fastened and stands on the desk, of which no contact tells."""
+        info, state = self.infos[name], self.states[name]
+        # The origin of an imported object may lie in its foot as well as in its middle.
+        hangs = state.position[2] - info.size[2] / 2 > self.desk_top + HANGS
+        return not (info.movable or state.on or state.inside or hangs)
 
 
 class CauseKind(StrEnum):

@@ -99,7 +99,10 @@ class Draft:
         relation = Relation.ON if atom.key == "on" else Relation.INSIDE
         if self._is_fixed(name):
             self._refer(place, Role.ANY)
-            if is_at(self.scene, name, relation, place) != atom.denied:
+            stays = is_at(self.scene, name, relation, place)
+            if atom.key == "on" and place == DESK:
+                stays = stays or self.scene.is_fastened_to_desk(name)
+            if stays != atom.denied:
                 return
         theme = self._refer(name, Role.THEME)
         target = self._refer(place, Role.SURFACE if atom.key == "on" else Role.CONTAINER)
