@@ -128,7 +128,8 @@ def _ends_up_at(atom: Atom, places: Mapping[str, Sequence[Atom]], scene: SceneSt
         around = frozenset(other.names[1] for other in places[name])
     else:
         state = scene.states.get(name)
-        around = frozenset(() if state is None else state.on)
+        on_desk = state is not None and scene.is_fastened_to_desk(name)
+        around = frozenset(() if state is None else (*state.on, DESK) if on_desk else state.on)
     wanted = {place, container_address(scene, place)}
     return any(
         not wanted.isdisjoint((at, owner_of(at), container_address(scene, at))) for at in around
