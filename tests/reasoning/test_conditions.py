@@ -105,6 +105,9 @@ def test_what_leaves_with_its_vessel_is_not_taken_out_of_it() -> None:
     out, apart = {"on": ["mug", "desk"]}, {"not": {"inside": ["nut", "cupboard"]}}
     assert plans(state, out, apart) == ["[PICK UP, mug] [PUT ON, desk]"]
     assert plans(state, apart) == ["[PICK UP, nut] [PUT ON, desk]"]
+    for names in (["bolt", "cupboard"], ["nut", "bolt"]):
+        with pytest.raises(InstructionError, match="no such object"):
+            plans(state, {"not": {"inside": names}})
 
 
 def test_what_is_fastened_stays_where_a_goal_wants_it() -> None:

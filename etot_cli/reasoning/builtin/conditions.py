@@ -106,12 +106,14 @@ def _without_implied(atoms: Sequence[Atom], scene: SceneState) -> list[Atom]:
             raise contradiction(name, f"it cannot be both at {one} and at {other}")
         # In a vessel it is on its floor.
         implied += [a for a in kept if len(kept) > 1 and a.key == "on"]
-    # What is put elsewhere, or kept in the hand, is where it must not be no longer.
+    # What is put elsewhere, by itself or with its vessel, or kept in the hand, is where it must not
+    # be no longer.
     held = {atom.names[0] for atom in atoms if atom.key == "in_hand" and not atom.denied}
-    denied = (atom for atom in atoms if atom.denied and atom.key in ("on", "inside"))
-    implied += [
-        atom for atom in denied if atom.names[0] in held or not _ends_up_at(atom, places, scene)
-    ]
+    for atom in (atom for atom in atoms if atom.denied and atom.key in ("on", "inside")):
+        name = atom.names[0]
+        goes = name in places or any(owner_of(at) in places for at in _around(name, {}, scene))
+        if name in held or (goes and not _ends_up_at(atom, places, scene)):
+            implied.append(atom)
     return [atom for atom in atoms if atom not in implied]
 
 
@@ -128,8 +130,7 @@ def _ends_up_at(atom: Atom, places: Mapping[str, Sequence[Atom]], scene: SceneSt
         around = frozenset(other.names[1] for other in places[name])
     else:
         state = scene.states.get(name)
-        on_desk = state is not None and scene.is_fastened_to_desk(name)
-        around = frozenset(() if state is None else (*state.on, DESK) if on_desk else state.on)
+        around = frozenset(() if state is None else state.on)
     wanted = {place, container_address(scene, place)}
     return any(
         not wanted.isdisjoint((at, owner_of(at), container_address(scene, at))) for at in around
