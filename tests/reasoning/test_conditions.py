@@ -82,6 +82,59 @@ def test_denied_place() -> None:
     assert plans(state, {"not": {"inside": ["toy", "drawer"]}}) == ["[PICK UP, toy] [PUT ON, desk]"]
 
 
+@pytest.mark.parametrize("on", ["plate", "desk"])
+@pytest.mark.parametrize("told_last", [True, False])
+def test_what_is_in_a_bowl_on_a_plate_is_not_on_the_plate(on: str, told_last: bool) -> None:
+    state = scenes.scene(
+        scenes.item("plate", "cylinder", (0.46, 0.0), size=(0.22, 0.22, 0.012)),
+        scenes.ball("pear", (0.46, -0.05), on=on),
+        scenes.cup("bowl", (0.45, 0.28)),
+    )
+    wanted = [{"inside": ["pear", "bowl"]}, {"on": ["bowl", "plate"]}]
+    denied = {"not": {"on": ["pear", "plate"]}}
+    conditions = [*wanted, denied] if told_last else [denied, *wanted]
+    filled = "[PICK UP, pear] [PUT INTO, bowl]"
+    assert plans(state, *conditions) == [f"{filled} [PICK UP, bowl] [PUT ON, plate]"]
+
+
+def test_what_leaves_with_its_vessel_is_not_taken_out_of_it() -> None:
+    state = scenes.scene(
+        scenes.cabinet("cupboard", (0.5, 0.0), 1.0),
+        scenes.cup("mug", (0.5, 0.0), inside="cupboard", on="cupboard"),
+        scenes.ball("nut", (0.5, 0.0), inside="mug", on="mug"),
+    )
+    out, apart = {"on": ["mug", "desk"]}, {"not": {"inside": ["nut", "cupboard"]}}
+    assert plans(state, out, apart) == ["[PICK UP, mug] [PUT ON, desk]"]
+    assert plans(state, apart) == ["[PICK UP, nut] [PUT ON, desk]"]
+    for names in (["bolt", "cupboard"], ["nut", "bolt"]):
+        with pytest.raises(InstructionError, match="no such object"):
+            plans(state, {"not": {"inside": names}})
+
+
+def test_what_is_fastened_stays_where_a_goal_wants_it() -> None:
+    """It touches nothing, so that no contact tells what it stands on."""
+    state = scenes.scene(
+        scenes.item("rack", "shelf", (0.6, 0.0), on="", boards=("low",)),
+        scenes.item("lamp", "shelf", (0.3, 0.3), on="", z=0.9),
+        scenes.cup("mug", (0.4, 0.3)),
+    )
+    in_hand = {"in_hand": "mug"}
+    for stays in (
+        {"on": ["rack", "desk"]},
+        {"not": {"on": ["rack", "mug"]}},
+        {"not": {"inside": ["rack", "mug"]}},
+        {"not": {"on": ["lamp", "desk"]}},
+    ):
+        assert plans(state, in_hand, stays) == ["[PICK UP, mug]"]
+    for moves in (
+        {"not": {"on": ["rack", "desk"]}},
+        {"on": ["rack", "mug"]},
+        {"on": ["lamp", "desk"]},
+    ):
+        with pytest.raises(InstructionError, match="it cannot be picked up"):
+            plans(state, in_hand, moves)
+
+
 @pytest.mark.parametrize("count", [3, 4, 6, 9])
 def test_any_number_of_things_leaves_the_desk(count: int) -> None:
     names = [f"ball_{index}" for index in range(count)]

@@ -1146,6 +1146,61 @@ def test_a_vessel_under_a_roof_is_brought_out_before_it_is_filled_or_emptied() -
     assert not {f"{out} {empty}", level} & {*revisions(step)}, "there is no roof over it"
 
 
+@pytest.mark.parametrize(
+    ("kind", "blamed", "first"),
+    [
+        (CauseKind.UNREACHABLE, ("mug",), True),
+        (CauseKind.COLLISION, ("rack",), True),
+        (CauseKind.NO_ROOM, ("rack",), True),
+        (CauseKind.NO_ROOM, ("mug",), False),
+        (CauseKind.COLLISION, ("jar",), False),
+        (CauseKind.UNREACHABLE, ("mug", "jar"), False),
+    ],
+)
+def test_a_vessel_that_a_branch_takes_out_of_reach_is_filled_before(
+    kind: CauseKind, blamed: tuple[str, ...], first: bool
+) -> None:
+    start = scenes.scene(
+        scenes.item("rack", "shelf", (0.6, 0.0), size=(0.2, 0.2, 0.22), boards=("low",)),
+        scenes.cup("mug", (0.38, 0.25)),
+        scenes.cup("jar", (0.6, 0.1), on="rack.low"),
+        scenes.ball("nut", (0.36, -0.22)),
+    )
+    away, fill = "[PICK UP, mug] [PUT ON, rack.low]", "[PICK UP, nut] [PUT INTO, mug]"
+    before = held(changed(start, mug={"on": ("rack.low",), "position": (0.6, 0.0, 0.2)}), "nut")
+    step = failed(start, f"{away} {fill}", 3, cause(kind, *blamed, "nut"), before)
+    assert (revision(step) == f"{fill} {away}") == first
+    # Where it stands without the branch, it is brought out.
+    there = held(replace(start, states=start.states | {"mug": before.states["mug"]}), "nut")
+    step = failed(there, fill, 1, cause(CauseKind.COLLISION, "rack", "nut"), there)
+    assert all(plan.count("[PICK UP, nut]") == 1 for plan in revisions(step))
+
+
+def test_what_a_vessel_has_brought_along_is_not_taken_out_of_it() -> None:
+    """The vessel comes there later, waits elsewhere, or is set down further off."""
+    start = scenes.scene(
+        scenes.cup("beaker", (0.5, -0.3)),
+        scenes.item("rod", "pen", (0.5, -0.3), inside="beaker", on="beaker"),
+        scenes.item("straw", "pen", (0.5, -0.3), inside="beaker", on="beaker"),
+        scenes.item("flask", at=(0.5, 0.2), on="plate"),
+        scenes.item("plate", "cylinder", (0.5, 0.2), size=(0.2, 0.2, 0.02)),
+        scenes.item("tray", "cylinder", (0.3, 0.4), size=(0.2, 0.2, 0.02)),
+    )
+    there = changed(start, beaker={"on": ("plate",)})
+    bring, take = "[PICK UP, beaker] [PUT ON, plate]", "[PICK UP, flask] [PUT ON, tray]"
+    blame = cause(CauseKind.NO_GRASP, "rod", "flask")
+    found = revisions(failed(start, f"{bring} {take}", 2, blame, there))
+    assert found[:2] == [f"{take} {bring}", f"{RELOCATE.format('beaker')} {take} {bring}"]
+    aside = f"{RELOCATE.format('beaker')} (safe place)"
+    found = revisions(failed(start, f"{aside} {take}", 2, blame, there))
+    assert "[PICK UP, rod]" not in found[0], "it goes further off"
+    # Of two things in one vessel the other one is to blame, wherever that stands.
+    blame = cause(CauseKind.NO_GRASP, "rod", "straw")
+    out = "[PICK UP, straw] [PUT ON, desk]"
+    found = revisions(failed(start, f"{bring} {out}", 2, blame, there))
+    assert found[0] == f"{bring} {RELOCATE.format('rod')} {out}"
+
+
 def test_what_is_asked_to_be_open_never_stays_closed() -> None:
     """A door that stands ajar is closed and the ball before it moved; opening it is still asked."""
     start = scenes.scene(

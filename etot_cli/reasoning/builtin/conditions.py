@@ -16,7 +16,7 @@ from etot_cli.reasoning.builtin.goal import (
     Relation,
     Thing,
 )
-from etot_cli.reasoning.builtin.relations import is_at
+from etot_cli.reasoning.builtin.relations import container_address, is_at
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.builtin.turning import turned
 from etot_cli.specs.task import BESIDE_KEYS, Condition
@@ -107,18 +107,35 @@ def _without_implied(atoms: Sequence[Atom], scene: SceneState) -> list[Atom]:
             raise contradiction(name, f"it cannot be both at {one} and at {other}")
         # In a vessel it is on its floor.
         implied += [a for a in kept if len(kept) > 1 and a.key == "on"]
-    # What is put elsewhere, or kept in the hand, is where it must not be no longer.
-    away = {*places, *(a.names[0] for a in atoms if a.key == "in_hand" and not a.denied)}
-    denied = (a for a in atoms if a.denied and a.key in ("on", "inside") and a.names[0] in away)
-    implied += [a for a in denied if a.names[1] not in _ends_up(a.names[0], places, scene)]
+    # What is put elsewhere, by itself or with its vessel, or kept in the hand, is where it must not
+    # be no longer.
+    held = {atom.names[0] for atom in atoms if atom.key == "in_hand" and not atom.denied}
+    for atom in (atom for atom in atoms if atom.denied and atom.key in ("on", "inside")):
+        name = atom.names[0]
+        goes = name in places or any(owner_of(at) in places for at in _around(name, {}, scene))
+        if name in held or (goes and not _ends_up_at(atom, places, scene)):
+            implied.append(atom)
     return [atom for atom in atoms if atom not in implied]
 
 
-def _ends_up(name: str, places: Mapping[str, Sequence[Atom]], scene: SceneState) -> frozenset[str]:
-    """All that an object is to be put on or in, directly or not."""
-    at = [atom.names[1] for atom in places.get(name, ())]
-    around = (_around(owner_of(place), places, scene) for place in at)
-    return frozenset().union(at, *around)
+def _ends_up_at(atom: Atom, places: Mapping[str, Sequence[Atom]], scene: SceneState) -> bool:
+    """Whether an object would be on or in a place once all is where it is to be.
+
+    It is inside of all that is around it, and on nothing but what bears it itself: what lies in a
+    bowl on a plate is not on the plate.
+    """
+    name, place = atom.names
+    if atom.key == "inside":
+        around = _around(name, places, scene)
+    elif name in places:
+        around = frozenset(other.names[1] for other in places[name])
+    else:
+        state = scene.states.get(name)
+        around = frozenset(() if state is None else state.on)
+    wanted = {place, container_address(scene, place)}
+    return any(
+        not wanted.isdisjoint((at, owner_of(at), container_address(scene, at))) for at in around
+    )
 
 
 def _around(

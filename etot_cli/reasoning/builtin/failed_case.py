@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 
 from etot_cli.reasoning.builtin.relations import NOT_OBJECTS, contents, enclosing, is_closed, is_on
 from etot_cli.reasoning.builtin.revision import (
@@ -84,7 +85,7 @@ class FailedCase:
 
         What this branch has changed did not stand in the way at the start. What has been taken out
         of the way already comes last, and what lies in a vessel that is to blame after that vessel,
-        which takes it along.
+        which takes it along. So does a vessel that the branch has brought there with what is named.
         """
         scene = self.scene
         named = dict.fromkeys(owner_of(name) for name in self.cause.objects)
@@ -96,15 +97,37 @@ class FailedCase:
         opened = {owner_of(self.actions[i].target) for i in opened_before(self.actions, self.index)}
         if not others and self.cause.kind is CauseKind.NO_ROOM:
             others = self._occupants()
+        brought = {name: self._brought_with(name) for name in others}
+        others = list(dict.fromkeys(chain(others, *brought.values())))
         vessels = {name for name in others if scene.infos[name].movable}
-        return sorted(
-            others,
-            key=lambda name: (
-                not (name in opened or placed_by(self.actions, name, self.index) is not None),
-                relocations(self.actions, name) > 0,
+
+        def rank(name: str) -> tuple[bool, bool, bool]:
+            came = next(iter(brought.get(name, ())), name)
+            return (
+                not (came in opened or placed_by(self.actions, came, self.index) is not None),
+                relocations(self.actions, came) > 0,
                 not vessels.isdisjoint(map(owner_of, enclosing(scene, name))),
-            ),
-        )
+            )
+
+        return sorted(others, key=rank)
+
+    def _brought_with(self, name: str) -> list[str]:
+        """The vessels with which the branch has brought an object to where it is.
+
+        Among the contents of one vessel, and for what goes into it, its place decides nothing.
+        """
+        before = {
+            action.target for action in self.actions[: self.index] if action.verb is Verb.PICK_UP
+        }
+        if name in before:
+            return []
+        own = {self.acted, owner_of(self.action.target)}
+        own |= {vessel for thing in own & {*self.scene.states} for vessel in self._around(thing)}
+        return [vessel for vessel in self._around(name) if vessel in before and vessel not in own]
+
+    def _around(self, name: str | None) -> list[str]:
+        """The vessels around an object, from the nearest outwards."""
+        return [] if name is None else [owner_of(item) for item in enclosing(self.scene, name)]
 
     def is_furniture_alone(self) -> bool:
         """Whether only what cannot be moved is in the way."""

@@ -34,6 +34,7 @@ from etot_cli.reasoning.builtin.relocation import (
 )
 from etot_cli.reasoning.builtin.reordering import (
     done_earlier,
+    filled_before,
     leaving_later,
     out_of_the_way,
     taken_before_moved,
@@ -158,6 +159,7 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
     if toppled and owner_of(toppled[0]) == owner:
         return  # the container does not stand what is put into it
     yield from other_boards(case.failed)
+    yield from filled_before(case)
     if pick is not None and case.is_furniture_alone():
         yield from regrasped(case.failed, pick, case.cause.kind)
     if case.action.safe and case.is_full:

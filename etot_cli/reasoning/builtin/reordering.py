@@ -105,6 +105,24 @@ def done_earlier(case: FailedCase, before: int, name: str) -> Iterator[Correctio
         yield Correction(waiting, f"{name} waits elsewhere until {case.action} is done")
 
 
+def filled_before(case: FailedCase) -> Iterator[Correction]:
+    """The branch with what does not get into a vessel put in before the branch itself brings that
+    to where the hand or the arm has no way to it: a filled vessel can be carried.
+    """
+    vessel = owner_of(case.action.target)
+    placed = placed_by(case.actions, vessel, case.index)
+    # Who else is to blame is so wherever the vessel stands, or makes way where it stands.
+    others = (name for name in case.culprits() if case.scene.infos[name].movable)
+    hidden = case.cause.kind is CauseKind.UNREACHABLE or case.is_furniture_alone()
+    if (
+        case.action.verb is Verb.PUT_INTO
+        and placed is not None
+        and hidden
+        and {*others} <= {vessel}
+    ):
+        yield from done_earlier(case, placed, vessel)
+
+
 def taken_out_first(case: FailedCase, before: int, name: str) -> Iterator[Correction]:
     """What comes along in or on an object that the cycle at ``before`` moves on, or what that
     cycle covers, waits elsewhere from before that, unless it may as well go to its own place.
