@@ -176,6 +176,9 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
             names = tuple(f"{part.owner}.{part.name}" for part in shut) or names
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
+    if clause.avoid is Avoid.TOUCH and (board := next((t for t in things if t.board), None)):
+        why = "one board alone is not kept from being touched; say that nothing is put on it"
+        raise ReferenceProblem(board.address, why, 2)
     context.discourse.step_back(before, indices)
     if clause.avoid in _LEAVING:
         context.discourse.left_alone |= {*indices}

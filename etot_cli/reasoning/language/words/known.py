@@ -42,6 +42,7 @@ VERB_WORDS = words_of(
     "jam", "plant", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff",
     "whisk", "dish", "mess", "shelving",
     "finger", "so", "much", "as", "even", "past", "anywhere", "brush", "watch", "look",
+    "at", "time", "moment", "point", "stage",  # of "at no time"
     "out", "careful", "mindful", "go", "going", "ask", "can", "could",
     *words_of((verbs.THE_ROBOT,))}  # fmt: skip
 """Words for doing; part of a noun phrase only where the scene has a thing called so."""

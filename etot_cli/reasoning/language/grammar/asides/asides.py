@@ -286,7 +286,8 @@ def _is_no_phrase(aside: Clause, is_name: IsName) -> bool:
 
 def _whole_of(clause: Clause) -> str:
     """What a clause says, as a sentence of its own where "which" stands for what it is about."""
-    return f"it {clause.said}" if clause.kind == "comment" else clause.said
+    told = clause.kind == "comment" and not is_of_people(clause.said)
+    return f"it {clause.said}" if told else clause.said
 
 
 def _is_of_own_body(said: str, is_name: IsName) -> bool:

@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.asides.remarks import (
     CHANGING,
     DECREEING,
     PEOPLE,
+    PLACED,
     REFERRING,
     WORK,
     IsName,
@@ -92,7 +93,9 @@ def _tells(said: str) -> bool:
     first, *more = said.split() or [""]
     verbs = [word for word in more[:5] if word in _FINITE or _is_past(word)]
     if first in BEFORE_NAMES:  # "the club is meeting tonight", and not "the spare keys"
-        return bool(more[1:] and verbs) and more[0] not in _FINITE
+        at = next((at for at, word in enumerate(more[:5]) if word in verbs), 0)
+        placed = more[at] in ("is", "are") and {*more[at + 1 : at + 2]} & PLACED
+        return at > 0 and not placed and more[at - 1] not in all_words()
     stranger = first not in all_words() and first not in NUMBERS
     return stranger and bool(more) and (more[0] in _FINITE or _is_past(more[0]) or _does(more[0]))
 
