@@ -70,6 +70,7 @@ _DONE = word_set(
 """Irregular participles."""
 _NO_REQUEST = OTHER_VERBS | word_set("fallen had run come")
 """Participles and the like that nobody asks for."""
+_REQUESTS = (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
 _LASTING = word_set(
     """
     standing lying sitting resting going staying coming moving joining leaving belonging living
@@ -79,11 +80,10 @@ _LASTING = word_set(
 )
 """What goes on may be said of how something is, or is to be ("the cup is standing on the tray")."""
 _WISHING = ASKING | DECREEING | PROPOSING | word_set("supposed meant intended planned hoped")
-_BIDDING = (
+_WISHES = (
     word_set(
         """
-        want wants wanted need needs needed wish prefer should must shall would may let
-        lets letting
+        want wants wanted need needs needed wish prefer should must shall would may let lets letting
         ought belong belongs hoping wondering please unless instead except
         """
     )
@@ -172,7 +172,7 @@ def tells_fact(said: str, is_name: IsName) -> bool:
 
 def _by_name(said: str, is_name: IsName) -> tuple[str, str] | None:
     """Who a clause is about by his name, and what it says of him ("Karl never gives it back")."""
-    who, *did = said.split()
+    who, *did = said.split() or [""]
     verb = next((word for word in did if word not in _ADVERBS), "")
     stranger = who == "one" or (not is_name(who) and who not in all_words())
     does = verb in (_BE | _HAVE) or (verb.endswith("s") and not verb.endswith("ss"))
@@ -225,15 +225,14 @@ def _is_participle(word: str) -> bool:
 
 def _is_asked_for(words: Iterable[str]) -> bool:
     """Whether these may be what the robot is to do, or how things are to be."""
-    asked = (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
     stems = {stem for word in words for stem in (word, word.removesuffix("d"), word[:-2])}
-    return bool(asked & stems)
+    return bool(_REQUESTS & stems)
 
 
 def _is_done(told: _Doing, is_name: IsName) -> bool:
     """Whether this is what somebody does or did that is nothing to the robot."""
     did = told.did
-    if told.who == "you" or not did or _BIDDING & {*did} or _goes_somewhere(did):
+    if told.who == "you" or not did or _WISHES & {*did} or _goes_somewhere(did):
         return False
     if "you" in did and "to" in did[did.index("you") :]:
         return False  # "I rely on you to keep it closed"
@@ -255,7 +254,7 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
         if then.endswith("ing"):
             return not (then in _MEANT or _is_asked_for({then} - {"coming"}))
         over = first in ("was", "were") and not _is_placed(more, is_name)
-        return then != "to" and (over or not (named or _TOLD & {*more}))
+        return then not in ("to", "after") and (over or not (named or _TOLD & {*more}))
     if first in ("do", "does", "did", "can", "could", "will", "might"):
         able = told.denied or first in ("will", "might")
         bears = then in ("stand", "bear") and not named  # "I can not stand that smell"

@@ -64,7 +64,7 @@ _CALLING = (
         CHANGING
         - word_set("come comes to by than better leave leaves end ends stay stays live lives")
     )
-    | word_set("you your robot slowly quickly carefully gently")
+    | word_set("you your robot slowly quickly carefully gently fancy fancies require seek after")
 )
 """Of a sentence with one of these nothing is passed over."""
 
@@ -104,7 +104,9 @@ def _is_no_deed(did: list[str]) -> bool:
     """Whether somebody does something else than what the robot may be to do ("we open at nine"),
     and holds nothing of what was spoken of ("I like them clean").
     """
-    first = next((word for word in did if word not in _AUXILIARIES), "")
+    first = next((word for word in did if word not in _AUXILIARIES), "with")
+    if first == "with":  # "I could do with a pen"
+        return False
     if first in HOLDING_TRUE and (REFERRING | {"that"}) & {*did}:
         return False
     going_on = first.endswith("ing") and did[0] in ("am", "is", "are", "was", "were")
