@@ -34,6 +34,11 @@ FINE_STEP = 0.02
 board gets between two of its looks, as it may between those of the search."""
 
 
+def _half(distance: float) -> float:
+    """Half a distance, for what is not quite straight in a way out of a gap; of an overlap all."""
+    return distance / 2 if distance > 0.0 else distance
+
+
 class Clearances:
     """Tells joints that keep the first distance [m] from everything, or the next from what either
     end is closer to than that.
@@ -58,7 +63,7 @@ class Clearances:
         self._clearances, self._beside = clearances, beside
         self._near = [[self._hits(end, distance) for end in ends] for distance in clearances]
         self._kept = [
-            self._distance(end) if near else clearances[-1]
+            _half(self._distance(end)) if near else clearances[-1]
             for end, near in zip(ends, self._near[-1], strict=True)
         ]
 
@@ -90,7 +95,7 @@ class Clearances:
 
     def _keeps(self, joints: Vector, clearance: float) -> bool:
         """Whether joints keep a distance from all but what an end nearby is closer to, and from
-        that what the end keeps.
+        that half of what the end keeps.
         """
         hits = self._hits(joints, clearance)
         if not hits:

@@ -7,7 +7,7 @@ inputs must give the same plan whatever runs beside it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -48,16 +48,16 @@ def plan_transit(
         The path, or None.
     """
     ends = (start, goal)
+    anyhow: Vector | None = None
     for wanted in (CLEARANCES, CLEARANCES[1:]):
         free = Clearances(checker, ends, attached, wanted)
-        straight = np.stack([start, goal])
-        if edge_free(start, goal, free) and free.hold(straight):
-            return straight
-        for lift in LIFTS:
-            path = _over(arm, start, goal, lift, free)
+        straight = np.stack([start, goal]) if edge_free(start, goal, free) else None
+        over = (_over(arm, start, goal, lift, free) for lift in LIFTS)
+        for path in chain([straight], over):
             if path is not None and free.hold(path):
                 return path
-    return _searched(arm, checker, ends, attached, rng)
+            anyhow = path if anyhow is None else anyhow
+    return _searched(arm, checker, ends, attached, rng, anyhow)
 
 
 def _searched(
@@ -66,12 +66,13 @@ def _searched(
     ends: tuple[Vector, Vector],
     attached: Attached | None,
     rng: np.random.Generator,
+    anyhow: Vector | None,
 ) -> Vector | None:
     """A path found by search: one that keeps its distance in between its checks, after a second
     search with finer ones, if need be, and one close all along to what an end is close to, where
-    there is no other. Of those that do not keep it, the first: physics decides.
+    there is no other. Of those that do not keep it, the first, or ``anyhow`` one that was found
+    without search: physics decides.
     """
-    anyhow: Vector | None = None
     free = Clearances(checker, ends, attached, CLEARANCES[1:])
     step = EDGE_STEP
     for _ in range(3):
