@@ -382,7 +382,8 @@ def test_what_is_above_a_thing_of_unknown_height_may_be_above_others(tmp_path: P
     beside = {"bench": bench, "one": BALL.format("on: bench"), "two": BALL.format("on: bench")}
     assert "overlaps 'one'" in scene_error(tmp_path, objects(**beside))
     stacked = {"bench": bench, "box": BOX.format("on: bench"),
-               "ball": BALL.format("on: box, at: [0.4, 0.04]"), "lamp": BOX.format("on: bench, at: [0.4, 0.16]"),
+               "ball": BALL.format("on: box, at: [0.4, 0.04]"),
+               "lamp": BOX.format("on: bench, at: [0.4, 0.16]"),
                "globe": BOX.format("on: lamp, at: [0.4, 0.12]")}  # fmt: skip
     assert "overlaps" in scene_error(tmp_path, objects(**stacked))
 
