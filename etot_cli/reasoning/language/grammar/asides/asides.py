@@ -29,7 +29,6 @@ from etot_cli.reasoning.language.grammar.asides.left_open import (
 from etot_cli.reasoning.language.grammar.asides.mishaps import (
     befalls,
     fears_for,
-    is_kept_well,
     is_unspoilt,
     may_befall,
 )
@@ -376,9 +375,6 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             return trailing and (befalls(clause.said) or not named)
         case "purpose", ("so" | "so that" | "where"):
             where = clause.joint == "where"
-            kept = any(item.comma for item in clauses[at + 1 : at + 2]) and is_kept_well(
-                clause.said
-            )
             # "So that you can open it, …" and "so that it stands, …" may ask for that.
             ahead = at == 0 and clause.joint == "so that" and clauses[1:] != []
             ahead = ahead and is_of_people(clause.said) and not clause.said.startswith("you ")
@@ -386,9 +382,7 @@ def _is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
                 tells_fact(clause.said, is_name) or is_unused(clause.said)
             ):
                 return True  # "We had soup, so I am not hungry"
-            return (trailing or ahead or (kept and at > 0)) and is_purpose(
-                clause.said, is_name, where=where
-            )
+            return (trailing or ahead) and is_purpose(clause.said, is_name, where=where)
         case "purpose", _:
             return trailing and is_warning(clause.said)
         case "comment", _:

@@ -91,17 +91,6 @@ def fears_for(said: str) -> bool:
     return bool(_FEARED.fullmatch(said))
 
 
-_KEPT_WELL = Expression(
-    r"(?:it|they) (?:stays?|keeps?|remains?) (?:nice and |nicely )?"
-    r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"
-)
-
-
-def is_kept_well(said: str) -> bool:
-    """Whether a clause tells what something stays like where it is put ("it stays fresh")."""
-    return bool(_KEPT_WELL.fullmatch(said))
-
-
 _UNSPOILT = Expression(
     rf"{_THING} (?:should|must|may|do|does|will) not (?:(?:smell|taste|reek) (?:of|like) "
     rf"(?:the |my |our )?\w+|(?:get|become|turn|go) (?:too |all )?(?:{_GETS}|muddy|greasy))"
