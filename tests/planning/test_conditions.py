@@ -40,17 +40,6 @@ def test_on() -> None:
     assert not check({"on": ["cup", "box"]}, changed(on=("box.lid",), inside="box"))
 
 
-def test_what_is_fastened_on_the_desk_is_on_it() -> None:
-    """It touches nothing, so that no contact tells."""
-    start = scene()
-    for height, on in ((start.desk_top, True), (start.desk_top + 0.4, False)):
-        box = replace(start.states["box"], on=(), position=(0.5, 0.0, height + 0.15))
-        state = replace(start, states={**start.states, "box": box})
-        assert check({"on": ["box", "desk"]}, state) == on
-        assert check({"not": {"on": ["box", "desk"]}}, state) != on
-    assert not check({"on": ["cup", "desk"]}, changed(on=()))
-
-
 def test_inside() -> None:
     assert not check({"inside": ["cup", "box"]}, scene())
     assert check({"inside": ["cup", "box"]}, changed(on=(), inside="box"))

@@ -111,30 +111,6 @@ def test_what_leaves_with_its_vessel_is_not_taken_out_of_it() -> None:
             plans(state, {"not": {"inside": names}})
 
 
-def test_what_is_fastened_stays_where_a_goal_wants_it() -> None:
-    """It touches nothing, so that no contact tells what it stands on."""
-    state = scenes.scene(
-        scenes.item("rack", "shelf", (0.6, 0.0), on="", boards=("low",)),
-        scenes.item("lamp", "shelf", (0.3, 0.3), on="", z=0.9),
-        scenes.cup("mug", (0.4, 0.3)),
-    )
-    in_hand = {"in_hand": "mug"}
-    for stays in (
-        {"on": ["rack", "desk"]},
-        {"not": {"on": ["rack", "mug"]}},
-        {"not": {"inside": ["rack", "mug"]}},
-        {"not": {"on": ["lamp", "desk"]}},
-    ):
-        assert plans(state, in_hand, stays) == ["[PICK UP, mug]"]
-    for moves in (
-        {"not": {"on": ["rack", "desk"]}},
-        {"on": ["rack", "mug"]},
-        {"on": ["lamp", "desk"]},
-    ):
-        with pytest.raises(InstructionError, match="it cannot be picked up"):
-            plans(state, in_hand, moves)
-
-
 @pytest.mark.parametrize("count", [3, 4, 6, 9])
 def test_any_number_of_things_leaves_the_desk(count: int) -> None:
     names = [f"ball_{index}" for index in range(count)]

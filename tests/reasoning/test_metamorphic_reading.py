@@ -96,7 +96,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
         r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
     )
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
-    framed += r"which |when i |end with |as for |with |now |"
+    framed += r"which |when i |end with |as for |with |now |regarding |in this |storage |only |"
     framed += r"(\w+ ){0,4}\w+: |right, |\w+, \w+\. |for each |whatever )"
     if re.match(framed, text):
         return  # it has a frame of its own
@@ -141,7 +141,8 @@ SIDED = [
         r"(?i)right (next|away|behind|then|above|below|way up)|^right,|"
         r"(is|be|been|were|someone|somebody|has|i|thing) left\b"
         r"|left (open|closed|shut|untouched|alone|exactly|where|standing|lying|sitting)"
-        r"|\bwant .* left (in|on) |\byour (left|right) of",  # the robot's, whoever looks
+        r"|\bwant .* left (in|on) |\byour (left|right) of"  # the robot's, whoever looks
+        r"|just left|right (on|into|in)\b|either side",
         text,
     )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)
@@ -196,7 +197,7 @@ def test_the_other_way_round_everything_is_seen_the_other_way_round(name: str, t
 def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None:
     if re.search(
         r"(?i)every|any|else|thing|object|item|rest|other|all |clear|tidy|empty|free|using|"
-        r"may only",
+        r"may only|only the",
         text,
     ):
         return  # such words are about it, too

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, THING_NOUNS
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
@@ -54,6 +54,13 @@ def _by_their_place(said: re.Match[str]) -> str:
     if {item.split()[0] for item in items} & VERB_WORDS:
         return said[0]
     return begun + _NTH.sub(lambda found: nth[found[1] or found[2]], rest)
+
+
+def _in_turn(said: re.Match[str]) -> str:
+    """ "One thing after another", where that may be said of the things that were named."""
+    before = said.string[: said.start()]
+    known = said[1] in THING_NOUNS or re.search(rf"\b{said[1]}(?:e?s)?\b", before)
+    return " one after another" if known else said[0]
 
 
 def _one_by_one(said: re.Match[str]) -> str:
@@ -135,7 +142,7 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
     (
         r"(?:,? by (?:picking|taking|moving|carrying|bringing)(?: out| over| up| off)?)? "
         r"one (?!by\b|after\b)(\w+) (?:after|by) (?:another|the other|one)\b(?! \1)",
-        " one after another",
+        _in_turn,
     ),
     (
         r"\b(?:re)?build (?:the|a second|another|a new) (tower|stack)\b"
