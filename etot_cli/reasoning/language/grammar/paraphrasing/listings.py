@@ -57,7 +57,7 @@ def _by_their_place(said: re.Match[str]) -> str:
 
 
 def _in_turn(said: re.Match[str]) -> str:
-    """ "One thing after another", where that may be said of the things that were named."""
+    """In turn, where "one thing after another" may be said of the things that were named."""
     before = said.string[: said.start()]
     known = said[1] in THING_NOUNS or re.search(rf"\b{said[1]}(?:e?s)?\b", before)
     return " one after another" if known else said[0]
