@@ -183,7 +183,9 @@ ANYHOW = """
     [either] (separately|apart|individually) or together,
     in (any|whichever|whatever) combination [you (like|want)|[that] (works|fits|suits you) [best]]
 """
-NOT_REVERSED = "[~comma] [and|but] not (the other way around|vice versa|the reverse)"
+NOT_REVERSED = """
+    [~comma] ([and|but] not|rather than|instead of) (the other way around|vice versa|the reverse)
+"""
 """Behind what goes on or in what."""
 TOGETHER = "[all|both] together, [all|both] (in|on) the same (one|place)"
 SEPARATELY = """
@@ -340,12 +342,14 @@ HORIZONTAL = f"""
     horizontally, sideways, sideward, sidewards,
     [with|using|in|by] [a] (horizontal|sideways|side) ({GRASP}), [a] horizontal,
     (from|by) (the|its|a|one) (side|sides), from [one] side,
+    (with|using) (a|one) ({GRASP}) from (the|its|one) side,
     with a horizontal ({GRIPPER}), with {HAND_LEVEL}
 """
 VERTICAL = f"""
     vertically, top down, straight (down|downwards|downward) [from above],
     [with|using|in|by] [a|an] (vertical|top|top down|overhead|rim) ({GRASP}), [a] vertical,
     [from] (above|straight above|overhead), from [the|its] top,
+    (with|using) (a|one) ({GRASP}) from ([straight] above|overhead|[the|its] top),
     by (the|its) (rim|edge|top) [from above],
     with a vertical ({GRIPPER}), with {HAND_DOWN}
 """

@@ -62,10 +62,10 @@ WITHOUT_MEANING = f"""
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
     (either|any|each|both) [one] [of (them|these|those|the two)] ({ANY_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
-    [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four)], whichever,
+    [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four) [it is]], whichever,
     if you can,
     [whether] (together or (apart|separately)|(apart|separately) or together),
-    (whichever|whatever) [one] (is|seems|works|suits you) [{_EASIER}],
+    (whichever|whatever) [one] (is|seems|works|fits|suits you) [{_EASIER}],
     (whichever|whatever) [one|of (them|these|the two)]
     (is (easier|easiest|better|best) [for you]|suits you [best|better]|it is|
     [will] (stay|stays|remain|remains) (standing|upright)),

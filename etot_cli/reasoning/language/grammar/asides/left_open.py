@@ -23,7 +23,8 @@ _NOT_CARING = (
 )
 _NO_MATTER = (
     r"(?:(?:does|do) not (?:really )?matter(?: much| at all)?"
-    r"|(?:is|are) (?:not important|unimportant|irrelevant|up to you|your choice|all the same)"
+    r"|(?:is|are) (?:not important|unimportant|irrelevant|up to you|your choice|all the same"
+    r"|(?:entirely |all )?(?:your (?:own )?(?:affair|business|decision)|up to you))"
     r"|makes? no difference)(?: to (?:me|us))?"
 )
 _WORDS = r"(?: (?!(?:not|only|never|no|but|except|unless|if|than|instead|and|or)\b)[^ ~]+)"

@@ -61,7 +61,9 @@ _ALLOWED = (
     rf"(?:you may|(?:you are |feel )?(?:free|allowed|permitted|welcome) to"
     rf"|(?:it is|it would be) (?:{_FINE} (?:to|if you)|{_FINE} for you to))"
 )
-_IF_IN_THE_WAY = Expression(rf"if {_SO}")
+_IF_IN_THE_WAY = Expression(
+    rf"if {_SO}|(?:should {_THING}|were {_THING} to) (?:be|get|stand) in (?:the|your|its) way"
+)
 _TAKE_IT_AWAY = Expression(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|{_TOUCH} {_IT}){_FIRST}")
 _WHERE_NEEDED = Expression(
     rf"{_YOU}(?:{_TAKE_IT}|{_TAKING_IT}){_FIRST} {_NEEDED}"

@@ -100,6 +100,7 @@ UNHARMED = either(
         f" ({forbidden.HARMED})",
         build=unharmed,
     ),
+    sequence("do not let", THINGS, f"(be|get) ({forbidden.HARMED})", build=unharmed),
     sequence(
         _NONE_OF,
         f"{forbidden.TOPPLES}, (may|must|should|will|can|shall|is to|does) ({_TOPPLE})",

@@ -165,6 +165,12 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1 \4 of \2 \3s",
     ),
     (r"\bthe other way round\b", "the other way around"),
+    # What is so the other way around is so no more where it is as it is said
+    (
+        r",? (?:and |but )?(?:not|rather than|instead of)"
+        r" (?:the other way around|vice versa|the reverse)(?=[.,;:!?]|$)",
+        "",
+    ),
     (
         r"\b((?:need|want|have|like|love|is|are) (?:[^.,;]* )?)out "
         rf"(?=on(?:to)? (?:the|my) {TABLE})",

@@ -65,6 +65,7 @@ SAID_AGAIN = (
         r"\1 side",
     ),
     (r", all in (?=(?:exactly |precisely )?(?:that|this) order\b)", ", in "),
+    (r", (?:that is|i\.e\.),? (?=nothing\b)", ", "),
     (rf", {_TO_BE_EXACT} (?=(?:the|a|an|one|my|in|on|into|onto|to|next)\b)", ", "),
     (r"(?P<again>\b(?:one|an?) \w+, the \w+)(?=[.,;!?]|$)", _without_assurance),
     (

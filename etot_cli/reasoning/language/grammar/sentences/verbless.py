@@ -43,7 +43,12 @@ from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.requests.word_order import (
     ANNOUNCED,
 )
-from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    PickClause,
+    PutClause,
+    PutGroup,
+    put_to,
+)
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,
@@ -104,6 +109,14 @@ VERBLESS = either(
         OPTIONAL_COMMA,
         DIRECTED,
         build=lambda things, *moved: PutClause((brought(things, *moved),)),
+    ),
+    sequence(
+        # "One pen, please, picked up from the tray"
+        ALL_THINGS,
+        OPTIONAL_COMMA,
+        "picked up",
+        optional(SOURCE, ""),
+        build=lambda things, source: PickClause(things.taken_from(source or None)),
     ),
     sequence(PUT_GROUPS, EXTRAS, build=put_down),
     sequence(

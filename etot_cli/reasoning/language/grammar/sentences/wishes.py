@@ -337,6 +337,14 @@ TOLD_APART = either(
         build=_belonging,
     ),
     sequence(
+        # "The bowl and the tray are where they may go": into either
+        NP_LIST,
+        "are where",
+        ALL_THINGS,
+        verbs.BELONG,
+        build=lambda places, things: _belonging(things, (Destination(Toward.TO, places),)),
+    ),
+    sequence(
         # "The tray is where the cup goes", "… where I want the cup"
         noun_phrase,
         either(
