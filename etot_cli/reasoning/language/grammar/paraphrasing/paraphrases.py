@@ -165,6 +165,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1 \4 of \2 \3s",
     ),
     (r"\bthe other way round\b", "the other way around"),
+    (r"\bwhat (i|we) (?:am|are) after is\b", r"what \1 want is"),
     # What is so the other way around is so no more where it is as it is said
     (
         r",? (?:and |but )?(?:not|rather than|instead of)"
