@@ -334,8 +334,8 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"put \2 on \1",
     ),
     (
-        r"\b(instead of|rather than) (?:just )?(?:lying|standing|sitting|being)"
-        rf"(?: (?:about|around))? (?=(?:in|on) {NAMED})",
+        r"\b(instead of|rather than) (?:just )?(?:lying|standing|sitting|being|lie|stand|sit|be)"
+        rf"(?: (?:about|around))? (?=(?:in|on|next to|beside|near|behind) {NAMED})",
         r"\1 ",
     ),
     (

@@ -208,7 +208,20 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
     (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
     (r"\b(come|go) (?:out|over|up) here (?=(?:on|in) (?:the|my)\b)", r"\1 "),
-    (r",? from now on\b", ""),
+    (r"(?:,? |^)from now on\b,?", ""),
+    (r"(?<=\w) at all(?=[.;,!?]|$)", ""),
+    # Whose it is, before what is to be done with it
+    (
+        r"(?<!that )(?<!which )\b(?:is|are) (?:mine|ours|(?:my|our) favou?rites?) and "
+        r"(?=(?:stays?|remains?|goes?|belongs?|must|should|has to|have to|is|are)\b)",
+        "",
+    ),
+    (r"^no, (?!no\b|not\b|but\b)", ""),
+    (
+        r"(?:(?<=[.;,!] )|(?<=\bthen )|(?<=\band ))(?:then )?(in|on) (?:(it) goes|they go)"
+        r"(?=[.,;!]|$)",
+        lambda said: f"put {'it' if said[2] else 'them'} {said[1]}",
+    ),
     (r"(?<=\w) by (?:tonight|noon|bedtime|dinnertime|lunchtime|tomorrow)(?=, )", ""),
     (
         rf"\b(open (?:the|my) [^.,;]*?), (?!(?:and|then|{'|'.join(VERB_WORDS)})\b)"
@@ -348,7 +361,13 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     (r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", ""),
     (rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose"),
-    (rf"(?<!is )(?<!are )(?<!is just )(?<!are just )\b{_ABOUT}", "that are loose"),
+    # What should not be lying about somewhere should not be there.
+    (rf"\bbe {_ABOUT}(?= (?:in|on|inside)\b)", "be"),
+    (
+        r"(?<!is )(?<!are )(?<!is just )(?<!are just )(?<!be )(?<!business )"
+        rf"\b{_ABOUT}",
+        "that are loose",
+    ),
     (_ALL_DONE, r"\1 all of that \2 \3"),
     (r", (?:all|everything) (?:but|except(?: for)?) ", ", except "),
     (r"\b(it|them) out of there\b", r"\1 out"),

@@ -23,6 +23,7 @@ _ASKED_FOR = r"([^.;!?]+?)(?=, (?:and )?then\b|[.;!?]|$)"
 _NOW = "currently|at present|at the moment|presently|right now|now|still"
 _FOUND_THERE = r"(?=(?:between|in|inside|on|behind|beside|under|next to|near)\b)"
 _YOU_FIND = r"you (?:will |can |should |may )?(?:find|see)"
+_POSED = r"(?:still )?(?:lying|standing|sitting)"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
@@ -39,7 +40,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     (rf"(?<=[.;,] )th(?:at|is) one (?=is (?:far |much |way )?too \w+{_END})", "it "),
     (r"\b(?:gripped|grasped|held) (?:by |in )?(?=(?:whichever|whatever|any) way\b)", "in "),
     (
-        r"\bha(s|ve) no business (?:being )?(?=(?:in|on|inside)\b)",
+        r"\bha(s|ve) no business (?:(?:being|lying|standing|sitting|about|around) )*"
+        r"(?=(?:in|on|inside)\b)",
         lambda said: f"{'does' if said[1] == 's' else 'do'} not belong ",
     ),
     # What several things are to be, one of them standing
@@ -224,12 +226,13 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     # "The knob (which) you will find in the tin"
     (
-        rf"\b(that|which|whatever) (?:{_YOU_FIND}|(?:can|may) be found) {_FOUND_THERE}",
+        r"\b(that|which|whatever) "
+        rf"(?:(?:{_YOU_FIND}|(?:can|may) be found)(?: {_POSED})?|is {_POSED}) {_FOUND_THERE}",
         r"\1 is ",
     ),
     (
         rf"\b({NAMED} (?:\w+ )??(?!that\b|which\b)\w+|everything|anything) "
-        rf"{_YOU_FIND} {_FOUND_THERE}",
+        rf"{_YOU_FIND} (?:{_POSED} )?{_FOUND_THERE}",
         r"\1 that is ",
     ),
     # What was opened is closed
