@@ -481,6 +481,7 @@ WHERE = Rule(
             ),
             optional(verbs.BEING),
             separated(destination, "or, nor", most=3),
+            not_ahead("first", "last"),  # "…, not the cup first" is no place
             build=_but_not,
         ),
         sequence(

@@ -319,6 +319,7 @@ CONTRASTED = quiet(
     sequence(
         either(nouns.CONTRAST, sequence(after("rather", "prefer"), "than")),
         separated(noun_phrase, "or, nor", most=3),
+        not_ahead("first", "last"),  # "…, not the cup first" speaks of an order
         build=_contrasted,
     )
 )
