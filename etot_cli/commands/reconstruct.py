@@ -37,7 +37,7 @@ from etot_cli.reporting.reconstruct_report import (
 from etot_cli.specs.load import load_scene
 from etot_cli.specs.reading import printable
 from etot_cli.world.build.pieces import convex_pieces
-from etot_cli.world.state import triple
+from etot_cli.world.state import ROUND_KINDS, triple
 
 __all__ = ["CameraAt", "Options", "Workspace", "read_board", "reconstruct_capture"]
 CAMERA, CALIBRATION = "camera.json", "calibration.json"
@@ -193,7 +193,7 @@ def _source(options: Options) -> Literal["file", "standpoint", "board"]:
 
 
 def _object(twin: Twin, solid: Solid) -> ReconstructedObjectModel:
-    half = solid.yaw / 2 if solid.kind not in assembly.ROUND else 0.0
+    half = solid.yaw / 2 if solid.kind not in ROUND_KINDS else 0.0
     rest = twin.settled.get(solid.name)
     return ReconstructedObjectModel.of(
         solid,

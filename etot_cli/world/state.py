@@ -15,6 +15,8 @@ STAYS_OPEN_AT = 0.65
 may push it back a little (hysteresis)."""
 CLOSED_AT = 0.06
 """A part counts as closed up to this share of its travel."""
+ROUND_KINDS = frozenset({"sphere", "cylinder", "cup", "bowl"})
+"""Kinds that are the same from all sides as long as they stand."""
 
 
 def triple(values: Iterable[float]) -> tuple[float, float, float]:

@@ -20,7 +20,7 @@ from etot_cli.specs.scene import Scene
 from etot_cli.world.placing import world_at_start
 from etot_cli.world.pose import quaternion_of
 from etot_cli.world.rest import settle_objects
-from etot_cli.world.state import owner_of
+from etot_cli.world.state import ROUND_KINDS, owner_of
 
 SETTLE_SECONDS = 1.0
 """Time that a twin is stepped to see whether it lies still [s]."""
@@ -33,7 +33,6 @@ EDGE = 0.03
 DESK_LIMIT = 1.9
 """A scene's lengths end at 2 m; the desk keeps clear of that [m]."""
 FURNITURE = ("drawer_unit", "cabinet")
-ROUND = ("sphere", "cylinder", "cup", "bowl")
 RIM_OVERLAP = 0.0006
 """Play of what stands inside a cup [m]."""
 FILLED = 0.5
@@ -186,7 +185,7 @@ def _object(
         if solid.support != DESK:
             data[solid.relation] = solid.support
     yaw = float(np.degrees(solid.yaw))
-    if solid.kind not in ROUND and abs(yaw) > 0.01:
+    if solid.kind not in ROUND_KINDS and abs(yaw) > 0.01:
         data["yaw_deg"] = round((yaw + 180.0) % 360.0 - 180.0, 2)
     mass, friction, guessed = guess(solid, material, data.get("wall"))
     guesses: dict[str, Any] = {"friction": friction}

@@ -10,7 +10,7 @@ from html import escape
 from math import hypot
 
 from etot_cli.specs.footprint import box_corners, hull, rotated
-from etot_cli.world.state import ObjectInfo, ObjectState, SceneState
+from etot_cli.world.state import ROUND_KINDS, ObjectInfo, ObjectState, SceneState
 
 WIDTH_PX, HEIGHT_PX = 640, 400
 """In the proportions of a page's cards, which show the whole of it then."""
@@ -20,7 +20,6 @@ AROUND_M = 0.12
 """Desk that is shown around what stands on it, with room for names."""
 ARROW_FROM_M = 0.03
 """Shorter moves get no arrow; it would be longer than the way."""
-ROUND = frozenset({"sphere", "cylinder", "cup", "bowl"})
 NAME_PX, LETTER_PX = 22, 12
 """Height of names, to be read in a picture of half the size, and the width of a letter."""
 BASE_RADIUS_M = 0.063
@@ -152,7 +151,7 @@ def footprint(info: ObjectInfo, state: ObjectState) -> Sequence[tuple[float, flo
 
     A ball is round however it lies; what leans shows its side.
     """
-    if info.kind == "sphere" or (info.kind in ROUND and state.tilt_deg < 20.0):
+    if info.kind == "sphere" or (info.kind in ROUND_KINDS and state.tilt_deg < 20.0):
         return None
     x, y, _ = state.position
     points = [rotated(state.quaternion, corner) for corner in box_corners(info.size)]

@@ -12,10 +12,8 @@ from etot_cli.skills.grasps.variants import variants
 from etot_cli.skills.motion.collision import HandPart
 from etot_cli.skills.outcome import Blockers, SkillOutcome, failed
 from etot_cli.world.placing import object_bounds
-from etot_cli.world.state import CauseKind, owner_of
+from etot_cli.world.state import ROUND_KINDS, CauseKind, owner_of
 
-ROUND = frozenset({"cup", "bowl", "cylinder", "sphere"})
-"""Kinds that are the same from all sides as long as they stand."""
 LEVEL_TOP = 0.99
 """What rises by this along its own z axis stands (cosine; 8°)."""
 MAX_SUSPECTS = 4
@@ -140,7 +138,7 @@ def lasts(belief: Belief, name: str, pose: GraspPose | None) -> bool:
         return False
     too_far = min(info.size[:2]) > belief.world.robot.spec.gripper.opening
     walled = info.container and pose is not GraspPose.HORIZONTAL
-    return info.kind in ROUND or (too_far and not walled)
+    return info.kind in ROUND_KINDS or (too_far and not walled)
 
 
 def too_wide(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from etot_cli.reasoning.builtin.goal import Pick, Put, Step, Thing
+from etot_cli.reasoning.builtin.goal import Pick, Put, Step, Thing, referents_of
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -142,6 +142,20 @@ def _goes_elsewhere(item: Timed, said: Sequence[Timed], discourse: Discourse) ->
     return any(taken & moved(other.steps, off=False) for other in said if other is not item)
 
 
+def _goes_on(item: Timed, last: Timed, discourse: Discourse) -> bool:
+    """Whether what is said in one with what comes last goes on about the same things ("finally put
+    it in the drawer and close that").
+    """
+    further = item.order in (Order.SAID, Order.THEN) and item.sentence == last.sentence
+    if not (last.led and further):
+        return False
+    mine, others = (
+        {thing.name for step in timed.steps for thing in discourse.things(*referents_of(step))}
+        for timed in (item, last)
+    )
+    return bool((mine & others) - {DESK})
+
+
 def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     """All steps in the order in which they are to be done.
 
@@ -167,7 +181,9 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
         elif item.order is Order.FIRST:
             own = (at for at, other in enumerate(done) if other.sentence == item.sentence)
             done.insert(next(own, 0) if item.led else 0, item)
-        elif item.order is Order.LAST and not _goes_elsewhere(item, said, discourse):
+        elif (item.order is Order.LAST and not _goes_elsewhere(item, said, discourse)) or (
+            last and _goes_on(item, last[-1], discourse)
+        ):
             last.append(item)
         else:
             done.append(item)

@@ -97,11 +97,14 @@ _HABITUAL = word_set("always usually often never sometimes constantly every when
 _ANYBODY = ("i", "we", "one", "people", "nobody", "no one", "everybody", "everyone")
 """What they do as a rule, the robot may be meant to do."""
 _ONCE = word_set("once if when until till unless soon provided before after")
-_BEFORE_PEOPLE = Expression(
-    r"^(?:(?:oh|ah|well|sorry|alas|unfortunately|sadly|luckily|honestly|you know|you see|anyway"
-    r"|(?:last|this|every|yesterday|tomorrow) (?:night|morning|evening|afternoon|week|year|day)"
-    r"|today|tonight|yesterday|nowadays|(?:at|in|for|since) (?:the|my|our|this) \w+) )+"
-    rf"(?=(?:{PEOPLE}|one) )"
+BEFORE_SUBJECT = Expression(
+    r"^(?:(?:oh|ah|well|sorry|alas|hey|look|honestly|frankly|unfortunately|sadly|luckily|fortunately"
+    r"|anyway|and|but|so|now|then|yes|no|dear|goodness|phew|ugh|you know|you see|today|tonight"
+    r"|yesterday|tomorrow|nowadays|~comma|(?:earlier|later) on"
+    r"|(?:last|this|every|yesterday|tomorrow|all|the other) (?:night|morning|noon|evening|afternoon"
+    r"|week|weekend|month|year|day|spring|summer|autumn|winter|time)"
+    r"|(?:at|in|for|since|on|during|after|before|until) (?:(?:the|my|our|this|last|a) )?\w+) )+"
+    rf"(?=(?:{PEOPLE}|they|it|one|the|my|our|a|an|this|there) )"
 )
 """When, and with what sigh, somebody does something."""
 HOLDING_TRUE = word_set(
@@ -145,7 +148,7 @@ def tells_fact(said: str, is_name: IsName) -> bool:
     """Whether this is what a clause does; where something was may be checked and is none."""
     if _WAS & {*said.split()} and PLACED & {*said.split()} and any(map(is_name, said.split())):
         return False
-    said = _BEFORE_PEOPLE.sub("", said)
+    said = BEFORE_SUBJECT.sub("", said)
     person = somebody(said) or _by_name(said, is_name)
     if is_forbidding(said):
         return False
@@ -220,7 +223,16 @@ def _is_told(rest: Sequence[str]) -> bool | None:
 
 
 def _is_participle(word: str) -> bool:
-    return word in _DONE or (word.endswith("ed") and len(word) > len("need"))
+    return word in _DONE or _is_regular(word)
+
+
+def is_past(word: str) -> bool:
+    """Whether a word says what somebody did."""
+    return word in PAST or _is_regular(word)
+
+
+def _is_regular(word: str) -> bool:
+    return word.endswith("ed") and len(word) > len("need")
 
 
 def _is_asked_for(words: Iterable[str]) -> bool:
@@ -260,7 +272,7 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
         bears = then in ("stand", "bear") and not named  # "I can not stand that smell"
         asked = _is_asked_for({then} - {"be"}) or then in HOLDING_TRUE
         return able and bool(then) and (bears or not asked)
-    if first in PAST or (first.endswith("ed") and len(first) > len("need")):
+    if is_past(first):
         return first not in HOLDING_TRUE
     return _is_habit(told, first, then) and not _is_placed(more, is_name)
 

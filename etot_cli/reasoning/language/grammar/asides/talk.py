@@ -7,9 +7,11 @@ asks for nothing unless somebody wishes or bids by it, or it speaks to the robot
 
 from __future__ import annotations
 
-from itertools import dropwhile
-
-from etot_cli.reasoning.language.grammar.asides.facts import HOLDING_TRUE, PAST
+from etot_cli.reasoning.language.grammar.asides.facts import (
+    BEFORE_SUBJECT,
+    HOLDING_TRUE,
+    is_past,
+)
 from etot_cli.reasoning.language.grammar.asides.remarks import (
     ASKING,
     BEFORE_NAMES,
@@ -27,26 +29,12 @@ from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, word_set
 
-_SIGHS = word_set(
-    """
-    oh ah well sorry alas hey look honestly frankly unfortunately sadly luckily fortunately anyway
-    and but so now then yes no dear goodness phew ugh today tonight yesterday tomorrow ~comma
-    """
-)
-_WHEN = Expression(
-    r"(?:(?:earlier|later|just|right)(?: on)?|(?:last|this|every|next|one|all|the other)"
-    r" (?:night|morning|evening|afternoon|noon|week|weekend|month|year|day|spring|summer|autumn"
-    r"|winter|time)|once upon a time|(?:at|in|for|since|on|during|after|before|until)"
-    r" (?:(?:the|my|our|this|last|a) )?\w+)(?: ~comma)? "
-    rf"(?=(?:{PEOPLE}|they|it) )"
-)
-"""When something happens."""
 _PERSON = Expression(rf"(?:{PEOPLE}|they) ")
 _WEATHER = Expression(
     r"it (?:(?:has been|was|is|will be|always|really|just|only|soon) )*"
     r"(?:rain|snow|pour|freez|thunder|hail|drizzl|gets?|grows?|got|grew)\w*\b"
 )
-_FINITE = PAST | word_set(
+_FINITE = word_set(
     """
     is are am has have does did do will can could might says took left kept lay rang paid
     smells looks feels sounds seems tastes means takes costs
@@ -76,8 +64,8 @@ def is_talk(sentence: str, is_name: IsName) -> bool:
         sentence: normalized, with commas as words of their own.
         is_name: whether something in the scene is called by a word.
     """
-    words = [*dropwhile(lambda word: word in _SIGHS, sentence.split())]
-    said = _WHEN.sub("", " ".join(words))
+    words = sentence.split()
+    said = BEFORE_SUBJECT.sub("", sentence)
     named = any(map(is_name, (word for word in words if word != "can")))
     if named or _CALLING & {*words} or asks_besides(said):
         return False
@@ -91,13 +79,13 @@ def _tells(said: str) -> bool:
     if _WEATHER.match(said) or said.startswith(("there is ", "there was ", "there are ")):
         return True
     first, *more = said.split() or [""]
-    verbs = [word for word in more[:5] if word in _FINITE or _is_past(word)]
+    verbs = [word for word in more[:5] if word in _FINITE or is_past(word)]
     if first in BEFORE_NAMES:  # "the club is meeting tonight", and not "the spare keys"
         at = next((at for at, word in enumerate(more[:5]) if word in verbs), 0)
         placed = more[at] in ("is", "are") and {*more[at + 1 : at + 2]} & PLACED
         return at > 0 and not placed and more[at - 1] not in all_words()
     stranger = first not in all_words() and first not in NUMBERS
-    return stranger and bool(more) and (more[0] in _FINITE or _is_past(more[0]) or _does(more[0]))
+    return stranger and bool(more) and (more[0] in _FINITE or is_past(more[0]) or _does(more[0]))
 
 
 def _is_no_deed(did: list[str]) -> bool:
@@ -111,10 +99,6 @@ def _is_no_deed(did: list[str]) -> bool:
         return False
     going_on = first.endswith("ing") and did[0] in ("am", "is", "are", "was", "were")
     return going_on or first not in (WORK | VERB_WORDS) - OTHER_VERBS - {"hand", "get", "back"}
-
-
-def _is_past(word: str) -> bool:
-    return word.endswith("ed") and len(word) > len("need")
 
 
 def _does(word: str) -> bool:

@@ -155,7 +155,8 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     (r"\b(turn(?:ed|ing)?|swivel(?:led|ling)?)( (?:it|them))? round\b", r"\1\2 around"),
     # "The opening of the drawer", "do a pick of the cup"
     (
-        r"(?:(?P<ahead>^|[.;:,!?\n] ?|\b(?:and|then|first) )|\b(?P<when>after|before) "
+        r"(?:(?P<ahead>^|[.;:,!?\n] ?|\b(?:and|then|first|please|(?:could|can|would|will) you) )"
+        r"|\b(?P<when>after|before) "
         r"|\b(?P<is>is) |\b(?P<who>i|we) (?:want|need|would like|request|ask for) )"
         r"(?P<does>(?:do|perform|execute|make|attempt|carry out)(?:ing)? (?:an?|one|the) )?"
         r"(?:the )?(?P<noun>(?!of\b)\w+(?: up| out| and place)?) (?:of|(?<!ing )on) (?=\w)",
