@@ -1,17 +1,19 @@
 """Expressions that are compiled late say what ``re`` says."""
 
+import gc
 import re
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from etot_cli.reasoning.language.words.expressions import Expression
+import etot_cli.reasoning.language.instructions  # noqa: F401 - the whole grammar
+from etot_cli.reasoning.language.words.expressions import Expression, _demanded
 
 PIECES = (
     "ab", "cd ", r"\b", "(ab|cd)", "(?:cd)?", "ab?", "c*", "d+", "[abc]", "[^a]d", r"(?=cd)",
-    "^", "$", ".", "b{2}", "(?<!a)", r"\w+", "ab|cd", "(?:ab|(?:cd)?)", "(?P<it>cd|b)", "(?<=ab)",
-    "(?!cd|ab)", "(?:a|bc d)?", "(ab|)", r"\n", "(?:ab(?: c)?|cd)",
+    "^", "$", ".", "b{2}", "(?<!a)", r"\w+", "(?:ab|(?:cd)?)", "(?:ab|cd)", "(?P<it>cd|b)",
+    "(?<=ab)", "(?!cd|ab)", "(?:a|bc d)?", "(ab|)", r"\n", "(?:ab(?: c)?|cd)",
 )  # fmt: skip
 
 
@@ -26,6 +28,18 @@ def test_nothing_is_passed_over_that_would_fit(
     except re.error:
         return  # such as "ab?" before "b{2}"
     assert Expression(pattern, flags).sub("x", text) == expected
+
+
+def test_alternatives_in_no_bracket_are_told() -> None:
+    with pytest.raises(ValueError, match="brackets"):
+        Expression("ab|cd").search("cd")
+
+
+def test_every_expression_of_the_grammar_keeps_its_alternatives_in_brackets() -> None:
+    expressions = [each for each in gc.get_objects() if isinstance(each, Expression)]
+    assert len(expressions) > 400
+    for expression in expressions:
+        list(_demanded(expression._pattern))
 
 
 @pytest.mark.parametrize(

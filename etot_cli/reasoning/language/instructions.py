@@ -74,9 +74,9 @@ _ALSO_VERBS = frozenset({"open", "please", "first", "empty", "free", "you"})
 """They begin a request, too, though things are told by them."""
 _DECLARED = word_set("is are sits sit stands stand lies lie rests rest")
 _OF_ITS_OWN = Expression(
-    r"\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
+    r"(?:\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
     r"|(?<= )(?:all|both) (?=(?:go|are|should|belong|must|need)\b)"
-    r"|(?:when|once|after) (?:you have done (?:that|this|it)|(?:that|this) is done)\b"
+    r"|(?:when|once|after) (?:you have done (?:that|this|it)|(?:that|this) is done)\b)"
 )
 """Such words before a noun, or between that and its verb, speak of what it names, or of what was
 asked for before.

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from itertools import takewhile
+
+from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.paraphrasing.normalizing import normalized
 from etot_cli.reasoning.language.grammar.text.splitting import sentences_of
@@ -56,8 +57,7 @@ _ANYTHING = {"object", "thing", "item", "container", "other", "another"}
 _PICKING = words_of((verbs.PICK,))
 
 
-@dataclass(frozen=True, slots=True)
-class Refused:
+class Refused(Struct, frozen=True):
     """An instruction that was refused, and at which words.
 
     ``word``: of the phrase, the words to blame. ``without``: the sentence without them.
@@ -169,8 +169,7 @@ def _plain(text: str, names: _Names) -> Iterator[str]:
                 yield f"put {things} {link} {place.phrase}"
 
 
-@dataclass(frozen=True, slots=True)
-class _Mention:
+class _Mention(Struct, frozen=True):
     """Words for things, with what tells them apart; the place words that they stand behind; and
     whether only a verb or others of the kind stand before them.
     """

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from etot_cli.reasoning.language.words.expressions import Expression
 
@@ -22,8 +23,7 @@ _START = Expression(
 _GOAL_BEFORE = Expression(rf"(?:^|[.;!\n]\s*){_GOAL}", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
-class StartTold:
+class StartTold(Struct, frozen=True):
     """What an instruction says is so at the start, and what it asks for."""
 
     start: str

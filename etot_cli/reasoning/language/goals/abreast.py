@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import (
     Grouping,
     Near,
@@ -29,12 +31,12 @@ from etot_cli.world.spatial import Nearby
 def side_by_side(group: PutGroup) -> tuple[PutGroup, bool]:
     """A group without "next to each other", and whether that was said of it."""
     kept = tuple(
-        replace(where, beside=tuple(b for b in where.beside if EACH_OTHER not in b.phrases))
+        structs.replace(where, beside=tuple(b for b in where.beside if EACH_OTHER not in b.phrases))
         for where in group.destinations
     )
     said = kept != group.destinations
     named = tuple(where for where in kept if where.targets or where.beside)
-    return replace(group, destinations=named if said else group.destinations), said
+    return structs.replace(group, destinations=named if said else group.destinations), said
 
 
 def told_sides(group: PutGroup) -> tuple[tuple[NounPhrase, Nearby], ...]:
@@ -59,7 +61,7 @@ def _side_of_first(
     """
     sides: set[Nearby] = set()
     for np, side in told:
-        with_noun = np if np.words else replace(np, words=("one",))
+        with_noun = np if np.words else structs.replace(np, words=("one",))
         (index, *more) = context.phrases.things(Things((with_noun,)), Role.THEME)
         (thing, *others) = context.only(index, "say which one")
         if more or others or thing not in pair or len(pair) != 2:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Relation, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.closer import certain
@@ -58,7 +60,10 @@ def again(context: Context, clause: AgainClause) -> None:
         # A cup of its own colour is another one for something else.
         if not isinstance(last, PutClause) or len(last.groups) > 1:
             raise ReferenceProblem(text, "say where it goes", 3)
-        put(context, replace(last, groups=(replace(last.groups[0], things=clause.things),)))
+        put(
+            context,
+            structs.replace(last, groups=(structs.replace(last.groups[0], things=clause.things),)),
+        )
         return
     if isinstance(step, Put):
         if any(not isinstance(item, Put) or item.places != step.places for item in before):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
 from itertools import pairwise
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.builtin.goal import (
     Constraint,

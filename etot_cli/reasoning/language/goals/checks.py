@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
@@ -213,7 +215,7 @@ def check_stays(said: Sequence[Timed], discourse: Discourse) -> None:
 
     for item in (item for item in said if item.stays and item.order is Order.SAID):
         left = tuple(s for s in item.steps if not isinstance(s, Put) or not s.removal)
-        staying = dict(places(replace(item, steps=left)))
+        staying = dict(places(structs.replace(item, steps=left)))
         others = (i for i in said if i.sentence != item.sentence and i.order is Order.SAID)
         for thing, there in (found for other in others for found in places(other)):
             if thing in staying and not staying[thing] & there:

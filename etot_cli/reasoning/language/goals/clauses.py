@@ -5,6 +5,8 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import replace
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import Close, Open, Pick, Place, Put, Relation, Step, Thing
 from etot_cli.reasoning.builtin.relations import is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
@@ -59,9 +61,9 @@ from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, 
 from etot_cli.reasoning.language.words.places import Prep
 
 _RELATIVE_PLACE = Expression(
-    r"\b(?:that|which) (?:is|are|stands?|sits?|lies?)"
+    r"(?:\b(?:that|which) (?:is|are|stands?|sits?|lies?)"
     r" (?:in|on|at|next|beside|near|behind|left|right|there)\b"
-    r"|\b(?:standing|lying|sitting|located|placed)\b"
+    r"|\b(?:standing|lying|sitting|located|placed)\b)"
 )
 """It tells where a thing is, and not where it is to be."""
 _PLACES = frozenset(
@@ -82,7 +84,9 @@ def _check_told(context: Context, things: Things) -> None:
         if told != np.modifiers and not _RELATIVE_PLACE.search(np.text):
             options: tuple[tuple[Thing, ...], ...] = ()
             with suppress(ReferenceProblem):
-                options = context.phrases.meaning(replace(np, modifiers=told), Role.THEME).options
+                options = context.phrases.meaning(
+                    structs.replace(np, modifiers=told), Role.THEME
+                ).options
             if [len(option) for option in options] == [1]:
                 raise ReferenceProblem(np.text, "say whether it is to be held", 1)
 
@@ -95,7 +99,7 @@ def _of_the_wanted(before: Clause | None, clause: PutClause) -> PutClause:
             (PutGroup(things=Things(phrases=(one,))) as group,),
         ) if (one.determiner, one.words) in _ONE_ALONE and not (one.modifiers or one.pronoun):
             it = Things((NounPhrase(pronoun="it", text=one.text),))
-            return replace(clause, groups=(replace(group, things=it),))
+            return structs.replace(clause, groups=(structs.replace(group, things=it),))
     return clause
 
 
@@ -280,7 +284,9 @@ def _one_of_any(things: Things) -> Things:
 
     def one(phrase: NounPhrase) -> NounPhrase:
         if phrase.words == ("anything",):
-            return replace(phrase, words=("something",))
-        return replace(phrase, determiner="any one") if phrase.determiner == "any" else phrase
+            return structs.replace(phrase, words=("something",))
+        return (
+            structs.replace(phrase, determiner="any one") if phrase.determiner == "any" else phrase
+        )
 
-    return replace(things, phrases=tuple(map(one, things.phrases)))
+    return structs.replace(things, phrases=tuple(map(one, things.phrases)))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
@@ -97,12 +99,12 @@ def _of_the_same(group: PutGroup, whole: PutGroup) -> PutGroup:
     """
     ends = [item for item in group.destinations if item.word == LEVEL_OF_ALL]
     if ends and len(group.destinations) == 1:
-        return replace(group, destinations=(replace(ends[0], word=""),))
+        return structs.replace(group, destinations=(structs.replace(ends[0], word=""),))
     (at, *more), (surface, *others) = group.destinations, whole.destinations
     side = at.beside and not any(item.phrases for item in at.beside) and not at.targets
     if not side or more or others or not surface.targets or surface.beside:
         return group
-    return replace(group, destinations=(replace(surface, beside=at.beside),))
+    return structs.replace(group, destinations=(structs.replace(surface, beside=at.beside),))
 
 
 def things_of(context: Context, indices: Sequence[int]) -> set[Thing]:
@@ -127,4 +129,4 @@ def as_said(context: Context, state: State) -> State:
     if not any(isinstance(item, Destination) for item in nodes(context.last)):
         text = " and ".join(np.text for np in state.subjects)
         raise ReferenceProblem(text, "say where it should be", 3)
-    return replace(state, destinations=(Destination(Toward.HERE, word="there"),))
+    return structs.replace(state, destinations=(Destination(Toward.HERE, word="there"),))

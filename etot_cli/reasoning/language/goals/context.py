@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
+
+from msgspec import Struct, structs
 
 from etot_cli.reasoning.builtin.goal import (
     Constraint,
@@ -36,8 +38,7 @@ from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
 
 
-@dataclass(frozen=True, slots=True)
-class InTheWay:
+class InTheWay(Struct, frozen=True):
     """What is where something is to go instead of it, so that it has to go elsewhere.
 
     ``text``: the words, and ``why`` they are not read where it goes nowhere. ``off``: the step that
@@ -50,8 +51,7 @@ class InTheWay:
     off: Put | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Grasp:
+class Grasp(Struct, frozen=True):
     """A way to grasp a referent, or (None) what is taken at all."""
 
     what: int | None
@@ -153,13 +153,13 @@ class Context:
 
     def _tell(self, phrase: NounPhrase, role: Role, so: Callable[[Thing], bool]) -> None:
         """Speaks of those of some things that are so."""
-        every = replace(phrase, determiner="all", modifiers=())
+        every = structs.replace(phrase, determiner="all", modifiers=())
         with suppress(ReferenceProblem):
             named = self.phrases.meaning(every, role)
             there = tuple(thing for thing in named.options[0] if so(thing))
             plural = singular(phrase.words[-1]) != phrase.words[-1]
             if there and len(named.options[0]) - len(there) > plural:
-                here = replace(named, options=(there,), definite=False)
+                here = structs.replace(named, options=(there,), definite=False)
                 self.discourse.add(here, phrase.text, Role.ANY)
 
     def tell_so(self, things: Things, *, opens: bool) -> None:
@@ -172,7 +172,7 @@ class Context:
 
     def all_called(self, phrase: NounPhrase, role: Role) -> tuple[Thing, ...]:
         """All that is called by a phrase's noun."""
-        every = replace(phrase, determiner="all", words=phrase.words[-1:], modifiers=())
+        every = structs.replace(phrase, determiner="all", words=phrase.words[-1:], modifiers=())
         return self.phrases.meaning(every, role).options[0]
 
     def only(self, index: int, why: str) -> tuple[Thing, ...]:

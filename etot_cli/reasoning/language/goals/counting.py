@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from etot_cli.reasoning.builtin.goal import things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.builtin.goal import Place, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role

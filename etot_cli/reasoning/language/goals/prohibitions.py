@@ -7,6 +7,8 @@ from contextlib import suppress
 from dataclasses import replace
 from operator import attrgetter
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Constraint,
@@ -62,7 +64,7 @@ def avoid(context: Context, clause: AvoidClause) -> None:
     things = clause.things
     if things and things.either and clause.avoid in _LEAVING:
         # Neither "the cup or anything on it": the one after the other, as "it" may be the first.
-        clause = replace(clause, things=replace(things, either=False))
+        clause = structs.replace(clause, things=structs.replace(things, either=False))
     _forbid(context, clause)
     if clause.needless:
         new = context.constraints[before:]
@@ -111,7 +113,7 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         if others is None:
             _avoid_others(context, clause)
         else:
-            _forbid(context, replace(clause, things=others))
+            _forbid(context, structs.replace(clause, things=others))
         return
     elliptic = (
         np.is_elliptic or leaves_noun_out(np) or not (np.words or np.pronoun)
@@ -126,8 +128,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         # "there" is.
         said = context.discourse.mentions[before:]
         kept = [mention for mention in said if mention.role is Role.THEME and not before]
-        targets = [replace(m, role=Role.ANY) for m in said if m.role in _TARGETS]
-        kept += [replace(m, clause=0) for m in targets] if before else targets
+        targets = [structs.replace(m, role=Role.ANY) for m in said if m.role in _TARGETS]
+        kept += [structs.replace(m, clause=0) for m in targets] if before else targets
         # "Nothing but the cups may be there, so put them there"; behind "no cup but the white one"
         # "the other" is one of the cups.
         general = all({*np.words} & {"", "anything", *THING_NOUNS} for np in clause.things.phrases)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
+
+from msgspec import Struct, structs
 
 from etot_cli.reasoning.builtin.goal import Pick, Put, Step, Thing, referents_of
 from etot_cli.reasoning.builtin.relations import carriers
@@ -85,11 +87,10 @@ def _with_noun(phrase: NounPhrase, noun: tuple[str, ...], context: Context) -> N
         return phrase.called(*(single if phrase.head == "one" else noun))
     # An adjective alone leaves its noun out; so does a word that names nothing.
     adjectives = all(map(is_descriptive, phrase.words)) or not context.phrases.named(phrase.words)
-    return replace(phrase, words=(*phrase.words, *single)) if adjectives else phrase
+    return structs.replace(phrase, words=(*phrase.words, *single)) if adjectives else phrase
 
 
-@dataclass(frozen=True, slots=True)
-class Timed:
+class Timed(Struct, frozen=True):
     """A clause's steps, when they are to be done, and the number of the sentence; ``stays``: it
     says where things stay; ``led``: the word for when stands before it.
     """

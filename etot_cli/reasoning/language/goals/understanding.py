@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import Close, Goal, Near, Place, Put, Relation, Step, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.clauses import steps_of
@@ -155,7 +157,7 @@ class Understanding:
             stays = _says_what_stays(spoken.clause)
             item = Timed(steps, order, self.sentence, stays=stays, led=spoken.led)
             if before is not None and continues(timed[before], item, self.context.discourse):
-                timed[before] = replace(timed[before], steps=(*timed[before].steps, *steps))
+                timed[before] = structs.replace(timed[before], steps=(*timed[before].steps, *steps))
             else:
                 before = id(spoken)
                 timed[before] = item

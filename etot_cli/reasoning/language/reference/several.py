@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
@@ -72,20 +74,20 @@ class Phrases(Referents):
         named = tuple(
             np.called(noun)
             if np.is_elliptic
-            else replace(np, words=(*np.words, noun))
+            else structs.replace(np, words=(*np.words, noun))
             if out
             else np
             for np, out in zip(parts, elliptic, strict=True)
         )
         try:
-            every = self.meaning(replace(whole, determiner="all"), role).options
+            every = self.meaning(structs.replace(whole, determiner="all"), role).options
             meant = [self.meaning(np, role).options for np in named]
         except ReferenceProblem:
             if any(elliptic):
                 raise
             return things
         of_them = {thing for item in meant for thing in things_in(item)} <= {*things_in(every)}
-        return replace(things, phrases=named) if of_them else things
+        return structs.replace(things, phrases=named) if of_them else things
 
     def _of_the_whole(self, things: Things, role: Role, found: Sequence[Sequence[int]]) -> None:
         """Of what is announced together "the pen" is one of that.
@@ -137,7 +139,7 @@ class Phrases(Referents):
         alone = any(np.modifiers or np.pronoun or not np.words for np in before)
         if not before or alone or last.determiner or not shared:
             return phrases
-        told = (*(replace(np, modifiers=shared) for np in before), last)
+        told = (*(structs.replace(np, modifiers=shared) for np in before), last)
         there = tuple(np for np in told if self._options([np], role))
         if last in there:
             ways = [self._options(found, role) for found in (there, phrases)]
@@ -162,11 +164,11 @@ class Phrases(Referents):
         *before, last = things.phrases
         for first, phrase in zip(things.phrases, things.phrases[1:], strict=False):
             if phrase.loose and len(phrase.words) == 1 and len(first.words) > 1:
-                alike = replace(phrase, words=(*first.words[:-1], *phrase.words))
+                alike = structs.replace(phrase, words=(*first.words[:-1], *phrase.words))
                 self._check_alike(phrase, alike, role, " ".join(alike.words))
             if phrase.loose and len(phrase.words) > 1 == len(first.words):
                 # "The apple and orange juice": the apple, or its juice?
-                alike = replace(first, words=(*first.words, singular(phrase.words[-1])))
+                alike = structs.replace(first, words=(*first.words, singular(phrase.words[-1])))
                 self._check_alike(first, alike, role, " ".join(alike.words))
         shared = _shared(last)
         if not shared:
@@ -175,7 +177,7 @@ class Phrases(Referents):
             if phrase.modifiers or phrase.pronoun or not phrase.words:
                 continue
             end = last.text.removeprefix(" ".join((last.determiner, *last.words)).strip())
-            alike = replace(phrase, modifiers=shared)
+            alike = structs.replace(phrase, modifiers=shared)
             self._check_alike(phrase, alike, role, f"{phrase.text}{end}")
 
     def _check_alike(self, phrase: NounPhrase, alike: NounPhrase, role: Role, text: str) -> None:

@@ -36,10 +36,17 @@ def _either(ways: list[list[_Demand]]) -> _Demand:
     return tuple(text for each in demands for text in each) if all(demands) else ()
 
 
-def _demanded(pattern: str) -> list[_Demand]:
-    """Of each of these texts one stands in whatever a pattern fits."""
+def _demanded(pattern: str) -> Iterator[_Demand]:
+    """Of each of these texts one stands in whatever a pattern fits; told one by one, as the first
+    is not met by most texts.
+
+    Raises:
+        ValueError: if the pattern has alternatives that stand in no bracket; of these nothing is
+            known before its end.
+    """
     outer: list[tuple[bool, list[list[_Demand]]]] = []
     ways: list[list[_Demand]] = [[]]
+    told = 0
     for piece in _PIECES.finditer(pattern):
         kind = piece.lastgroup
         if kind == "choice":
@@ -52,6 +59,8 @@ def _demanded(pattern: str) -> list[_Demand]:
             never, ways = outer.pop()
             ways[-1].append(() if never else inner)
         elif kind == "other":
+            if not outer:
+                raise ValueError(f"alternatives belong in brackets: {pattern!r}")
             ways.append([])
         elif kind == "less" and ways[-1]:
             left_out = ways[-1].pop()
@@ -61,7 +70,11 @@ def _demanded(pattern: str) -> list[_Demand]:
         else:
             plain_text = "\n" if piece[0] == r"\n" else piece[0] if kind == "plain" else ""
             ways[-1].append((plain_text,) if plain_text else ())
-    return _known(ways[0] if len(ways) == 1 else [_either(ways)])
+        # What stands last may have a quantifier yet.
+        if not outer and told < len(ways[0]) - 1:
+            yield from _known(ways[0][told : told + 1])
+            told += 1
+    yield from _known(ways[0][told:])
 
 
 class Expression:
@@ -71,20 +84,18 @@ class Expression:
     them all took a third of the time in which the grammar is loaded.
 
     Args:
-        pattern: as for ``re.compile``.
+        pattern: as for ``re.compile``; alternatives stand in brackets.
         flags: likewise, none but ``re.IGNORECASE``.
     """
 
     def __init__(self, pattern: str, flags: re.RegexFlag = re.NOFLAG) -> None:
         self._pattern, self._flags = pattern, flags
+        self._demands: list[_Demand] = []
+        self._further: Iterator[_Demand] | None = None
 
     @cached_property
     def _compiled(self) -> re.Pattern[str]:
         return re.compile(self._pattern, self._flags)
-
-    @cached_property
-    def _demands(self) -> list[_Demand]:
-        return _demanded(self._pattern.casefold() if self._flags else self._pattern)
 
     def _may_fit(self, text: str) -> bool:
         """Whether what the expression cannot do without stands in a text."""
@@ -94,6 +105,12 @@ class Expression:
                 if literal in text:
                     break
             else:
+                return False
+        if self._further is None:
+            self._further = _demanded(self._pattern.casefold() if self._flags else self._pattern)
+        for demand in self._further:
+            self._demands.append(demand)
+            if not any(literal in text for literal in demand):
                 return False
         return True
 

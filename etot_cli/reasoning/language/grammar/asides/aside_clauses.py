@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from functools import cache
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open, leaves_choice
 from etot_cli.reasoning.language.grammar.asides.mishaps import (
@@ -28,7 +30,7 @@ from etot_cli.reasoning.language.words.small_words import (
 
 _DOING = "|".join(sorted(VERB_WORDS | {"open", "close", "shut"}))
 _WITHIN = Expression(
-    r"(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
+    r"(?:(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
     r"|(?P<reason>because|since|now that|given that|seeing (?:as|that)|considering that"
     r"|although|even though|even if|in case"
     rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
@@ -46,16 +48,17 @@ _WITHIN = Expression(
     r"|for(?= later\b| (?!\w*thing)\w+ing\b| (?:lunch|dinner|tea|play|bed)\w* ?time"
     rf"| (?:tonight|tomorrow|now|the (?:night|day|weekend|time being|moment))\b| when {PEOPLE}\b"
     rf"| (?!me\b|us\b|you\b)(?:him|her|{PEOPLE})(?: {ON_ARRIVAL})?(?:$| {COMMA}| who\b"
-    rf"| and (?:\w+ )?(?:{_DOING})\b)))\b"
+    rf"| and (?:\w+ )?(?:{_DOING})\b)))\b)"
 )
 """Words that a clause begins with wherever they stand."""
 _GOES_ON = Expression(r"(?P<plain>and)\b")
 """Behind whom something is for ("get the tape for my sister and put it down")."""
 _AHEAD = Expression(
-    r"(?P<reason>as(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
+    r"(?:(?P<reason>as"
+    r"(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
     r"|as(?= (?:it is|they are) (?:going|\w+ing|not|so|too|very|rather|quite|getting)\b)|though)\b"
     r"|(?P<comment>which|who)\b|(?P<purpose>otherwise)\b"
-    r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b"
+    r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b)"
 )
 """Words that one begins with behind a comma, or as the first of a sentence."""
 
@@ -90,7 +93,7 @@ _OTHER_THAN = Expression(r"it is not (?P<one>(?:the|my|our) (?:\w+ ){0,3}\w+)$")
 
 
 _IN_THE_END = Expression(
-    r"\bends? up\b|^(?:neither|none|nothing|no \w+) [^~]*\b(?:stays?|remains?|is left)\b"
+    r"(?:\bends? up\b|^(?:neither|none|nothing|no \w+) [^~]*\b(?:stays?|remains?|is left)\b)"
 )
 """Of what is to be so when all is done, and was not before."""
 _STANDING = Expression(
@@ -102,8 +105,7 @@ _LASTING = (["keep"], ["hold"], ["leave"], ["wait"])
 """What is done for a time rather than in a case."""
 
 
-@dataclass(frozen=True, slots=True)
-class Clause:
+class Clause(Struct, frozen=True):
     """A piece of a sentence.
 
     ``comma``: one stands before it. ``joint``: what it begins with, of some ``kind``.

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause, clauses_of
 from etot_cli.reasoning.language.grammar.asides.displeasure import (
@@ -114,8 +115,7 @@ _PRONOUNS = word_set("it they them that this those these he him she her")
 _OF_SEVERAL = word_set("they them those these")
 
 
-@dataclass(frozen=True, slots=True)
-class Plain:
+class Plain(Struct, frozen=True):
     """An instruction without its asides: the text to be read, and what was cut off."""
 
     text: str
@@ -124,8 +124,7 @@ class Plain:
     """Of these, what is done where it has to be."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Parted:
+class _Parted(Struct, frozen=True):
     """A sentence: what is left of it, and the asides before and behind that."""
 
     rest: str

@@ -9,7 +9,8 @@ nothing, nor does what people do that the robot cannot, whatever they do it with
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.asides.remarks import (
     ASKING,
@@ -132,8 +133,7 @@ _LONGEST = 5
 """Words of what something is said of, at most."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Doing:
+class _Doing(Struct, frozen=True):
     """What is said of somebody: the words for it without adverbs, whether it is denied, and whether
     it is what he does time and again.
     """

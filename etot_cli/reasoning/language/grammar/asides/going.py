@@ -14,7 +14,7 @@ _GOING = Expression(rf"(?:and )?(?:then )?{_GO}{_AT}")
 _GOING_FIRST = Expression(rf"(?:please )?(?:{_GO}|move){_AT}")
 """After "pick up the cup" who is to "move to the shelf" rather brings it there."""
 _THERE = Expression(
-    r"\b(?:there|here|down|away|back|in|inside|off|out)$|\b(?:there|here|down|away) and\b"
+    r"(?:\b(?:there|here|down|away|back|in|inside|off|out)$|\b(?:there|here|down|away) and\b)"
 )
 """Such a place depends on where that is done."""
 _DOING = "|".join(sorted(VERB_WORDS | {"open", "close"}))

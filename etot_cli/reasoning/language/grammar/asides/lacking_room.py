@@ -17,10 +17,10 @@ _WHERE = (
     r"|for (?:something|other things|more things|(?:something|anything) else|\w+ing)))*"
 )
 _LACKING = Expression(
-    rf"(?:i|we) (?:(?:just|really|also) )?(?:(?:will |could |would )?(?:need|use|want|like)"
+    rf"(?:(?:i|we) (?:(?:just|really|also) )?(?:(?:will |could |would )?(?:need|use|want|like)"
     rf"(?: to have)?|do not have|have|am|are)(?: (?:short|out) of)? {_ROOM}{_WHERE}"
     rf"|there is (?:just )?(?:not |hardly |barely )?{_ROOM}{_WHERE}"
-    rf"|(?:the |my )?(?:room|space) is (?:tight|short|scarce|limited){_WHERE}"
+    rf"|(?:the |my )?(?:room|space) is (?:tight|short|scarce|limited){_WHERE})"
 )
 
 

@@ -63,7 +63,7 @@ _TOGETHER_OR_APART = (
     r"(?: (?:up|together|apart|separately|in one(?: place)?|both|as (?:a pair|one)|side by side))*"
 )
 _LEFT_OPEN = Expression(
-    rf"{_NOT_CARING}(?: {_WHAT}| which \w+(?: (?:it|that|this) is)?)?"
+    rf"(?:{_NOT_CARING}(?: {_WHAT}| which \w+(?: (?:it|that|this) is)?)?"
     rf"|(?:{_WHAT}|{_EITHER}|(?:what|which) \w+) {_NO_MATTER}"
     rf"|(?:no matter )?whether(?! you\b){_WORDS}+ or not"
     r"|(?:\w+ )?(?P<thing>\w+) or no (?P=thing)"
@@ -76,7 +76,7 @@ _LEFT_OPEN = Expression(
     r"|(?:(?:the|my|our) (?:(?!not\b)\w+ ){1,3}|(?:it|they) )(?:can|may|might|could)"
     r" (?:go|be|end up|stand|lie|be put) (?:just )?"
     rf"(?:(?:anywhere|wherever)(?: you (?:like|want)| else{_ON_DESK})?|elsewhere{_ON_DESK})"
-    r"|do (?:what|as|it how|it however|whatever) you (?:like|want|please)"
+    r"|do (?:what|as|it how|it however|whatever) you (?:like|want|please))"
 )
 _WHICH_PLACE = Expression(
     rf"(?:{_NOT_CARING} )?(?:what|which) \w+(?: one)?{_WORDS}+(?: {_NO_MATTER})?"
@@ -110,8 +110,8 @@ _TIDY = "(?:clear|tidy|clean|empty|free|neat|uncluttered)"
 _WISHED = rf"{_I} (?:want|need|like|would like|prefer)(?: to have)?"
 _DESK = rf"(?:{'|'.join(DESK_NOUNS)})"
 _TIDY_DESK = Expression(
-    rf"{_WISHED} (?:the|my|our) {_DESK} (?:to be )?{_TIDY}|{_WISHED} an? {_TIDY} {_DESK}"
-    rf"|(?:the|my|our) {_DESK} (?:should|must|has to|needs to) be {_TIDY}"
+    rf"(?:{_WISHED} (?:the|my|our) {_DESK} (?:to be )?{_TIDY}|{_WISHED} an? {_TIDY} {_DESK}"
+    rf"|(?:the|my|our) {_DESK} (?:should|must|has to|needs to) be {_TIDY})"
 )
 
 

@@ -48,10 +48,10 @@ def befalls(said: str) -> bool:
 
 
 _WILL = Expression(
-    rf"{THING_WILL}|{_THING} {_MIGHT} (?:hit|strike|sweep|knock|push|drag|bump into|catch|crush"
+    rf"(?:{THING_WILL}|{_THING} {_MIGHT} (?:hit|strike|sweep|knock|push|drag|bump into|catch|crush"
     r"|squash|damage|break) (?:it|them|(?:the|my|our) (?:\w+ )??\w+)"
     r"(?: (?:off|over|down|away|out)(?: of)?(?: (?:the|my|our) (?:\w+ )?\w+)?)?"
-    rf"|{_THING} can not (?:yet )?be (?:reached|seen|found|got at|gripped|grasped|lifted)"
+    rf"|{_THING} can not (?:yet )?be (?:reached|seen|found|got at|gripped|grasped|lifted))"
 )
 
 
@@ -63,8 +63,8 @@ def may_befall(said: str) -> bool:
 
 
 _SPARED = Expression(
-    rf"{_THING} (?:do|does|will|can|could|would|shall) not (?:{BEFALLS})"
-    rf"|nothing (?:(?:will|can|could) )?(?:{BEFALLS})"
+    rf"(?:{_THING} (?:do|does|will|can|could|would|shall) not (?:{BEFALLS})"
+    rf"|nothing (?:(?:will|can|could) )?(?:{BEFALLS}))"
 )
 
 

@@ -61,7 +61,7 @@ _PERSON = Expression(
 _SOMEBODY = Expression(rf"^(?P<who>{PEOPLE}) ")
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = Expression(
-    r"^forgot to (?:put|take|tidy|pack|clear) (?:\w+ )?away$"
+    r"(?:^forgot to (?:put|take|tidy|pack|clear) (?:\w+ )?away$"
     r"|^likes? (?:it|them|(?:my|our|his|her|the) \w+) "
     r"(?:cold|cool|warm|hot|chilled|fresh|clean|neat|better|best)(?= anyway|$)"
     r"|^(?:comes?|gets?) (?:back |home )+(?:late|early|soon|tired|hungry)\b"
@@ -79,7 +79,7 @@ _HAPPENED = Expression(
     r"|^(?:have|has|had|am|are|is|was|were|likes|loves?|hates?|broke|bought|left|made|forgot|lost|"
     r"found|got|did|went|came|ate|drank|saw|spilt|felt|gave|sent|"
     r"sold|will (?:be|need)|hope|think|know|"
-    r"(?!(?:want|lik|wish|ask|hop|expect|prefer)\w*ed\b|need)\w+ed|forget|lose|spill)\b"
+    r"(?!(?:want|lik|wish|ask|hop|expect|prefer)\w*ed\b|need)\w+ed|forget|lose|spill)\b)"
 )
 """What somebody did, is or is about to do."""
 _HABIT = Expression(
@@ -160,7 +160,7 @@ _TOO = Expression(
     r"^(?:it|they|that|(?:the|my|your|our) [^~]+) (?:is|are|looks?|gets?) (?:far |much )?too \w+"
 )
 _IN_GENERAL = Expression(
-    rf"^it is (?:(?:already|nearly|almost|just|about) )*(?:half past|(?:a )?quarter (?:past|to)"
+    rf"(?:^it is (?:(?:already|nearly|almost|just|about) )*(?:half past|(?:a )?quarter (?:past|to)"
     rf"|{'|'.join(sorted(set(NUMBERS) - {'a', 'an'}))})(?: (?:past|to) \w+)?(?: already)?$"
     r"|^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
     r"|^it (?:is|gets|looks|feels) (?:so |very |too |"
@@ -172,14 +172,14 @@ _IN_GENERAL = Expression(
     r"(?:like|want|need|keep|prefer|belongs?|goes?|lives?)"
     r"(?: it| them)?$|^(?:it|that|this) is (?:my|our|his|her) (?:favou?rite|best) \w+$"
     r"|^it is \w+time for (?:the|my|our) \w+(?: \w+)?$"
-    r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b"
+    r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b)"
 )
 _IN_PASSING = Expression(
-    r"(?:it|they) (?:is|are) "
+    r"(?:(?:it|they) (?:is|are) "
     r"(?:(?:still|quite|very|really|rather|almost|too|nearly|half) )*full"
     r"(?: of \w+| to the (?:brim|rim|top))?"
     r"|(?:it|they) (?:is|are) (?:going|about) to (?:be|get) (?P<done>\w+(?:ed|t|n))"
-    r"(?: (?:today|tomorrow|tonight|soon|later|next week|this week|in a (?:minute|moment)))?"
+    r"(?: (?:today|tomorrow|tonight|soon|later|next week|this week|in a (?:minute|moment)))?)"
 )
 _WHENEVER = Expression(r" (?:when|whenever|if|as soon as) (?:it|they|i|we|somebody|one) [^~]+$")
 """When something does what it does ("the tube leaks when it lies down")."""
@@ -218,7 +218,7 @@ _OVER_THE_EDGE = (
     r"(?:top|edge|side|rim|front))?"
 )
 _NO_PLACE = Expression(
-    rf"^belong(?:s|ed)? to {PEOPLE}$"
+    rf"(?:^belong(?:s|ed)? to {PEOPLE}$"
     rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
@@ -228,7 +228,7 @@ _NO_PLACE = Expression(
     rf"|^{_NOT_STAYING}$"
     r"|^(?:must|should) (?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
     r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "
-    r"(?:warm|cold|cool|dry|fresh|clean|safe)$"
+    r"(?:warm|cold|cool|dry|fresh|clean|safe)$)"
 )
 _NEEDED = Expression(r"^needs? (?:a |some )?(?:little |good )?(?P<done>\w+ing)$")
 _DONE_TO_THINGS = VERB_WORDS | words_of(
@@ -256,9 +256,9 @@ _UNFIT_THERE = Expression(
     r"(?: (?:(?:up|down|over|out) )?(?:here|there))?$"
 )
 _TURNING = Expression(
-    rf" (?:(?:is|are) (?:getting|going|turning)|(?:has|have) gone) (?:{TURNED})$"
+    rf"(?: (?:(?:is|are) (?:getting|going|turning)|(?:has|have) gone) (?:{TURNED})$"
     r"|(?:must|should|(?:needs?|has|have) to) "
-    r"(?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
+    r"(?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$)"
 )
 """Of whatever it is said, it asks for nothing."""
 

@@ -62,9 +62,9 @@ _TIME = Expression(
     r"(?: (?:is )?(?:over|up|out|now|again|everybody|everyone|kids))*"
 )
 _EXCLAIMED = Expression(
-    r"what (?:an? )?(?:\w+ ){0,2}\w+|how (?!many\b|much\b|about\b|come\b|to\b)\w+(?: of you)?"
+    r"(?:what (?:an? )?(?:\w+ ){0,2}\w+|how (?!many\b|much\b|about\b|come\b|to\b)\w+(?: of you)?"
     r"|look (?:at (?:this|that|the)(?: \w+)?|what a) (?:mess|chaos|clutter|state|jumble)"
-    r"|(?:good|oh my|my) (?:grief|goodness|lord|heavens|god|gracious)"
+    r"|(?:good|oh my|my) (?:grief|goodness|lord|heavens|god|gracious))"
 )
 _PLACED_THERE = Expression(
     r"(?P<who>(?:i|we) (?:(?:still|also|soon) )*"
@@ -87,7 +87,7 @@ _THERE_IS = Expression(
     r"(?:(?:an?|some|so much|too much|such an?) |(?=(?:\w+ ){1,2}(?:in|on|inside) (?:it|them)$))"
 )
 _YONDER = Expression(
-    r"(?: (?:in|out|over|up|down))? (?:here|there)(?= |$)| (?:in|on|inside) (?:it|them)$"
+    r"(?:(?: (?:in|out|over|up|down))? (?:here|there)(?= |$)| (?:in|on|inside) (?:it|them)$)"
 )
 _NO_EXISTENCE = REFERRING | {*THING_NOUNS, *LEVELS, *SIDES, *STATES}
 """What is there of these may be in the scene."""

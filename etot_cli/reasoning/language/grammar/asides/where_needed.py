@@ -62,11 +62,11 @@ _ALLOWED = (
     rf"|(?:it is|it would be) (?:{_FINE} (?:to|if you)|{_FINE} for you to))"
 )
 _IF_IN_THE_WAY = Expression(
-    rf"if {_SO}|(?:should {_THING}|were {_THING} to) (?:be|get|stand) in (?:the|your|its) way"
+    rf"(?:if {_SO}|(?:should {_THING}|were {_THING} to) (?:be|get|stand) in (?:the|your|its) way)"
 )
 _TAKE_IT_AWAY = Expression(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|{_TOUCH} {_IT}){_FIRST}")
 _WHERE_NEEDED = Expression(
-    rf"{_YOU}(?:{_TAKE_IT}|{_TAKING_IT}){_FIRST} {_NEEDED}"
+    rf"(?:{_YOU}(?:{_TAKE_IT}|{_TAKING_IT}){_FIRST} {_NEEDED}"
     rf"|you (?:can|could) {_TAKE} {_THING} {_ELSEWHERE}{_FIRST}"
     rf"|{_ALLOWED} {_TAKE_IT}{_FIRST}(?: {_NEEDED})?"
     rf"|it (?:is|would be) {_FINE} (?:for you to|to|if you) {_TAKE_IT}{_AND_LEAVE_IT}"
@@ -75,7 +75,7 @@ _WHERE_NEEDED = Expression(
     rf"|(?:you {_MAY_HAVE_TO} {_TAKE_IT}|{_THING} {_MAY_HAVE_TO} be {_TAKEN}){_FIRST}"
     rf"(?: {_NEEDED})?"
     rf"|(?:please )?(?:(?:do not|never) {_TAKE_IT}|{_LEAVE_IT}"
-    rf"|(?:without |avoid )?{_TAKING_IT}) {_UNLESS}"
+    rf"|(?:without |avoid )?{_TAKING_IT}) {_UNLESS})"
 )
 
 

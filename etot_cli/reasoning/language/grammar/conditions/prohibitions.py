@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial, reduce
 from typing import Any
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.conditions.falling import (
     LEAVE_THE_DESK,

@@ -44,7 +44,7 @@ _WELL = Expression(
 _BRACKETED = Expression(r"\b([a-z]{2,}) \(([a-z]+)\)")
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _QUOTES = Expression('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')
-_ITEMS = Expression(r"[.)]\s|\bstep\b")
+_ITEMS = Expression(r"(?:[.)]\s|\bstep\b)")
 """Without such signs nothing is listed by numbers or letters."""
 _ARTICLE_LEFT_OUT = Expression(
     r"\b(?:(out of) (?=way\b)|((?<!start )(?<!starting )(?:at|by)) (?=end\b)|"

@@ -62,8 +62,9 @@ _NO_NOUN = (
 
 
 _DID = Expression(
-    rf"\b(if you )({'|'.join(PAST)})\b|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
-    r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b)"
+    rf"(?:\b(if you )({'|'.join(PAST)})\b"
+    rf"|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
+    r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b))"
 )
 _WISHED = Expression(r"\bwould (?:be|appreciate|like|love|prefer)\b[^.;:!?\n]*? if you [^.;:!?\n]*")
 
@@ -236,7 +237,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"\band/or\b", "or"),
     (rf"\b(left|right|top|bottom|front|back|upper|lower)[{HYPHENS} ]most\b", r"\1most"),
     (rf"\b(left|right)(?:[{HYPHENS}]hand(?:ed)?\b| hand(?= corner\b))", r"\1"),
-    (r"\b(?:number|no\.|nr\.?)\s*(?=\d)|#(?=\d)", ""),
+    (r"(?:\b(?:number|no\.|nr\.?)\s*|#)(?=\d)", ""),
     (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
     (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),
     (
@@ -398,7 +399,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.
     (rf"\b{_PIECES} (?=(?:{'|'.join(CATEGORIES)})\b)", ""),
     (rf"\b([a-z])[{HYPHENS}](?=[a-z]{{3}})", r"\1"),  # "t-shirt", "x-ray"
-    (rf"(?<=\w)[{HYPHENS}](?=\w)|/(?=\w)", " "),
+    (rf"(?:(?<=\w)[{HYPHENS}]|/)(?=\w)", " "),
     (r"&", " and "),
     # Steps ("open the drawer -> pen to drawer -> drawer closed"), else places ("pen -> drawer")
     (rf"\b(open|closed|shut) ?{_ARROW}", r"\1, then "),

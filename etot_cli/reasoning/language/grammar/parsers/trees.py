@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec import Struct
+
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -20,9 +22,8 @@ def nodes(tree: object) -> Iterator[object]:
         yield node
         if isinstance(node, tuple):
             ahead.extend(reversed(node))
-        else:
-            fields = getattr(node, "__dataclass_fields__", ())
-            ahead.extend(getattr(node, name) for name in reversed(fields))
+        elif isinstance(node, Struct):
+            ahead.extend(getattr(node, name) for name in reversed(node.__struct_fields__))
 
 
 def pronouns(tree: object) -> Iterator[str]:

@@ -6,8 +6,9 @@ modifiers need stand in ``common``, and are defined there.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import fields, is_dataclass
 from enum import Enum
+
+from msgspec import Struct
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.parsers.combinators import phrase
@@ -151,10 +152,11 @@ _LAST_FIRST = Expression(r"\b(first|before|beforehand)(?: that)?(?: ~comma| plea
 
 
 _ALLOWED_LATER = Expression(
-    r"(?:^|~comma |\b(?:and|but|then) )later(?: on)? (?:~comma )?(?:(?!~comma|\band\b|\bbut\b).)*"
+    r"(?:(?:^|~comma |\b(?:and|but|then) )later(?: on)? (?:~comma )?"
+    r"(?:(?!~comma|\band\b|\bbut\b).)*"
     r"\b(?:may|can|could|might)\b(?! (?:you|i|we)\b)"
     r"|\b(?:may|can|could|might)\b(?! (?:you|i|we)\b)"
-    r"(?:(?!~comma|\band\b|\bbut\b|\bthen\b).)* later\b"
+    r"(?:(?!~comma|\band\b|\bbut\b|\bthen\b).)* later\b)"
 )
 """What may be done some time is not asked for now."""
 
@@ -232,11 +234,11 @@ def _traces(node: object) -> Iterator[str]:
     elif isinstance(node, tuple):
         for item in node:
             yield from _traces(item)
-    elif is_dataclass(node):
+    elif isinstance(node, Struct):
         yield from _said(node)
-        for field in fields(node):
-            if field.name not in ("text", "grouping"):
-                yield from _traces(getattr(node, field.name))
+        for field in node.__struct_fields__:
+            if field not in ("text", "grouping"):
+                yield from _traces(getattr(node, field))
 
 
 def _all_but(nps: tuple[NounPhrase, ...]) -> bool:

@@ -7,9 +7,10 @@ tells out of whose way.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 from operator import add
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,

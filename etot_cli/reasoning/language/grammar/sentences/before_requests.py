@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import chain
 from operator import add
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.conditions.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.conditions.falling import UNHARMED

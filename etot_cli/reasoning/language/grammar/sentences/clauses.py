@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import takewhile
 from typing import Any
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.conditions.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.conditions.left_alone import KEEP_STILL

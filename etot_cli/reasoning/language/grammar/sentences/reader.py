@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import says_nothing
 from etot_cli.reasoning.language.grammar.paraphrasing.normalizing import normalized
@@ -78,8 +79,7 @@ class UnreadableError(Exception):
         super().__init__(words)
 
 
-@dataclass(frozen=True, slots=True)
-class Sentence:
+class Sentence(Struct, frozen=True):
     """A sentence's readings, the simplest first, each as clauses in the order they are put."""
 
     text: str
@@ -88,8 +88,7 @@ class Sentence:
     """How far-fetched they are."""
 
 
-@dataclass(frozen=True, slots=True)
-class Read:
+class Read(Struct, frozen=True):
     """All sentences, and the slips of the pen that were put right in them."""
 
     sentences: tuple[Sentence, ...]

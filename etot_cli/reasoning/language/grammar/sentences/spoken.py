@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
+
+from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.syntax.clauses import Clause
 
@@ -19,8 +20,7 @@ class Order(StrEnum):
     LAST = "last"
 
 
-@dataclass(frozen=True, slots=True)
-class Spoken:
+class Spoken(Struct, frozen=True):
     """A clause, where it begins in the text, and when it is to be done."""
 
     clause: Clause

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.asides.asides import ASIDE
 from etot_cli.reasoning.language.grammar.conditions.occupied import ALREADY

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from enum import StrEnum
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -18,8 +20,7 @@ from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
 
 
-@dataclass(frozen=True, slots=True)
-class PickClause:
+class PickClause(Struct, frozen=True):
     """Take something; nothing is said about where to."""
 
     things: Things
@@ -34,8 +35,7 @@ class PickClause:
     """It is got from where it is, rather than picked up."""
 
 
-@dataclass(frozen=True, slots=True)
-class GraspClause:
+class GraspClause(Struct, frozen=True):
     """How things are grasped, whatever is done with them: what ``things`` say, or, where there are
     none, what is taken at all. No ``poses``: in any way.
     """
@@ -48,8 +48,7 @@ class GraspClause:
     """As written."""
 
 
-@dataclass(frozen=True, slots=True)
-class PutGroup:
+class PutGroup(Struct, frozen=True):
     """Things with the destinations that they share."""
 
     things: Things
@@ -72,8 +71,7 @@ class PutGroup:
         return replace(self, destinations=tuple(w.going_to(change) for w in self.destinations))
 
 
-@dataclass(frozen=True, slots=True)
-class Turns:
+class Turns(Struct, frozen=True):
     """Which of several things come first and last, or all of them in order, or from which side to
     which they are taken ("left right").
     """
@@ -84,8 +82,7 @@ class Turns:
     sweep: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class PutClause:
+class PutClause(Struct, frozen=True):
     """Bring things somewhere. ``conditions``: "with the plum inside the cup"."""
 
     groups: tuple[PutGroup, ...]
@@ -111,8 +108,7 @@ def put_to(things: Things, where: tuple[Destination, ...]) -> PutClause:
     return PutClause((PutGroup(things, where),))
 
 
-@dataclass(frozen=True, slots=True)
-class RemoveClause:
+class RemoveClause(Struct, frozen=True):
     """Take something away from where it is."""
 
     things: Things
@@ -129,8 +125,7 @@ class RemoveClause:
     """It is said of where that is ("free the cup from the pen"), which "it" may mean next."""
 
 
-@dataclass(frozen=True, slots=True)
-class MoveClause:
+class MoveClause(Struct, frozen=True):
     """Open or close something."""
 
     things: Things
@@ -142,16 +137,14 @@ class MoveClause:
     """How much rather the same words are said of something else ("lift it" of a cup)."""
 
 
-@dataclass(frozen=True, slots=True)
-class EnsureClause:
+class EnsureClause(Struct, frozen=True):
     """States that must hold in the end."""
 
     states: tuple[State, ...]
     far_fetched: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class ReorientClause:
+class ReorientClause(Struct, frozen=True):
     """Turn something so that it fits, or (``stance``) stand it up or lay it down; not where it
     goes.
     """
@@ -170,8 +163,7 @@ class ReorientClause:
     """What is said of it that is neither known of a thing nor asked for."""
 
 
-@dataclass(frozen=True, slots=True)
-class TowerClause:
+class TowerClause(Struct, frozen=True):
     """Things upon each other. ``upward``: they are named from the bottom up (None: not said);
     ``bottom``, ``middle``, ``top``: the ones that "with the red one at the bottom" names.
     """
@@ -197,8 +189,7 @@ class TowerClause:
     """Where each thing goes that is not at the bottom, told layer by layer."""
 
 
-@dataclass(frozen=True, slots=True)
-class SwapClause:
+class SwapClause(Struct, frozen=True):
     """Each of two things goes where the other is."""
 
     things: Things
@@ -206,16 +197,14 @@ class SwapClause:
     """Where each of them goes, as it is said again."""
 
 
-@dataclass(frozen=True, slots=True)
-class CoverClause:
+class CoverClause(Struct, frozen=True):
     """Something gets a cover, the one lid that there is where none is named."""
 
     things: Things
     cover: Things | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class AgainClause:
+class AgainClause(Struct, frozen=True):
     """What was asked for last is asked for of other things, too. ``trailing``: "and the cup, too"
     says so, which may also add to where things go.
     """
@@ -246,8 +235,7 @@ class Avoid(StrEnum):
     """Which no plan may do anyway."""
 
 
-@dataclass(frozen=True, slots=True)
-class AvoidClause:
+class AvoidClause(Struct, frozen=True):
     """What must not be done. ``things`` is None for "anything else"."""
 
     avoid: Avoid

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
 from enum import StrEnum
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
@@ -15,8 +17,7 @@ CLEARED = ("cleared",)
 """The words of a modifier for what is to be taken out or off, whatever it is."""
 
 
-@dataclass(frozen=True, slots=True)
-class Modifier:
+class Modifier(Struct, frozen=True):
     """What follows a noun to single out an instance."""
 
     prep: Prep
@@ -30,8 +31,7 @@ class Modifier:
     """Nothing lies in between ("the blocks directly on the tray")."""
 
 
-@dataclass(frozen=True, slots=True)
-class NounPhrase:
+class NounPhrase(Struct, frozen=True):
     """Determiner, words (the last one is the head), modifiers; or a pronoun.
 
     ``owner``: the possessor in "the chest's drawer". ``text``: as written. ``without``: words
@@ -85,8 +85,7 @@ class NounPhrase:
         return replace(self, modifiers=(*self.modifiers, *modifiers))
 
 
-@dataclass(frozen=True, slots=True)
-class Things:
+class Things(Struct, frozen=True):
     """Coordinated noun phrases: all of them, or (``either``) one of them."""
 
     phrases: tuple[NounPhrase, ...]
@@ -140,8 +139,7 @@ class Toward(StrEnum):
     """Where the target was, which goes elsewhere."""
 
 
-@dataclass(frozen=True, slots=True)
-class Beside:
+class Beside(Struct, frozen=True):
     """Where on a surface: a relation to landmarks, or a region of ``phrases[0]``, or of what the
     surface is.
     """
@@ -151,8 +149,7 @@ class Beside:
     text: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Destination:
+class Destination(Struct, frozen=True):
     """Alternative targets with one preposition."""
 
     toward: Toward
@@ -171,8 +168,7 @@ class Destination:
         return replace(self, targets=tuple(map(change, self.targets)))
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(Struct, frozen=True):
     """What is to hold, as in "the plum is inside the cup".
 
     ``word``: the adjective in "the drawer is closed". ``kept``: it is so and has to stay so.

@@ -14,7 +14,7 @@ _STATES = (
 CONTRACTIONS = (
     # As people type who leave apostrophes out; "its" and "ill" are words of their own.
     (r"\b(that|there|what|where|who)s\b", r"\1's"),
-    (r"\bu\b|\bya\b", "you"),
+    (r"\b(?:u|ya)\b", "you"),
     (
         r"\b((?:the|my|all|both)(?: (?!and\b|or\b)\w+){1,2}|everything|all|anything)"
         r" what (?=(?:is|are)\b)",

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from etot_cli.reasoning.language.words import places, verbs
 from etot_cli.reasoning.language.words.expressions import Expression
@@ -62,8 +63,7 @@ _TOKEN = re.compile(r"\d+\.\d+|[^\s,.!?;]+|[,.!?;\n]")
 _ENDS = frozenset(".!?;\n")
 
 
-@dataclass(frozen=True, slots=True)
-class TakenBack:
+class TakenBack(Struct, frozen=True):
     """A way to understand what is taken back: the words, what is said in their place, and all of
     the text without them.
     """

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 
@@ -39,8 +40,7 @@ class EmptyAlready(ReferenceProblem):
     """Words for all that is in or on something, where nothing is."""
 
 
-@dataclass(frozen=True, slots=True)
-class Mention:
+class Mention(Struct, frozen=True):
     """A referent spoken of in a clause, in a role."""
 
     referent: int

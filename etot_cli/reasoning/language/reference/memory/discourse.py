@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import Place, Referent, Thing, things_in
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import Role
@@ -138,7 +140,7 @@ class Discourse:
         if resolved.definite and not resolved.other:
             for earlier in range(index - 1, -1, -1):
                 if self._is_again(earlier, resolved):
-                    self.mentions.append(replace(mention, referent=earlier))
+                    self.mentions.append(structs.replace(mention, referent=earlier))
                     return earlier
         distinct = self._told_from(resolved, role)
         if resolved.definite and not resolved.other and len(resolved.options) > 1:
@@ -240,7 +242,7 @@ class Discourse:
     def is_about(self, topic: Collection[int]) -> None:
         """Of what a clause mentions "it" is what that is about, rather than what tells where."""
         self.mentions[:] = [
-            replace(mention, role=Role.THEME)
+            structs.replace(mention, role=Role.THEME)
             if mention.referent in topic and mention.clause == self.clause
             else mention
             for mention in self.mentions
@@ -250,7 +252,9 @@ class Discourse:
         """What was mentioned from ``first`` on is what "it" speaks of only if nothing else is, what
         was ``meant`` rather than what that was told by.
         """
-        said = [replace(mention, role=Role.ANY, clause=0) for mention in self.mentions[first:]]
+        said = [
+            structs.replace(mention, role=Role.ANY, clause=0) for mention in self.mentions[first:]
+        ]
         said.sort(key=lambda mention: mention.referent in meant)
         self.mentions[:] = [*said, *self.mentions[:first]]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from etot_cli.reasoning.language.words.lexicon import NUMBERS
 
@@ -11,8 +11,7 @@ _DEFINITE = frozenset(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
+class Quantity(Struct, frozen=True):
     """How many are meant.
 
     Args:

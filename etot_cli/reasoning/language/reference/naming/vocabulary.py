@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Sequence
-from dataclasses import replace
 from difflib import get_close_matches
 from functools import partial
+
+from msgspec.structs import replace
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase

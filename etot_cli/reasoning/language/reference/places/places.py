@@ -7,6 +7,8 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
@@ -203,7 +205,7 @@ class Places:
             return where
         self.discourse.notes.append(f"'to {np.text}': next to it")
         beside = (Beside(Nearby.NEXT_TO, (np,), f"next to {np.text}"),)
-        return replace(where, toward=Toward.BESIDE, targets=(), beside=beside)
+        return structs.replace(where, toward=Toward.BESIDE, targets=(), beside=beside)
 
     def _targets(
         self, destination: Destination, phrase: NounPhrase, themes: Sequence[int], *, stays: bool
