@@ -17,13 +17,15 @@ NEEDED_MIB = 350
 numpy and MuJoCo. Pictures (OpenCV) take 170 MiB more and are loaded where there are some."""
 MIB = 1 << 20
 COLLECT_EVERY = 50_000
-"""New objects after which reference cycles are looked for. Loading and a search make some 200,000
+"""New objects after which reference cycles are looked for. Loading and a search make some 300,000
 that nearly all stay; looking after every 700, as Python does, takes 130 ms of a plan's 1.5 s, and
 after so many 40. A search leaves 5,000 in cycles, with 4 MiB of models: rarer looks let a process
 with many searches grow (25 of them: 214 MiB, as with Python's own, and 300 at four times as many).
 """
-COLLECT_OLDER_EVERY = 6
-"""Such looks after which older objects are looked at, too, for 30 ms: not within one plan."""
+COLLECT_OLDER_EVERY = 12
+"""Such looks after which older objects are looked at, too, for 40 ms: not within one plan. At half
+of it most plans that read an instruction had one; 25 searches take 226 MiB instead of 220.
+"""
 _LACK = re.compile(
     r"(?i)(could not|cannot|unable to|failed to) (allocate|map segment)|out of memory|"
     r"can't start new thread|memory allocation (still )?failed"
