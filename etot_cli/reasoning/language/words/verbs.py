@@ -30,10 +30,10 @@ SET = """
     set[ting] [down|back], stow[ing] [away], sit[ting] [down], park[ing],
     stor(e|ing), deposit[ing], transfer[ring], drop[ping], lay[ing] [down], stick[ing], slip[ping],
     tuck[ing], position[ing], load[ing], carry[ing], return[ing],
-    stand[ing], rest[ing], pack[ing], bring[ing], pop[ping], slid(e|ing),
+    stand[ing], rest[ing], pack[ing], bring[ing], pop[ping],
     sort[ing], arrang(e|ing), put[ting] together, hid(e|ing), deliver[ing],
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
-    slot[ting], fit[ting], sling[ing], bung[ing], plonk[ing], shov(e|ing), nestl(e|ing),
+    slot[ting], fit[ting], bung[ing], plonk[ing], nestl(e|ing),
     prop[ping], perch[ing], settl(e|ing), cram[ming], wedg(e|ing), haul[ing], lug[ging], dump[ing],
     restor(e|ing), serv(e|ing) [up], lodg(e|ing), plunk[ing], plant[ing], install[ing],
     hous(e|ing), rehous(e|ing), rehom(e|ing), conceal[ing], bundl(e|ing), eas(e|ing), guid(e|ing),
@@ -71,8 +71,10 @@ LAY = f"{PLACE}, lay[ing], stand[ing], sit[ting], rest[ing]"
 THROW_AWAY = "throw[ing] (away|out), bin[ning], discard[ing], (dispos(e|ing)|get[ting] rid) of"
 GATHER = "gather[ing] [up|together], collect[ing] [up], assembl(e|ing)"
 """With a place it is bringing things there, rather than picking up what is there."""
-THROW = "throw[ing], toss[ing], chuck[ing]"
-"""Into or onto a thing it is putting; what is thrown elsewhere is to fly."""
+THROW = "throw[ing], toss[ing], chuck[ing], sling[ing], fling[ing]"
+"""Into a bin it is but putting; what is thrown elsewhere is to fly."""
+SLIDE = "slid(e|ing), shov(e|ing)"
+"""Into or onto a thing it is putting; what is slid elsewhere is to be pushed along."""
 FETCH = "bring[ing], tak(e|ing), fetch[ing], carry[ing], get[ting], mov(e|ing)"
 DISTRIBUTE = """
     distribut(e|ing), spread[ing] [out], divid(e|ing), split[ting] [up], shar(e|ing) out
@@ -86,15 +88,16 @@ TAKE = "tak(e|ing), pull[ing], mov(e|ing), bring[ing], transfer[ring]"
 """What is taken from a place is away from there; what is fetched from it is wanted in the hand."""
 _EASED = """
     draw[ing], eas(e|ing), haul[ing], heav(e|ing), coax[ing], teas(e|ing), pris(e|ing), pry[ing],
-    slid(e|ing), slip[ping]
+    slip[ping]
 """
-FREE = f"{_EASED}, free[ing], fish[ing], dig[ging], whisk[ing]"
+FREE = f"{_EASED}, slid(e|ing), free[ing], fish[ing], dig[ging], whisk[ing]"
 """Said of what does not come out by itself; what is whisked into a bowl is an egg."""
-GET_OUT = f"""
+_GET = f"""
     {TAKE}, get[ting], fetch[ing], dig[ging], fish[ing], pluck[ing], withdraw[ing], {_EASED}
 """
+GET_OUT = f"{_GET}, slid(e|ing)"
 """Said of what is taken out of something; who grabs a thing there holds it."""
-BRING = f"{GET_OUT}, grab[bing], lift[ing]"
+BRING = f"{_GET}, grab[bing], lift[ing]"
 REMOVE = """
     remov(e|ing), withdraw[ing], clear[ing] away, bring[ing] (down|out), extract[ing],
     whisk[ing] (away|off|out),

@@ -32,15 +32,44 @@ def _away(text: str, things: Things, into: Destination | None) -> PutClause | No
     means what is in there.
     """
     if into is not None:
-        said = {word for np in into.targets for word in "_".join(np.words).split("_")}
-        plain = said & BINS or not into.targets
+        plain = _is_bin(into) or not into.targets
         fits = (plain or text.startswith(("discard", "dispos"))) and not things.are_any
         return replace(put_to(things, (into,)), far_fetched=int(not plain)) if fits else None
     to, noun = (Toward.ON, "shelf") if text.startswith("shelv") else (Toward.INSIDE, "trash")
     return put_to(things, (Destination(to, (NounPhrase("the", (noun,), text=text),)),))
 
 
+def _is_bin(into: Destination) -> bool:
+    """Whether it is called one."""
+    return not BINS.isdisjoint(
+        word for np in into.targets for word in "_".join(np.words).split("_")
+    )
+
+
+def _slid(groups: tuple[PutGroup, ...]) -> PutClause | None:
+    """What is slid to something is pushed along."""
+    toward = {place.toward for group in groups for place in group.destinations}
+    return None if Toward.TO in toward else PutClause(groups)
+
+
+def _into_bins(groups: tuple[PutGroup, ...]) -> PutClause | None:
+    """Nothing is thrown elsewhere."""
+    places = [place for group in groups for place in group.destinations]
+    return (
+        PutClause(groups) if all(_is_bin(place) or not place.targets for place in places) else None
+    )
+
+
 _THEREIN = valued(phrase(places.THEREIN), lambda text: Destination(Toward.HERE, word=text))
+_GROUPS = separated(
+    sequence(
+        THINGS,
+        sequence(either(INTO, ONTO, _THEREIN), build=lambda place: (place,)),
+        build=PutGroup,
+    ),
+    LIST,
+    most=3,
+)
 INSERTED = sequence(
     "insert[ing]",
     THINGS,
@@ -49,19 +78,8 @@ INSERTED = sequence(
 """Into what was opened or named before."""
 THROWN = quiet(
     either(
-        sequence(
-            verbs.THROW,
-            separated(
-                sequence(
-                    THINGS,
-                    sequence(either(INTO, ONTO, _THEREIN), build=lambda place: (place,)),
-                    build=PutGroup,
-                ),
-                LIST,
-                most=3,
-            ),
-            build=PutClause,
-        ),
+        sequence(verbs.SLIDE, _GROUPS, build=_slid),
+        sequence(verbs.THROW, _GROUPS, build=_into_bins),
         sequence(
             phrase(f"{verbs.THROW_AWAY}, shelv(e|ing)"),
             THINGS,
