@@ -21,11 +21,14 @@ def _one(said: str) -> str:
     return f"the {said} one" if is_descriptive(said) else said
 
 
-_IN_THERE = r"(?:(?:in|on|inside|into) (?:there|it)|there|inside)"
+_IN_THERE = (
+    r"(?:(?:in|on|inside|into) (?:there|it|(?:that|this)(?: same)?(?: \w+){1,2})|there|inside)"
+)
 _NOTHING_ELSE = (
     r"(?:and |but )?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
     r"(?:nothing else (?:(?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
     rf"|end up|come|get|land|stay|remain|be left)|goes|ends up|comes|gets|lands|is) {_IN_THERE}"
+    rf"|(?:with )?nothing else {_IN_THERE}"
     rf"|there (?:should|must|may|is to) be nothing else {_IN_THERE}"
     r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
     r"(?: (?:in|on) it)?)"
@@ -280,9 +283,12 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 \2 \3. do not put anything but \2 \3",
     ),
     (
-        rf"(^|[.;] |\bplease )(?:put|place|set|stand|lay|leave|keep) ({_SOME}) "
-        rf"(in|on|into|onto|inside) ({_SOME})[.;,]? {_NOTHING_ELSE}",
-        lambda said: f"{said[1]}only {said[2]} should be {said[3].removesuffix('to')} {said[4]}",
+        rf"(^|[.;] |\bplease )(?:(?:put|place|set|stand|lay|leave|keep|{_WISHED}) ({_SOME})"
+        rf"|({_SOME}) (?:(?:should|must|is to|has to) (?:{_BE})|goes|belongs)) "
+        rf"(in|on|into|onto|inside) ({_SOME}(?: of {_SOME})?)[.;,]? {_NOTHING_ELSE}",
+        lambda said: (
+            f"{said[1]}only {said[2] or said[3]} should be {said[4].removesuffix('to')} {said[5]}"
+        ),
     ),
     # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
     (

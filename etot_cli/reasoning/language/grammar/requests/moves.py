@@ -53,9 +53,9 @@ def _in_turn(moved: MoveClause) -> MoveClause | None:
 
 
 def _lifted(things: Things) -> MoveClause:
-    """What swings up when it is opened; "it" is rather what was taken hold of."""
+    """What swings up when it is opened: rather taken, and "it" is what was taken hold of."""
     again = all(np.pronoun for np in things.phrases)
-    return MoveClause(things, opens=True, far_fetched=int(again))
+    return MoveClause(things, opens=True, far_fetched=1 + again)
 
 
 _PLAIN_MOVE = either(
@@ -120,7 +120,12 @@ _HANDLED = either(
 )
 _BY_HANDLE = either(
     sequence("(pull|pulling|use|grab|grip|hold) (the|its) handle to", _PLAIN_MOVE),
-    sequence(_PLAIN_MOVE, "(by|with|using) (the|its) handle"),
+    # "Lift the mug by its handle" is rather about where it is taken.
+    sequence(
+        _PLAIN_MOVE,
+        "(by|with|using) (the|its) handle",
+        build=lambda moved: replace(moved, far_fetched=moved.far_fetched + 1),
+    ),
     sequence(
         verbs.PICK,
         _HANDLED,
