@@ -16,7 +16,7 @@ from etot_cli.reasoning.builtin.goal import (
     Open,
     Put,
 )
-from etot_cli.reasoning.builtin.relations import bearers, is_closed, is_open, parts_of
+from etot_cli.reasoning.builtin.relations import bearers, carriers, is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import check_alone
 from etot_cli.reasoning.language.goals.choosing import leave_among
@@ -146,6 +146,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         return
     if clause.over and not clause.things.are_any:
         context.toppling |= {thing.name for thing in context.discourse.things(*indices)}
+    if clause.taken and _goes_along(context, indices):
+        return
     one_way = all(len(context.discourse.referents[index].options) == 1 for index in indices)
     if clause.avoid is Avoid.MOVE and role is not Role.PART and one_way:
         leave_among(context, indices)
@@ -264,6 +266,20 @@ def _moves_anyway(context: Context, things: Things) -> bool:
         found = [context.phrases.meaning(np, Role.THEME).options for np in things.phrases]
         return all({*option} <= {*moved} for options in found for option in options)
     return False
+
+
+def _goes_along(context: Context, indices: Sequence[int]) -> bool:
+    """Whether what must not be taken out of something is in what goes elsewhere itself, and so is
+    to be in it there.
+    """
+    things = context.discourse.things(*indices)
+    moved = {thing.name for thing in context.discourse.things(*sorted(context.discourse.put))}
+    if not all(moved & carriers(context.scene, thing.name) for thing in things):
+        return False
+    context.steps += [
+        Put((context.single(thing, thing.name),), (context.home(thing),)) for thing in things
+    ]
+    return True
 
 
 def _others_like_what_turns(context: Context, said: Things) -> Things | None:

@@ -35,6 +35,9 @@ def in_turns(
         return found
     things = [thing for index in found for thing in context.only(index, "say which ones")]
     text = spoken.text
+    if len(things) == 1:
+        # In "open the left one, but shut the middle drawer first" the drawer has no turn.
+        raise ReferenceProblem(text, f"{things[0].name} alone has no turn", 3)
     if turns.sweep:
         if len(spoken.phrases) > 1:
             why = "say in which order they go, or beside what each of them is to be"

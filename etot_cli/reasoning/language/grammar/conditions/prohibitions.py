@@ -169,7 +169,7 @@ _FORBIDDEN = either(
         one_of(
             {
                 Avoid.HARM: forbidden.HARM,
-                Avoid.MOVE: f"{verbs.PICK}, {verbs.REMOVE}",
+                Avoid.MOVE: verbs.PICK,
                 Avoid.OPEN: verbs.OPEN,
                 Avoid.CLOSE: verbs.CLOSE,
             }
@@ -215,7 +215,14 @@ _FORBIDDEN = either(
         "anything",
         build=lambda: NOTHING_HARMED,
     ),
-    sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "out, off, away, down", build=_avoid),
+    sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "away, down", build=_avoid),
+    sequence(
+        either(
+            sequence(verbs.BRING, THINGS, "(out|off) [of] [it|them|there]"),
+            sequence(verbs.REMOVE, THINGS),
+        ),
+        build=lambda things: AvoidClause(Avoid.MOVE, things, taken=True),
+    ),
     sequence("let[ting]", THINGS, phrase(forbidden.TOPPLE), build=unhit),
     sequence(phrase(verbs.SET, Avoid.PUT), THINGS, DESTINATIONS, build=_avoid),
     sequence(
