@@ -25,7 +25,7 @@ _IN_THERE = (
     r"(?:(?:in|on|inside|into) (?:there|it|(?:that|this)(?: same)?(?: \w+){1,2})|there|inside)"
 )
 _NOTHING_ELSE = (
-    r"(?:and |but )?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
+    r"(?:and |but |so (?:that )?)?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
     r"(?:nothing else (?:(?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
     rf"|end up|come|get|land|stay|remain|be left)|goes|ends up|comes|gets|lands|is) {_IN_THERE}"
     rf"|(?:with )?nothing else {_IN_THERE}"

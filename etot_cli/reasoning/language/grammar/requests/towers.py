@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.phrases.turns import TURN
 from etot_cli.reasoning.language.grammar.requests.nesting import NESTED
 from etot_cli.reasoning.language.grammar.requests.piles import ONE_OF_TWO, PAIR_BY_PAIR, PILED
 from etot_cli.reasoning.language.grammar.requests.tower_bases import (
@@ -199,8 +200,19 @@ _LAYERS = valued(
     _with_nouns,
 )
 """All of a tower from the bottom up."""
+
+
+def _begun_or_ended(turn: Any) -> tuple[tuple[NounPhrase, str], ...] | None:
+    """What comes first is at the bottom of a tower, what comes last on top."""
+    order, said = turn
+    end = {"first": "bottom", "last": "top"}.get(order)
+    named = len(said) == 1 and (said[0].determiner or all(map(is_descriptive, said[0].words)))
+    return ((said[0], end),) if end and named else None
+
+
 _TOWER_ENDS = optional(
     either(
+        sequence(OPTIONAL_COMMA, TURN, build=_begun_or_ended),
         sequence(SO, _ENDS),
         # In "a tower with the blue block at the bottom" "the blue" is no thing of its own.
         sequence(_ENDS, build=lambda ends: ends if ends[0][0].determiner else None),
