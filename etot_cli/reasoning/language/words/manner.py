@@ -328,7 +328,12 @@ TURNED_AS_NEEDED = f"""
 IF_NEEDED = _IF_NEEDED
 GRASP = "grasp[s]|grip[s]|pose[s]|pick[s]|hold[s]|approach[es]"
 GRIPPER = "gripper|hand|fingers|wrist"
-BY_HAND = "(with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm)"
+THE_ONE_HAND = """
+    (the|your|its|one|a|[(only|just)] one [single]|[only] a single|[only] your one)
+    (gripper|hand|arm|robot hand|robot arm|robotic arm)
+"""
+"""All that the robot has."""
+BY_HAND = f"[(only|just)] (with|using) [(only|just)] {THE_ONE_HAND}, [(only|just)] one handed[ly]"
 """Says nothing: it does all so."""
 _THE_HAND = f"(the|your|its) ({GRIPPER}) [held|kept|being|pointing]"
 HAND_COMES = "with (the|your|its) (arm|gripper|hand) (coming [in|down|at it]|approaching [it])"

@@ -163,6 +163,8 @@ def _meant_for(nps: tuple[NounPhrase, ...], where: NounPhrase) -> State:
     return State(nps, (Destination(Toward.INSIDE, (where,)),))
 
 
+_STILL_NEEDED = "(i|we) [will|shall|do] still (need|want|require), (i|we) (will|shall) need"
+"""Before what is to be left open or closed."""
 _ARE_STILL = sequence(
     NP_LIST, silent(optional("[to be] [left|kept]")), OPEN_OR_CLOSED, build=not_left
 )
@@ -226,7 +228,7 @@ ENSURE = either(
     ),
     sequence(verbs.ARRANGE, noun_phrase, small_words.SO_THAT, states, build=_arranged),
     sequence(
-        verbs.KEEP,
+        f"{verbs.KEEP}, {_STILL_NEEDED}",
         NP_LIST,
         OPEN_OR_CLOSED,
         silent(optional(manner.AS_NOW)),
