@@ -116,7 +116,7 @@ def continues(item: Timed, after: Timed, discourse: Discourse) -> bool:
     ]
     put = [step.what for step in after.steps if isinstance(step, Put) and not step.removal]
     further = after.order in (Order.SAID, Order.THEN) and after.sentence == item.sentence
-    return taken == put != [] and further
+    return len(taken) == len(item.steps) and taken == put != [] and further
 
 
 def _goes_back(step: Step, discourse: Discourse) -> bool:

@@ -225,6 +225,11 @@ SWEEPS = {
     for one, other in (pair, pair[::-1])
 }
 """In which direction, or by which size, several things are taken one after the other."""
+ONE_BY_ONE = f"""
+    one (by one|after the other|after another), [only|just] one [piece|item|thing] at a time,
+    piece by piece, item by item
+"""
+"""How several things are taken anyway."""
 IN_THIS_ORDER = """
     in [exactly|precisely] (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.words.manner import BY_HAND, THE_ONE_HAND
+from etot_cli.reasoning.language.words.manner import BY_HAND, ONE_BY_ONE, THE_ONE_HAND
 from etot_cli.reasoning.language.words.verbs import BROUGHT, RELATIONS, THE_ROBOT
 
 NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
@@ -37,7 +37,7 @@ WITHOUT_MEANING = f"""
     again, once (more|again),
     immediately, right away, right now, for me, fully, completely, all the way,
     the rest of the way, wide, there after,
-    one (by one|after the other|after another), one at a time, in the process, if you please,
+    {ONE_BY_ONE}, in the process, if you please,
     {BY_HAND},
     pls, plz, thx, ty, lol, haha, hehe, btw, fyi, (would|will|could|can) you, any way you like,
     at the moment, at present, for now, this time, (this|for) once,
