@@ -18,8 +18,13 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Thing
 from etot_cli.reasoning.language.reference.choosing.selection import in_line
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 from etot_cli.world.state import DESK
+
+
+POINTING = frozenset({"these", "those"})
+"""Of things that are told next."""
 
 
 def in_turns(
@@ -30,6 +35,8 @@ def in_turns(
     Raises:
         ReferenceProblem: a phrase cannot be resolved, or the words for order do not order them.
     """
+    if turns.listed and {np.determiner.split()[0] for np in spoken.phrases if np.determiner} & POINTING:
+        return context.phrases.things(_those_listed(context, spoken, turns), role, excluded)
     found = context.phrases.things(spoken, role, excluded)
     if turns == Turns():
         return found
@@ -43,10 +50,10 @@ def in_turns(
         names = ", ".join(thing.part or thing.board or thing.name for thing in ordered)
         context.discourse.notes.append(f"one after the other: {names}")
     else:
-        ahead = _picked_out(context, spoken, turns.first or turns.all, things, role)
+        ahead = _picked_out(context, spoken, turns.first or turns.all or turns.listed, things, role)
         behind = _picked_out(context, spoken, turns.last, things, role)
         between = [thing for thing in things if thing not in ahead and thing not in behind]
-        if turns.all and between:
+        if (turns.all or turns.listed) and between:
             names = " and ".join(thing.name for thing in between)
             raise ReferenceProblem(text, f"say when it is the turn of {names}", 2)
         ordered = [*ahead, *between, *behind]
@@ -56,6 +63,21 @@ def in_turns(
             why = f"{upon.name} would come along with {below.name}; say {upon.name} first"
             raise ReferenceProblem(text, why, 4)
     return [context.single(thing, text) for thing in ordered]
+
+
+def _those_listed(context: Context, spoken: Things, turns: Turns) -> Things:
+    """What "these blocks … in this order: …" are, where nothing else tells which they are.
+
+    Raises:
+        ReferenceProblem: there are more of them, or fewer, than are said to be.
+    """
+    (np, *more) = spoken.phrases
+    count = quantity_of(np.determiner).count
+    if more or np.modifiers or count not in (None, len(turns.listed)):
+        raise ReferenceProblem(spoken.text, "say which ones, each with its turn", 2)
+    noun = np.words[-1:]
+    listed = (_with_noun(item, noun, context) for item in turns.listed)
+    return Things(tuple(structs.replace(item, determiner=item.determiner or "the") for item in listed))
 
 
 def _picked_out(
