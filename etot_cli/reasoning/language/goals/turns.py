@@ -22,7 +22,6 @@ from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 from etot_cli.world.state import DESK
 
-
 POINTING = frozenset({"these", "those"})
 """Of things that are told next."""
 
@@ -35,7 +34,10 @@ def in_turns(
     Raises:
         ReferenceProblem: a phrase cannot be resolved, or the words for order do not order them.
     """
-    if turns.listed and {np.determiner.split()[0] for np in spoken.phrases if np.determiner} & POINTING:
+    if (
+        turns.listed
+        and {np.determiner.split()[0] for np in spoken.phrases if np.determiner} & POINTING
+    ):
         return context.phrases.things(_those_listed(context, spoken, turns), role, excluded)
     found = context.phrases.things(spoken, role, excluded)
     if turns == Turns():
@@ -77,7 +79,9 @@ def _those_listed(context: Context, spoken: Things, turns: Turns) -> Things:
         raise ReferenceProblem(spoken.text, "say which ones, each with its turn", 2)
     noun = np.words[-1:]
     listed = (_with_noun(item, noun, context) for item in turns.listed)
-    return Things(tuple(structs.replace(item, determiner=item.determiner or "the") for item in listed))
+    return Things(
+        tuple(structs.replace(item, determiner=item.determiner or "the") for item in listed)
+    )
 
 
 def _picked_out(

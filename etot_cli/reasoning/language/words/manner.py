@@ -225,7 +225,7 @@ SWEEPS = {
     for one, other in (pair, pair[::-1])
 }
 """In which direction, or by which size, several things are taken one after the other."""
-ONE_BY_ONE = f"""
+ONE_BY_ONE = """
     one (by one|after the other|after another), [only|just] one [piece|item|thing] at a time,
     piece by piece, item by item
 """

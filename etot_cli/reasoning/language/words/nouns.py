@@ -126,5 +126,7 @@ def is_only(determiner: str) -> bool:
     """Whether nothing else is meant ("only the"); "only one" says how many."""
     words = determiner.split()
     return words[:1] in (["only"], ["just"]) and words[1:2] != ["one"]
+
+
 BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 """Of what somebody takes things with; the robot has one gripper."""
