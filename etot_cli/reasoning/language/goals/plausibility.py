@@ -79,14 +79,13 @@ def told_needlessly(context: Context, reading: Sequence[Spoken]) -> int:
         context: before the reading.
         reading: clauses of it.
     """
-    groups = [
-        g for said in reading if isinstance(said.clause, PutClause) for g in said.clause.groups
-    ]
+    puts = [said.clause for said in reading if isinstance(said.clause, PutClause)]
+    groups = (group for put in puts for group in put.groups)
     bare = (group for group in groups if all(map(_is_bare, group.destinations)))
     needless = 0
     for np in (np for group in bare for np in group.things.phrases):
         held = [m.phrases for m in np.modifiers if m.prep in (Prep.IN, Prep.ON)]
-        if len(held) != len(np.modifiers) or not [*map(len, held)] == [1]:
+        if len(held) != len(np.modifiers) or [*map(len, held)] != [1]:
             continue
         with suppress(ReferenceProblem):
             thing = context.phrases.meaning(structs.replace(np, modifiers=()), Role.THEME)

@@ -34,10 +34,9 @@ def in_turns(
     Raises:
         ReferenceProblem: a phrase cannot be resolved, or the words for order do not order them.
     """
-    if (
-        turns.listed
-        and {np.determiner.split()[0] for np in spoken.phrases if np.determiner} & POINTING
-    ):
+    (np, *_) = spoken.phrases
+    first, *_ = np.determiner.split() or [np.pronoun]
+    if turns.listed and first in POINTING:
         return context.phrases.things(_those_listed(context, spoken, turns), role, excluded)
     found = context.phrases.things(spoken, role, excluded)
     if turns == Turns():
@@ -79,9 +78,7 @@ def _those_listed(context: Context, spoken: Things, turns: Turns) -> Things:
         raise ReferenceProblem(spoken.text, "say which ones, each with its turn", 2)
     noun = np.words[-1:]
     listed = (_with_noun(item, noun, context) for item in turns.listed)
-    return Things(
-        tuple(structs.replace(item, determiner=item.determiner or "the") for item in listed)
-    )
+    return Things(tuple(structs.replace(np, determiner=np.determiner or "the") for np in listed))
 
 
 def _picked_out(

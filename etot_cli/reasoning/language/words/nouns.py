@@ -10,7 +10,8 @@ THE_WORDS = frozenset({*_THE.split("|"), "this", "that"})
 DETERMINERS = f"""
     ({_THE}|this|that|a|an|another|only the),
     (the|my|your|this|that) (other|same|single|only|lone|sole|remaining|{_COUNT}),
-    (the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT}), (these|those) ({_COUNT}),
+    (the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT}),
+    (these|those) ({_COUNT}),
     another one of the, a single, one single, only a, only (the|these|those) ({_COUNT}),
     (any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your],
     just ({_THE}|a|an),
