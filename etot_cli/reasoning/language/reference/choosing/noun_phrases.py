@@ -307,6 +307,10 @@ class Resolver:
         (only, *more) = modifier.phrases
         if only.pronoun and not more and modifier.prep is not Prep.BETWEEN:
             meant = [list(things) for things in pronoun(only)]
+            if modifier.prep in (Prep.UNDER, Prep.ABOVE):
+                # "The plum on the middle shelf, the jar on the one above it": above the shelf.
+                levels = [way for way in meant if all(t.board or t.part for t in way)]
+                meant = levels or meant
             return [[things] for things in meant]
         if _is_lent(modifier):
             with suppress(ReferenceProblem):

@@ -32,7 +32,8 @@ def idle_words(
     """Words for sides and sizes that tell one thing from no other, the first of them noted.
 
     Raises:
-        ReferenceProblem: one compares the only thing that is called so.
+        ReferenceProblem: one compares the only thing that is called so, or is the opposite of what
+            that is called itself.
     """
     words = match.selectors
     states = [word for word in words if word in STATES]
@@ -44,6 +45,9 @@ def idle_words(
         return ()
     only = f"only {things[0].name} is called so"
     for word in idle if len(match.entries) == 1 else ():
+        named = [own for own in (*SIDES, *SIZES) if match.entries[0].has_word(own)]
+        if any(_are_opposite(word, own) for own in named):
+            raise ReferenceProblem(phrase, f"{only}, which is not {word}", 2, word=word)
         if word in SIZES and word.endswith(("er", "est")):
             why = f"{only}; {word!r} compares it with nothing"
             raise ReferenceProblem(phrase, why, 2, word=word)

@@ -213,8 +213,15 @@ def _by_color(
     words = (*adjectives, color)
     basic = basic_color(color)
     colored = [entry for entry in vocabulary.objects if basic and entry.has_color(basic)]
-    if singular(color) in CATEGORIES["food"]:  # an orange carrot is not "the orange"
-        colored = [entry for entry in colored if not entry.counts_among(CATEGORIES["food"])]
+    if singular(color) in CATEGORIES["food"]:
+        # A ball or an "orange block" may be "the orange"; no carrot or carton of that colour is.
+        colored = [
+            entry
+            for entry in colored
+            if (info := entry.info) is not None
+            and (info.kind == "sphere" or entry.has_word(color))
+            and not (info.container or entry.counts_among(CATEGORIES["food"]))
+        ]
     found = _match_in(colored, words, "object", number, vocabulary, phrase)
     if found is None:
         return None
