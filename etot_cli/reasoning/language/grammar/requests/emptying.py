@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
     PutGroup,
     RemoveClause,
+    Turns,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -44,7 +45,13 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import (
+    KIND_NOUNS,
+    OPEN_SURFACES,
+    OPEN_VESSELS,
+    matches_any,
+    singular,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -94,6 +101,10 @@ def is_emptying(clause: Clause) -> bool:
     )
 
 
+_HOLDERS = (*OPEN_VESSELS, *OPEN_SURFACES, *KIND_NOUNS["cup"], *KIND_NOUNS["bowl"])
+"""What is cleared of what is in or on it, rather than away."""
+
+
 def _tidied(verb: str, things: Things, away: str, where: Any, extras: Any) -> PutClause | None:
     """Who tidies a place brings away what is there; several things are tidied away themselves.
     "Tidy up everything on the tray" does not say where to.
@@ -101,6 +112,13 @@ def _tidied(verb: str, things: Things, away: str, where: Any, extras: Any) -> Pu
     put = put_of((PutGroup(things, where),), extras)
     if (things.are_any and not away) or put is None:
         return None
+    bare = verb in ("clear", "clearing") and not away
+    if (
+        bare
+        and put.turns != Turns()
+        and any(matches_any(np.head, _HOLDERS) for np in things.phrases)
+    ):
+        return None  # "clear the bowls onto the tray, the red one first" is about what is in them
     plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
     things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
     cost = 1 if verb.startswith("tidy") else 2  # who clears a plate rather means what is on it
