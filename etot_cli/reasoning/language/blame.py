@@ -17,8 +17,12 @@ from etot_cli.reasoning.language.grammar.sentences.reader import (
 from etot_cli.reasoning.language.grammar.text.splitting import COLON, COMMA, QUESTION, spaced
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.categories import is_category
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, is_in_lexicon
-from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
+    is_descriptive,
+    is_in_lexicon,
+    matches_any,
+)
+from etot_cli.reasoning.language.words.nouns import BODY_NOUNS, THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import INTO, NEARBY, ONTO, OVER, TO
 from etot_cli.world.state import DESK
@@ -154,6 +158,7 @@ def _unmended(unread: Input, words: tuple[str, ...], before: str) -> UnreadableE
         why = _cause(unread, words, index)
         odd = not index and word not in known.opening_words()
         odd |= word not in known.all_words() and (known.is_adverb(word) or word in known.REASONS)
+        odd |= "use" in words[:index] and matches_any(word, BODY_NOUNS)
         if why and (index >= stop - 1 or odd or word in known.BLAMED):
             without = spaced((*words[:index], *words[index + 1 :]))
             understood = _joined(before, spaced(words[:index]))

@@ -46,9 +46,9 @@ def check_alone(
     nothing_else: bool = False,
 ) -> None:
     """Whether "only the cup" is where only it is to be: all else would have to go from there.
-    Of several cups "only the red one" says which: what else is there stays, which is told.
-    ``in_the_end``: it is said how it is to be, so that all else goes to the desk, which
-    ``nothing_else`` tells in so many words.
+    ``chosen``: it is said what goes there, so that of several cups "only the red one" tells which,
+    and what else is there stays, which is noted. ``in_the_end``: it is said how it is to be, so
+    that all else goes to the desk, which ``nothing_else`` tells in so many words.
     """
     own = {thing.name for thing in context.discourse.things(*themes)}
     where = [place.where for place in places if place.where is not None]
@@ -76,8 +76,8 @@ def check_alone(
             )
             gone = all(_goes(context, name) for name in there)
             told = stays or gone or nothing_else
-            if in_the_end and (of_several or chosen) and not told:
-                # "Only the red pen goes into the box": none of the pens, or nothing else?
+            if in_the_end and chosen and not told:
+                # "Only the pen goes into the box": nothing else, or nothing else for now?
                 raise ReferenceProblem(phrase.text, f"say whether {others} is to stay there", 4)
             if in_the_end and all(thing.name != DESK for thing in context.discourse.things(*where)):
                 alone = [name for name in there if not _goes(context, name)]

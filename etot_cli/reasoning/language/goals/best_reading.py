@@ -24,6 +24,7 @@ from etot_cli.reasoning.language.goals.plausibility import (
     holds_roughly,
     plans_of,
     taken_up_again,
+    told_needlessly,
 )
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
@@ -56,6 +57,7 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
     problem: ReferenceProblem | None = None
     blame = 0
     found: dict[Goal, Understanding] = {}
+    said: dict[Goal, tuple[Spoken, ...]] = {}
     cost, undecided = -1, 0
     unclear: AmbiguousReference | None = None
     open_to: dict[str, int] = {}
@@ -86,10 +88,13 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
         if found and simplicity > cost:
             if len(attempt.context.discourse.undecided) < undecided and meaning not in found:
                 # What would tell "the cup" from others may be said of it.
-                _only_one_that_asks(state, sentence, {**found, meaning: attempt})
+                _only_one_that_asks(
+                    state, sentence, {**found, meaning: attempt}, {**said, meaning: reading}
+                )
             continue
         cost = simplicity
         found.setdefault(meaning, attempt)
+        said.setdefault(meaning, reading)
         discourse = attempt.context.discourse
         if _APPOSED.search(sentence.text):
             # "Put the can on the tray, the one by the box" tells which can, where there is one tray
@@ -114,7 +119,7 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
     found = {way: found[way] for way in found if doubts[way] == min(doubts.values())}
     if len(found) == 1:
         return next(iter(found.values()))
-    return _only_one_that_asks(state, sentence, found)
+    return _only_one_that_asks(state, sentence, found, said)
 
 
 def _told_of(text: str, reading: tuple[Spoken, ...]) -> int:
@@ -125,7 +130,10 @@ def _told_of(text: str, reading: tuple[Spoken, ...]) -> int:
 
 
 def _only_one_that_asks(
-    state: Understanding, sentence: Sentence, found: dict[Goal, Understanding]
+    state: Understanding,
+    sentence: Sentence,
+    found: dict[Goal, Understanding],
+    said: dict[Goal, tuple[Spoken, ...]],
 ) -> Understanding:
     plans: dict[tuple[Moves, ...], Understanding] = {}
     unclear = False
@@ -148,6 +156,13 @@ def _only_one_that_asks(
     for key in [*plans]:
         if any(does_as_well(other, key) for other in plans if other != key):
             del plans[key]
+    if len(plans) > 1:
+        before = state.copy().context
+        needless = {
+            key: told_needlessly(before, next(said[way] for way in found if found[way] is attempt))
+            for key, attempt in plans.items()
+        }
+        plans = {key: plans[key] for key in plans if needless[key] == min(needless.values())}
     if len(plans) > 1:
         goals = (formal(attempt.goal()) for attempt in plans.values())
         ways = [f"{number}) {goal}" for number, goal in enumerate(goals, 1)]

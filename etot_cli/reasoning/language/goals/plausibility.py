@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import islice
+
+from msgspec import structs
 
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Goal, Pick, Put, Relation
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import SET_ASIDE
 from etot_cli.reasoning.language.goals.turns import Timed
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
 from etot_cli.reasoning.language.reference.choosing.landmarks import ROUGHLY
 from etot_cli.reasoning.language.reference.geometry.vessels import goes_in
 from etot_cli.reasoning.language.reference.naming.sifting import TAKEN_FOR
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import SceneState
 
@@ -53,6 +60,38 @@ def guesses(context: Context, said: Sequence[Timed]) -> int:
     roughly = sum(bool(moved & {*names.split()}) for names in rough)
     said_so = sum(note.startswith(TAKEN_FOR) or note.endswith(SET_ASIDE) for note in notes)
     return cramped + roughly + said_so
+
+
+def _is_bare(where: Destination) -> bool:
+    """Whether a place is but "in the middle", which may as well say which thing is meant; "to the
+    middle" is where something goes.
+    """
+    aside = where.toward is Toward.BESIDE and not where.beside[0].phrases
+    return aside and where.beside[0].text.split()[:1] != ["to"]
+
+
+def told_needlessly(context: Context, reading: Sequence[Spoken]) -> int:
+    """How many things that go to the middle, to the left or the like are told by where they are for
+    no reason: in "put the ball in the cup in the middle", with one ball and several cups, it is the
+    cup that is in the middle.
+
+    Args:
+        context: before the reading.
+        reading: clauses of it.
+    """
+    puts = [said.clause for said in reading if isinstance(said.clause, PutClause)]
+    groups = (group for put in puts for group in put.groups)
+    bare = (group for group in groups if all(map(_is_bare, group.destinations)))
+    needless = 0
+    for np in (np for group in bare for np in group.things.phrases):
+        held = [m.phrases for m in np.modifiers if m.prep in (Prep.IN, Prep.ON)]
+        if len(held) != len(np.modifiers) or [*map(len, held)] != [1]:
+            continue
+        with suppress(ReferenceProblem):
+            thing = context.phrases.meaning(structs.replace(np, modifiers=()), Role.THEME)
+            marks = context.phrases.meaning(held[0][0], Role.PLACE)
+            needless += len(thing.options) == 1 < len(marks.options)
+    return needless
 
 
 def taken_up_again(said: Sequence[Timed]) -> bool:

@@ -18,8 +18,12 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Thing
 from etot_cli.reasoning.language.reference.choosing.selection import in_line
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 from etot_cli.world.state import DESK
+
+POINTING = frozenset({"these", "those"})
+"""Of things that are told next."""
 
 
 def in_turns(
@@ -30,6 +34,10 @@ def in_turns(
     Raises:
         ReferenceProblem: a phrase cannot be resolved, or the words for order do not order them.
     """
+    (np, *_) = spoken.phrases
+    first, *_ = np.determiner.split() or [np.pronoun]
+    if turns.listed and first in POINTING:
+        return context.phrases.things(_those_listed(context, spoken, turns), role, excluded)
     found = context.phrases.things(spoken, role, excluded)
     if turns == Turns():
         return found
@@ -46,10 +54,10 @@ def in_turns(
         names = ", ".join(thing.part or thing.board or thing.name for thing in ordered)
         context.discourse.notes.append(f"one after the other: {names}")
     else:
-        ahead = _picked_out(context, spoken, turns.first or turns.all, things, role)
+        ahead = _picked_out(context, spoken, turns.first or turns.all or turns.listed, things, role)
         behind = _picked_out(context, spoken, turns.last, things, role)
         between = [thing for thing in things if thing not in ahead and thing not in behind]
-        if turns.all and between:
+        if (turns.all or turns.listed) and between:
             names = " and ".join(thing.name for thing in between)
             raise ReferenceProblem(text, f"say when it is the turn of {names}", 2)
         ordered = [*ahead, *between, *behind]
@@ -59,6 +67,21 @@ def in_turns(
             why = f"{upon.name} would come along with {below.name}; say {upon.name} first"
             raise ReferenceProblem(text, why, 4)
     return [context.single(thing, text) for thing in ordered]
+
+
+def _those_listed(context: Context, spoken: Things, turns: Turns) -> Things:
+    """What "these blocks … in this order: …" are, where nothing else tells which they are.
+
+    Raises:
+        ReferenceProblem: there are more of them, or fewer, than are said to be.
+    """
+    (np, *more) = spoken.phrases
+    count = quantity_of(np.determiner).count
+    if more or np.modifiers or count not in (None, len(turns.listed)):
+        raise ReferenceProblem(spoken.text, "say which ones, each with its turn", 2)
+    noun = np.words[-1:]
+    listed = (_with_noun(item, noun, context) for item in turns.listed)
+    return Things(tuple(structs.replace(np, determiner=np.determiner or "the") for np in listed))
 
 
 def _picked_out(
@@ -119,7 +142,7 @@ def continues(item: Timed, after: Timed, discourse: Discourse) -> bool:
     ]
     put = [step.what for step in after.steps if isinstance(step, Put) and not step.removal]
     further = after.order in (Order.SAID, Order.THEN) and after.sentence == item.sentence
-    return taken == put != [] and further
+    return len(taken) == len(item.steps) and taken == put != [] and further
 
 
 def _goes_back(step: Step, discourse: Discourse) -> bool:

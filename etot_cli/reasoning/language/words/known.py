@@ -108,7 +108,7 @@ REASONS = {
         ("is", "are"), "how things are is neither asked nor said; say what is to be done"
     ),
     **dict.fromkeys(
-        ("hands", "tongs", "fingers", "tool"), "the robot has one gripper and nothing else"
+        ("hands", "arms", "tongs", "fingers", "tool"), "the robot has one gripper and nothing else"
     ),
     **dict.fromkeys(
         ("halfway", "half", "partially", "slightly", "partly", "little", "bit"),

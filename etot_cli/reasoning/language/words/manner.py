@@ -225,6 +225,11 @@ SWEEPS = {
     for one, other in (pair, pair[::-1])
 }
 """In which direction, or by which size, several things are taken one after the other."""
+ONE_BY_ONE = """
+    one (by one|after the other|after another), [only|just] one [piece|item|thing] at a time,
+    piece by piece, item by item
+"""
+"""How several things are taken anyway."""
 IN_THIS_ORDER = """
     in [exactly|precisely] (this|that) order, in the (given|same|stated) order,
     one (by one|after the other) in this order
@@ -328,7 +333,12 @@ TURNED_AS_NEEDED = f"""
 IF_NEEDED = _IF_NEEDED
 GRASP = "grasp[s]|grip[s]|pose[s]|pick[s]|hold[s]|approach[es]"
 GRIPPER = "gripper|hand|fingers|wrist"
-BY_HAND = "(with|using) (the|your|its|one|a) (gripper|hand|arm|robot hand|robot arm|robotic arm)"
+THE_ONE_HAND = """
+    (the|your|its|one|a|[(only|just)] one [single]|[only] a single|[only] your one)
+    (gripper|hand|arm|robot hand|robot arm|robotic arm)
+"""
+"""All that the robot has."""
+BY_HAND = f"[(only|just)] (with|using) [(only|just)] {THE_ONE_HAND}, [(only|just)] one handed[ly]"
 """Says nothing: it does all so."""
 _THE_HAND = f"(the|your|its) ({GRIPPER}) [held|kept|being|pointing]"
 HAND_COMES = "with (the|your|its) (arm|gripper|hand) (coming [in|down|at it]|approaching [it])"

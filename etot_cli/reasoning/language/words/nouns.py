@@ -11,6 +11,7 @@ DETERMINERS = f"""
     ({_THE}|this|that|a|an|another|only the),
     (the|my|your|this|that) (other|same|single|only|lone|sole|remaining|{_COUNT}),
     (the|these|those) (other|remaining|{_COUNT}) (other|remaining|{_COUNT}),
+    (these|those) ({_COUNT}),
     another one of the, a single, one single, only a, only (the|these|those) ({_COUNT}),
     (any|whichever|each|every|all|both|some|either) [of] [the|these|those|my|your],
     just ({_THE}|a|an),
@@ -126,3 +127,7 @@ def is_only(determiner: str) -> bool:
     """Whether nothing else is meant ("only the"); "only one" says how many."""
     words = determiner.split()
     return words[:1] in (["only"], ["just"]) and words[1:2] != ["one"]
+
+
+BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
+"""Of what somebody takes things with; the robot has one gripper."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.words.manner import BY_HAND
+from etot_cli.reasoning.language.words.manner import BY_HAND, ONE_BY_ONE, THE_ONE_HAND
 from etot_cli.reasoning.language.words.verbs import BROUGHT, RELATIONS, THE_ROBOT
 
 NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
@@ -37,7 +37,7 @@ WITHOUT_MEANING = f"""
     again, once (more|again),
     immediately, right away, right now, for me, fully, completely, all the way,
     the rest of the way, wide, there after,
-    one (by one|after the other|after another), one at a time, in the process, if you please,
+    {ONE_BY_ONE}, in the process, if you please,
     {BY_HAND},
     pls, plz, thx, ty, lol, haha, hehe, btw, fyi, (would|will|could|can) you, any way you like,
     at the moment, at present, for now, this time, (this|for) once,
@@ -251,6 +251,7 @@ FRAMES = f"""
     (find|make|devise|work out|think of|come [up] with) a [suitable|good] (plan|strategy) (to|for),
     ({THE_ROBOT}) (should|must|will|shall|has to|needs to|is to), make sure to,
     (have|make|let) ({THE_ROBOT}), (can|could|would|will) ({THE_ROBOT}),
+    us(e|ing) [only|just] {THE_ONE_HAND} to,
     (get|use|ask|tell|instruct|(i|we) (want|need|would like|d like)) ({THE_ROBOT}) to,
     [it is] ({THE_ROBOT}) 's (task|goal|job) [is] to, the (task|goal|job) of ({THE_ROBOT}) is to,
     be sure to, remember to, (do not|don t) forget to, [would|do] you mind [to], mind,

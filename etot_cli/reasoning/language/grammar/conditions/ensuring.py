@@ -61,7 +61,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, word_set
 from etot_cli.reasoning.language.words.nouns import is_only
 
 
@@ -83,11 +83,17 @@ def _arranged(np: NounPhrase, said: tuple[State, ...]) -> EnsureClause | None:
     return EnsureClause(said) if plain else None
 
 
+_GOING = word_set(
+    "go goes belong belongs put placed moved brought set stored stowed laid dropped inserted"
+)
+"""Of what is to be done, rather than how it is to be in the end."""
+
+
 def _going(verb: str, clause: EnsureClause | None) -> EnsureClause | None:
-    """What goes or belongs somewhere; what "go" there are several things."""
+    """What goes, belongs or is to be put somewhere; what "go" there are several things."""
     if clause is None:
         return None
-    if {"go", "goes", "belong", "belongs"} & {*verb.split()}:
+    if _GOING & {*verb.split()}:
         going = tuple(replace(state, going=not state.word) for state in clause.states)
         clause = replace(clause, states=going)
     odd = disagrees(clause.states[0].subjects, verb)
@@ -103,7 +109,7 @@ def _respectively(
     if groups is None:
         return None
     states = tuple(State(group.things.phrases, group.destinations) for group in groups)
-    going = bool({"go", "goes", "belong", "belongs"} & {*verb.split()})
+    going = bool(_GOING & {*verb.split()})
     return EnsureClause(tuple(replace(state, going=going) for state in states))
 
 
@@ -163,6 +169,8 @@ def _meant_for(nps: tuple[NounPhrase, ...], where: NounPhrase) -> State:
     return State(nps, (Destination(Toward.INSIDE, (where,)),))
 
 
+_STILL_NEEDED = "(i|we) [will|shall|do] still (need|want|require), (i|we) (will|shall) need"
+"""Before what is to be left open or closed."""
 _ARE_STILL = sequence(
     NP_LIST, silent(optional("[to be] [left|kept]")), OPEN_OR_CLOSED, build=not_left
 )
@@ -226,7 +234,7 @@ ENSURE = either(
     ),
     sequence(verbs.ARRANGE, noun_phrase, small_words.SO_THAT, states, build=_arranged),
     sequence(
-        verbs.KEEP,
+        f"{verbs.KEEP}, {_STILL_NEEDED}",
         NP_LIST,
         OPEN_OR_CLOSED,
         silent(optional(manner.AS_NOW)),

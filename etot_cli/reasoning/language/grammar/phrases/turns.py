@@ -49,21 +49,20 @@ _LAST_OF_THEM = sequence(
 SWEEP = one_of(manner.SWEEPS)
 _THEN = either(LIST, sequence(OPTIONAL_COMMA, THEN))
 _NEXT = sequence(_THEN, noun_phrase, optional(small_words.COUNTED))
-_ONE_BY_ONE = either(
-    sequence(
-        "in (the|this) [following] order [of]",
-        OPTIONAL_COMMA,
-        noun_phrase,
-        some(sequence(_THEN, noun_phrase), least=1, most=5),
-        build=lambda first, more: (first, *more),
-    ),
-    sequence(
-        either(sequence(noun_phrase, "first"), sequence("first", noun_phrase)),
-        some(_NEXT, least=1, most=5),
-        build=lambda first, more: _named_ones((first, *more)),
-    ),
+_LISTED = sequence(
+    "in (the|this) [following] order [of]",
+    OPTIONAL_COMMA,
+    noun_phrase,
+    some(sequence(_THEN, noun_phrase), least=1, most=5),
+    build=lambda first, more: (first, *more),
+)
+_ONE_BY_ONE = sequence(
+    either(sequence(noun_phrase, "first"), sequence("first", noun_phrase)),
+    some(_NEXT, least=1, most=5),
+    build=lambda first, more: _named_ones((first, *more)),
 )
 TURN = either(
+    valued(_LISTED, lambda nps: ("listed", nps)),
     valued(_ONE_BY_ONE, lambda nps: ("all", nps)),
     valued(_FIRST_OF_THEM, lambda nps: ("first", nps)),
     valued(_LAST_OF_THEM, lambda nps: ("last", nps)),
@@ -83,7 +82,7 @@ ONE_BEFORE_ANOTHER = sequence(noun_phrase, "before", noun_phrase, build=_one_bef
 
 def turns_of(said: Sequence[Any]) -> Turns | None:
     """What was said of turns among other things, None where it was said twice."""
-    found = [item for item in said if item[0] in ("first", "last", "sweep", "all")]
+    found = [item for item in said if item[0] in ("first", "last", "sweep", "all", "listed")]
     ends = {name for name, _ in found} <= {"first", "last"}
     if len(dict(found)) < len(found) or not (ends or len(found) == 1):
         return None

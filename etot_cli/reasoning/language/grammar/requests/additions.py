@@ -153,7 +153,7 @@ _EXTRA = sequence(
             build=lambda several, modifier: ("that", (several, modifier)),
         ),
         phrase(manner.IN_THIS_ORDER, ("ordered", ())),
-        "one (by one|after the other|after another), in (any|whatever) order",
+        f"{manner.ONE_BY_ONE}, in (any|whatever) order",
         manner.NOT_REVERSED,
     ),
     build=lambda *found: found[0] if found else (),

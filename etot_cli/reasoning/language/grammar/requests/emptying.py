@@ -18,22 +18,22 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
     variants,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    OPTIONAL_COMMA,
-)
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
     DESTINATIONS,
     DIRECTED,
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
     Clause,
     PutClause,
+    PutGroup,
     RemoveClause,
+    Turns,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -45,7 +45,13 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import (
+    KIND_NOUNS,
+    OPEN_SURFACES,
+    OPEN_VESSELS,
+    matches_any,
+    singular,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -95,18 +101,28 @@ def is_emptying(clause: Clause) -> bool:
     )
 
 
-def _tidied(verb: str, things: Things, away: str, where: Any, said: str) -> PutClause | None:
+_HOLDERS = (*OPEN_VESSELS, *OPEN_SURFACES, *KIND_NOUNS["cup"], *KIND_NOUNS["bowl"])
+"""What is cleared of what is in or on it, rather than away."""
+
+
+def _tidied(verb: str, things: Things, away: str, where: Any, extras: Any) -> PutClause | None:
     """Who tidies a place brings away what is there; several things are tidied away themselves.
     "Tidy up everything on the tray" does not say where to.
     """
-    named = all_of(things.phrases, said)
-    if (things.are_any and not away) or (said and named == things.phrases and not named[1:]):
+    put = put_of((PutGroup(things, where),), extras)
+    if (things.are_any and not away) or put is None:
         return None
-    things = replace(things, phrases=named)
+    bare = verb in ("clear", "clearing") and not away
+    if (
+        bare
+        and put.turns != Turns()
+        and any(matches_any(np.head, _HOLDERS) for np in things.phrases)
+    ):
+        return None  # "clear the bowls onto the tray, the red one first" is about what is in them
     plural = any(np.words and singular(np.words[-1]) != np.words[-1] for np in things.phrases)
     things_said = verb.startswith("tidy") and (plural or len(things.phrases) > 1)
     cost = 1 if verb.startswith("tidy") else 2  # who clears a plate rather means what is on it
-    return replace(put_to(things, where), far_fetched=0 if things_said else cost)
+    return replace(put, far_fetched=put.far_fetched + (0 if things_said else cost))
 
 
 def _to_be_bare(
@@ -224,7 +240,7 @@ EMPTY = either(
         THINGS,
         optional(phrase("away, up"), ""),
         DESTINATIONS,
-        optional(sequence(OPTIONAL_COMMA, phrase("all, both"), "of them"), ""),
+        EXTRAS,
         build=_tidied,
     ),
     sequence(

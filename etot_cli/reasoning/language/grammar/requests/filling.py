@@ -40,7 +40,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import places, verbs
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import matches_any, singular
+from etot_cli.reasoning.language.words.nouns import BODY_NOUNS
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
 
 
@@ -77,6 +78,8 @@ def _used_for(
     """Things go into or onto any of several, or what was spoken of does into or onto one."""
     if things is not None and len(nps) == 1:
         return None  # that is told above
+    if things is None and any(matches_any(np.head, BODY_NOUNS) for np in nps):
+        return None  # "use both hands to lift it" is about how
     them = NounPhrase(pronoun="them", text="them")
     return put_to(things or Things((them,)), (Destination(toward, nps, FILLED),))
 

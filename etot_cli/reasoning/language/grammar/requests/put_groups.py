@@ -59,9 +59,8 @@ _SO_THAT_IT_IS = sequence(
     f"{small_words.SO_THAT}, until, till",
     either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
 )
-_PARTICLE = """
-    down, up, away, back, over, out, inside, out of the way, together,
-    one (by one|at a time|after the other|after another)
+_PARTICLE = f"""
+    down, up, away, back, over, out, inside, out of the way, together, {manner.ONE_BY_ONE}
 """
 
 

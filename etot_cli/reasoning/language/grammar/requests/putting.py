@@ -147,6 +147,8 @@ def _stacked(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
 def _put_away(verb: str, groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     """Each thing to its place; "put away everything on the tray" tells what, and not where to."""
     away = verb.endswith("away") and any(group.things.are_any for group in groups)
+    if verb.split()[-1] in ("return", "returning", "back"):
+        groups = tuple(replace(group, back=True) for group in groups)
     return None if away else put_of(groups, extras)
 
 

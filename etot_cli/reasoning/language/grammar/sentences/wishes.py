@@ -214,11 +214,12 @@ WISHED = either(
     ),
 )
 """How it would be nice for things to be."""
-_THING = "(thing|things|one|ones|object|objects|item|items)"
+_THING = "(thing|things|object|objects|item|items)"
+_ONE = "one"
 _LEFT = silent(optional("[to be] (left|remaining)"))
 _WHAT_GOES = either(
     sequence(
-        phrase(f"the only {_THING}", True),
+        either(phrase(f"the only {_THING}", True), phrase("the only (one|ones)", _ONE)),
         optional(f"[that|which] ({verbs.MODAL}|i want|we want|i need), that, which"),
         _LEFT,
     ),
@@ -227,19 +228,20 @@ _WHAT_GOES = either(
         phrase(f"what, the {_THING} (that|which)", False), f"{verbs.MODAL}, (i|we) (want|need)"
     ),
 )
-"""What is there, or (True) alone is there."""
+"""What is there, or alone is there (True), be it of its sort (:data:`_ONE`)."""
 _NO_MORE = "and nothing else, but nothing else"
 _IT_IS = "it is, it 's"
 _IS = f"{verbs.BE}, should be, must be, has to be, needs to be, shall be"
 
 
-def _there(things: Things, only: bool, where: tuple[Destination, ...]) -> Clause | None:
-    """What is to be there, or (``only``) alone in the end."""
+def _there(things: Things, only: bool | str, where: tuple[Destination, ...]) -> Clause | None:
+    """What is to be there, or (``only``) alone in the end; "the only one" is so of its sort."""
     if not only:
         return put_to(things, where)
     (first, *more) = things.phrases
     alone = (replace(first, determiner="only the"), *more)
-    return None if things.either else EnsureClause((State(alone, where),))
+    state = State(alone, where, going=only == _ONE)
+    return None if things.either else EnsureClause((state,))
 
 
 def _nothing_but(where: tuple[Destination, ...], things: Things) -> Clause | None:

@@ -73,12 +73,14 @@ class PutGroup(Struct, frozen=True):
 
 class Turns(Struct, frozen=True):
     """Which of several things come first and last, or all of them in order, or from which side to
-    which they are taken ("left right").
+    which they are taken ("left right"). ``listed``: in "this order", so that "these blocks" are
+    those that are named.
     """
 
     first: tuple[NounPhrase, ...] = ()
     last: tuple[NounPhrase, ...] = ()
     all: tuple[NounPhrase, ...] = ()
+    listed: tuple[NounPhrase, ...] = ()
     sweep: str = ""
 
 

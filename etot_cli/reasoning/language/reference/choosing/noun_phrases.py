@@ -60,12 +60,10 @@ from etot_cli.reasoning.language.words.lexicon import (
     matches_any,
     singular,
 )
-from etot_cli.reasoning.language.words.nouns import STACK, THE_WORDS
+from etot_cli.reasoning.language.words.nouns import BODY_NOUNS, STACK, THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
-
-BODY_NOUNS = ("hand", "gripper", "arm", "finger", "tong", "tool")
 
 _PLACES = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 _INCOMPLETE = frozenset({*THE_WORDS, "", "a", "an"})

@@ -116,6 +116,14 @@ def meant_by_it(
         if clause in discourse.stacks and role in (Role.SURFACE, Role.PLACE):
             return discourse.stacks[clause][1]
         acted_on, places, landmarks = mentioned_in(discourse, clause, role, excluded)
+        if role is Role.THEME and discourse.stacks.get(clause, (None,))[0] in acted_on:
+            # "Build a tower of the cups and move it" is about all that stands on the bottom one.
+            bottom, _ = discourse.stacks[clause]
+            rivals = [place for place in places if _rivals(discourse, place, bottom, role)]
+            if rivals:
+                ways = ["the stack", *(discourse.referents[place].text for place in rivals)]
+                raise AmbiguousReference(text, ways)
+            return bottom
         if any(are_several(discourse, i) for i in acted_on if role in TARGETS):
             raise ReferenceProblem(text, UNCLEAR, 2)  # "take each cup off its saucer, and …"
         below = [place.where for place in discourse.last_places]
