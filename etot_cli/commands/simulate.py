@@ -253,11 +253,13 @@ def _open_loop(options: SimulateOptions, run: _Run) -> OpenLoopModel | None:
 
 
 def _conditions(task: Task | None, final: SceneState | None) -> SuccessConditionsModel | None:
-    if task is None or final is None or not task.success:
+    """The task's own for an evaluator, or its formal goal where it has none."""
+    wanted = () if task is None else task.success or task.goal or ()
+    if final is None or not wanted:
         return None
     conditions = [
         ConditionModel(condition=describe(condition), held=holds(condition, final))
-        for condition in task.success
+        for condition in wanted
     ]
     return SuccessConditionsModel(
         held=all(condition.held for condition in conditions), conditions=conditions

@@ -71,4 +71,5 @@ class SimulateReport(Report):
     cause: str | None
     """Why the status is not success, in one sentence; null on success."""
     success_conditions: SuccessConditionsModel | None
-    """Null when the simulation was interrupted before its end."""
+    """Those of `success`, or of `goal` where the task has none; null when it has neither, or when
+    the simulation was interrupted before its end."""

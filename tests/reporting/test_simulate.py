@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -59,6 +60,16 @@ def test_actions_that_work_do_not_make_the_task_done() -> None:
     assert report.cause is not None and "box open does not hold" in report.cause
     assert report.success_conditions is not None
     assert [item.held for item in report.success_conditions.conditions] == [True, False]
+
+
+def test_a_goal_is_looked_at_where_nothing_else_says_what_success_is() -> None:
+    goal = (*SUCCESS, Condition.model_validate({"open": "box"}))
+    rooms = ToyRooms(ToySimulator(fails()), ToyReasoner([])).rooms()
+    given = {"success": (), "goal": goal}
+    wanted = replace(rooms, load_task=lambda path: rooms.load_task(path).model_copy(update=given))
+    report = run_simulate(SimulateOptions(task=Path("toy.yaml"), plan=PLAN), rooms=wanted).report
+    assert report.status == "failure"
+    assert report.cause is not None and "box open does not hold" in report.cause
 
 
 @pytest.mark.parametrize(
