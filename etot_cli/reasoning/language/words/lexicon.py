@@ -148,7 +148,8 @@ COMMON_NOUNS = word_set(
     chicken soup sauce milk juice water coffee tea cola soda beer wine sugar salt cereal
     chocolate candy jam honey plate saucer tray spoon fork knife spatula ladle whisk tongs
     pan pot kettle lid toaster stove sink faucet fridge refrigerator freezer dishwasher
-    towel napkin cloth sponge soap brush broom book magazine newspaper paper notebook letter
+    towel napkin cloth rag washcloth sponge soap brush broom book magazine newspaper paper notebook
+    letter
     envelope stapler scissors tape glue ruler eraser phone telephone laptop computer
     keyboard mouse monitor camera control coaster lamp light bulb battery cable clock watch
     key wallet purse bag basket bin trash bucket hat shoe sock glove shirt coat scarf toy doll bear

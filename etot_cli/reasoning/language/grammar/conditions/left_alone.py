@@ -118,7 +118,7 @@ KEEP_STILL = either(
     sequence(
         spanned(
             sequence(
-                optional("let"),
+                optional(f"let, {verbs.ENSURE}"),
                 THINGS,
                 either(_STAYS, _FINE),
                 build=partial(AvoidClause, Avoid.MOVE),

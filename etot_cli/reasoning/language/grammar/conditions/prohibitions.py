@@ -383,6 +383,12 @@ AVOID = either(
         either(_DONE, phrase("opened", Avoid.OPEN)),
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),
+    sequence(
+        optional(verbs.ENSURE),
+        THINGS,
+        "(does|do|must|should|shall|may|can|will|is to|are to) not [ever] (move|budge|shift)",
+        build=partial(AvoidClause, Avoid.MOVE),
+    ),
 )
 
 

@@ -24,16 +24,24 @@ def _one(said: str) -> str:
 _IN_THERE = (
     r"(?:(?:in|on|inside|into) (?:there|it|(?:that|this)(?: same)?(?: \w+){1,2})|there|inside)"
 )
-_NOTHING_ELSE = (
-    r"(?:and |but |so (?:that )?)?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
-    r"(?:nothing else (?:(?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
-    rf"|end up|come|get|land|stay|remain|be left)|goes|ends up|comes|gets|lands|is) {_IN_THERE}"
-    rf"|(?:with )?nothing else {_IN_THERE}"
-    rf"|there (?:should|must|may|is to) be nothing else {_IN_THERE}"
-    r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
-    r"(?: (?:in|on) it)?)"
-    r"(?=[.;!]|$)"
-)
+
+
+def _nothing_else(there: str) -> str:
+    """That nothing else is to be there."""
+    return (
+        r"(?:and |but |so (?:that )?)?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
+        r"(?:nothing else (?:(?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
+        rf"|end up|come|get|land|stay|remain|be left)|goes|ends up|comes|gets|lands|is) {there}"
+        rf"|(?:with )?nothing else {there}"
+        rf"|there (?:should|must|may|is to) be nothing else {there}"
+        r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
+        r"(?: (?:in|on) it)?)"
+        r"(?=[.;!]|$)"
+    )
+
+
+_IN_THAT_ONE = rf"(?:{_IN_THERE}|(?:in|on|inside|into) (?:the (?P=noun)|(?P=place)))"
+"""In what was named right before, by the same noun or all its words."""
 _PUT_NOTHING_ELSE = (
     r"(?:and |but )?(?:(?:do not|never) (?:put|place) (?:anything else|any other things?)"
     rf"|(?:put|place) nothing else) {_IN_THERE}(?=[.;!]|$)"
@@ -273,7 +281,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "Put the egg in the bowl; nothing else should be in there"
     (
         rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? "
-        rf"(?:{_NOTHING_ELSE}|{_PUT_NOTHING_ELSE})",
+        rf"(?:{_nothing_else(_IN_THERE)}|{_PUT_NOTHING_ELSE})",
         r"\1",
     ),
     # What is there already may stay.
@@ -285,7 +293,9 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"(^|[.;] |\bplease )(?:(?:put|place|set|stand|lay|leave|keep|{_WISHED}) ({_SOME})"
         rf"|({_SOME}) (?:(?:should|must|is to|has to) (?:{_BE})|goes|belongs)) "
-        rf"(in|on|into|onto|inside) ({_SOME}(?: of {_SOME})?)[.;,]? {_NOTHING_ELSE}",
+        rf"(in|on|into|onto|inside) "
+        rf"(?P<place>{NAMED}(?: \w+){{0,2}}? (?P<noun>\w+)(?: of {_SOME})?)[.;,]? "
+        rf"{_nothing_else(_IN_THAT_ONE)}",
         lambda said: (
             f"{said[1]}only {said[2] or said[3]} should be {said[4].removesuffix('to')} {said[5]}"
         ),

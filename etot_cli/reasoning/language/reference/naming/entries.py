@@ -278,11 +278,19 @@ class Entry(Struct, frozen=True):
         return (by_name or noun not in singulars) and is_plural_of(noun, singulars)
 
 
-def _kind_nouns(kind: str, heads: Iterable[str]) -> tuple[str, ...]:
-    """Nouns for a kind that fit something called by these nouns: a can is no bottle, a remote no
-    box, but milk may be in a carton.
+_FLAT = 1 / 3
+"""What is thinner than so much of its length is a plate or a bar, no block that has no other name:
+a brick of 21 by 10 by 7 cm is just one."""
+
+
+def _kind_nouns(info: ObjectInfo, heads: Iterable[str]) -> tuple[str, ...]:
+    """Nouns for a thing's kind that fit something called by these nouns: a can is no bottle, a
+    remote no box, but milk may be in a carton.
     """
+    kind = info.kind
     groups = KIND_GROUPS.get(kind, ())
+    if kind == "box" and min(info.size) < _FLAT * max(info.size):
+        groups = tuple(group for group in groups if "block" not in group or {*heads} & {*group})
     own = {singular(head) for head in heads}
     fitting = [group for group in groups if own & set(group)]
     if own & PACKED:
@@ -327,7 +335,7 @@ def object_entry(info: ObjectInfo) -> Entry:
         numbers.update(dict.fromkeys(word for word in words if word.isdigit()))
     whole = dict.fromkeys("_".join(words) for words in called if is_odd(words))
     twins = [twin for words in called for twin in twins_of(words)]
-    generic = (*_kind_nouns(info.kind, heads), *dict.fromkeys(words[-1] for words in twins))
+    generic = (*_kind_nouns(info, heads), *dict.fromkeys(words[-1] for words in twins))
     generic = (*generic, *(SORTS[word] for word in map(singular, heads) if word in SORTS))
     if info.container or any(part.container for part in info.parts):
         generic = (*generic, *(CONTAINER_NOUNS if info.container else CONTAINER_NOUNS[:-1]))
