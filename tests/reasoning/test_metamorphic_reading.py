@@ -97,7 +97,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
     )
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
     framed += r"which |when i |end with |as for |with |now |"
-    framed += r"regarding |in this |storage |only |exactly |no, |"
+    framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |"
     framed += r"(\w+ ){0,4}\w+: |right, |\w+, \w+\. |for each |whatever )"
     if re.match(framed, text):
         return  # it has a frame of its own
