@@ -78,7 +78,8 @@ class Sketch:
             self.pick_up(name, pose)
             self.do(Action(verb, target, where=where))
             for outer in reversed(opened):
-                self.do(Action(Verb.CLOSE, outer.address))
+                if outer.address not in left_open:
+                    self.do(Action(Verb.CLOSE, outer.address))
         else:
             if not self._accessible[part.address]:
                 self.put_down()
