@@ -64,7 +64,8 @@ class Sketch:
         without the last one for parts that are to be ``left_open``. What comes out of another
         drawer of the same piece is put down in between: of two drawers that stand open, the upper
         one covers the lower one, so that the other is closed, and opened again at the end where it
-        stood open and is not to be closed next (``stays_closed``).
+        stood open and is not to be closed next (``stays_closed``). So it is where the place is a
+        vessel or a thing in such a drawer.
         """
         if self.holds(name, relation, target, where) and not again:
             return
