@@ -11,7 +11,7 @@ import pytest
 
 from etot_cli.reasoning.builtin import BuiltinReasoner, branching
 from etot_cli.reasoning.protocol import Assignment
-from etot_cli.skills.action import Action, Verb
+from etot_cli.skills.action import Action, Verb, format_plan
 from etot_cli.specs.task import Condition
 from etot_cli.world.state import SceneState
 from tests.reasoning import scenes
@@ -86,6 +86,35 @@ def test_what_stands_open_is_visited_first(order: tuple[int, ...]) -> None:
     assert openings(found) == {"chest.a": 1, "chest.c": 1}
     closed = found.index(Action(Verb.CLOSE, "chest.b"))
     assert all(action.verb is not Verb.OPEN for action in found[:closed])
+
+
+@pytest.mark.parametrize("fixture", ["vessel", "thing", "in a vessel"])
+@pytest.mark.parametrize(("source", "target"), [("a", "b"), ("b", "a"), ("a", "c")])
+def test_what_goes_to_a_thing_in_another_drawer_waits_on_the_desk(
+    source: str, target: str, fixture: str
+) -> None:
+    """Of two drawers that stand open the upper one covers what is in the lower one."""
+    size = (0.09, 0.09, 0.05)
+    place: dict[str, Any] = {"size": size, "on": "chest", "inside": f"chest.{target}"}
+    nut: dict[str, Any] = {"size": (0.03,) * 3, "on": "chest", "inside": f"chest.{source}"}
+    more = [scenes.item("nut", at=(0.6, 0.0), **nut)]
+    if fixture == "in a vessel":
+        around = {**place, "inside": f"chest.{source}"}
+        more = [scenes.cup("jar", (0.6, 0.0), **around)]
+        more.append(scenes.item("nut", at=(0.6, 0.0), **{**nut, "on": "jar", "inside": "jar"}))
+    thing = scenes.item("mug", "box" if fixture == "thing" else "cup", (0.6, 0.1), **place)
+    chest = scenes.drawers("chest", (0.6, 0.0), SHUT)
+    state = scenes.scene(chest, thing, *more)
+    relation, put = ("on", "PUT ON") if fixture == "thing" else ("inside", "PUT INTO")
+    first = f"[OPEN, chest.{source}] [PICK UP, nut] [PUT ON, desk] [CLOSE, chest.{source}]"
+    then = f"[OPEN, chest.{target}] [PICK UP, nut] [{put}, mug]"
+    for goal, last in (
+        ([], f" [CLOSE, chest.{target}]"),
+        (CLOSED, f" [CLOSE, chest.{target}]"),
+        ([{"open": f"chest.{target}"}], ""),
+    ):
+        actions = drafted(state, [{relation: ["nut", "mug"]}, *goal])
+        assert format_plan(actions) == f"{first} {then}{last}"
 
 
 @pytest.mark.parametrize("turned", [False, True])

@@ -835,6 +835,18 @@ def test_an_upper_drawer_that_stands_open_is_closed_meanwhile(openness: float) -
         assert revision(step) == f"[CLOSE, chest.upper] {plan} [OPEN, chest.upper]"
 
 
+def test_what_stays_in_the_hand_is_set_down_to_open_a_drawer_again() -> None:
+    state = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"upper": 1.0, "lower": 0.0}),
+        scenes.item("nut", at=(0.5, 0.0), on="chest", inside="chest.lower"),
+    )
+    before = changed(state, chest={"openness": {"upper": 1.0, "lower": 1.0}})
+    plan = "[OPEN, chest.lower] [PICK UP, nut]"
+    step = failed(state, plan, 1, cause(CauseKind.NO_GRASP, "chest", "nut"), before)
+    taken = "[OPEN, chest.lower] [CLOSE, chest.upper] [PICK UP, nut]"
+    assert revision(step) == f"{taken} [PUT ON, desk] [OPEN, chest.upper] [PICK UP, nut]"
+
+
 @pytest.mark.parametrize("openness", [0.7, 1.0])
 def test_a_drawer_that_stands_partly_open_is_opened_wider(openness: float) -> None:
     chest = scenes.drawers("chest", (0.5, 0.0), {"top": openness})
@@ -868,7 +880,8 @@ def test_a_door_that_stands_open_before_an_object_is_closed_meanwhile() -> None:
         scenes.cabinet("cupboard", (0.4, 0.4), 1.0), scenes.ball("nut", (0.3, 0.1))
     )
     step = failed(state, "[PICK UP, nut]", 0, cause(CauseKind.NO_GRASP, "cupboard", "nut"))
-    assert revisions(step) == [], "it would have to be opened again with a full hand"
+    again = "[PICK UP, nut] [PUT ON, desk] [OPEN, cupboard] [PICK UP, nut]"
+    assert revisions(step) == [f"[CLOSE, cupboard] {again}"], "a full hand opens nothing"
     plan = "[PICK UP, nut] [PUT ON, desk]"
     taken = f"[CLOSE, cupboard] {plan} [OPEN, cupboard]"
     into = "[PICK UP, nut] [PUT INTO, cupboard]"

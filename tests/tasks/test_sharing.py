@@ -329,3 +329,30 @@ def bar_and_ball(door: list[Any], stands_open: bool, seed: int, tmp_path: Path) 
     report = planned("room_in_a_drawer", goal + door, objects, tmp_path)
     assert report.success is not None and report.success.holds
     return report
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("up", [True, False], ids=["up", "down"])
+def test_two_drawers_one_above_the_other_are_opened_one_at_a_time(
+    seed: int, up: bool, tmp_path: Path
+) -> None:
+    """The upper one covers the lower one; the cup that something comes to or from stays in there,
+    and so does the one in the other drawer.
+    """
+    rng = random.Random(seed)
+    y = rng.uniform(0.03, 0.07)
+    handle = {"width": 0.08, "depth": 0.04}
+    names = ("upper", "lower")
+    cup = {"kind": "cup", "diameter": 0.09, "height": 0.05}
+    source, target = reversed(names) if up else names
+    objects = {
+        "unit": {
+            "kind": "drawer_unit", "at": [0.60, y], "yaw_deg": 180, "size": [0.26, 0.28, 0.26],
+            "mass": 4, "drawers": [{"name": n, "travel": 0.20, "handle": handle} for n in names],
+        },
+        **{name: {**cup, "inside": f"unit.{name}", "at": [0.58, y]} for name in names},
+        "coin": {"kind": "cylinder", "inside": source, "diameter": 0.03, "height": 0.02},
+    }  # fmt: skip
+    goal = [{"inside": ["coin", target]}, *({"closed": f"unit.{name}"} for name in names)]
+    assert len(planned("drawers", goal, objects, tmp_path).plan) == 8

@@ -53,6 +53,7 @@ from etot_cli.reasoning.builtin.turns import by_turns
 from etot_cli.reasoning.builtin.uncovering import (
     brought_out,
     opens_near,
+    taken_anew,
     taken_before_opening,
     taken_while_shut,
 )
@@ -150,6 +151,8 @@ def _of_pick(case: FailedCase) -> Iterator[Correction]:
     # Where the hand has no room though nothing stands near, it has none elsewhere on the desk.
     if culprits or case.cause.kind is not CauseKind.NO_GRASP:
         yield from set_down_elsewhere(case.failed, case.action.target)
+    for name in culprits:
+        yield from taken_anew(case, name)
 
 
 def _of_put(case: FailedCase) -> Iterator[Correction]:

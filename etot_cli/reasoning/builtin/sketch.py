@@ -64,25 +64,52 @@ class Sketch:
         without the last one for parts that are to be ``left_open``. What comes out of another
         drawer of the same piece is put down in between: of two drawers that stand open, the upper
         one covers the lower one, so that the other is closed, and opened again at the end where it
-        stood open and is not to be closed next (``stays_closed``).
+        stood open and is not to be closed next (``stays_closed``). So it is where the place is a
+        vessel or a thing in such a drawer.
         """
         if self.holds(name, relation, target, where) and not again:
             return
         part = self.scene.part(target) if relation is Relation.INSIDE else None
+        if part is None and relation is Relation.INSIDE:
+            self._stand_up(target)
+        stood_open = self._leave_for(name, part, target, pose, stays_closed)
         if part is None:
-            if relation is Relation.INSIDE:
-                self._stand_up(target)
             verb = Verb.PUT_ON if relation is Relation.ON else Verb.PUT_INTO
             opened = self._uncover(target)
             self.pick_up(name, pose)
             self.do(Action(verb, target, where=where))
             for outer in reversed(opened):
-                self.do(Action(Verb.CLOSE, outer.address))
-            return
+                if outer.address not in left_open:
+                    self.do(Action(Verb.CLOSE, outer.address))
+        else:
+            if not self._accessible[part.address]:
+                self.put_down()
+                self.do(Action(Verb.OPEN, part.address))
+            self.pick_up(name, pose)
+            self.do(Action(Verb.PUT_INTO, part.address, where=where))
+            if part.address not in left_open:
+                self.do(Action(Verb.CLOSE, part.address))
+        for other in stood_open:
+            self.open(other)
+
+    def _leave_for(
+        self,
+        name: str,
+        part: PartInfo | None,
+        target: str,
+        pose: GraspPose | None,
+        stays_closed: Collection[str],
+    ) -> list[PartInfo]:
+        """Puts an object down that comes out of another part of the piece that its place is in, and
+        closes that other one; returns what is to be opened again of what stood open.
+        """
+        owner = owner_of(target)
+        around = self._parts_around(owner) if owner in self.scene.states else []
+        goals = around if part is None else [part]
         others = [
             other
             for other in self._parts_around(name)
-            if other.owner == part.owner and other.address != part.address
+            if other not in goals and any(other.owner == goal.owner for goal in goals)
         ]
         stood_open = [
             other
@@ -93,15 +120,7 @@ class Sketch:
             self.pick_up(name, pose)
             self.put_down()
             self.close(other)
-        if not self._accessible[part.address]:
-            self.put_down()
-            self.do(Action(Verb.OPEN, part.address))
-        self.pick_up(name, pose)
-        self.do(Action(Verb.PUT_INTO, part.address, where=where))
-        if part.address not in left_open:
-            self.do(Action(Verb.CLOSE, part.address))
-        for other in stood_open:
-            self.open(other)
+        return stood_open
 
     def closed_around(self, name: str) -> list[PartInfo]:
         """Parts that an object lies in and that are closed, the outermost first."""

@@ -52,6 +52,22 @@ def taken_while_shut(case: FailedCase, owner: str) -> Iterator[Correction]:
         yield Correction(inserted(case.actions, index, extra), change)
 
 
+def taken_anew(case: FailedCase, owner: str) -> Iterator[Correction]:
+    """The object that is in the hand at the end is taken while a part that stands open is closed,
+    and set down to open that again: a full hand opens nothing.
+    """
+    pick = case.actions[-1]
+    if case.index != len(case.actions) - 1 or relocations(case.actions, pick.target):
+        return
+    for part in case.scene.infos[owner].parts:
+        if is_closed(case.scene, part) or is_inside(case.scene, pick.target, part.address):
+            continue
+        shut, again = (Action(verb, part.address) for verb in (Verb.CLOSE, Verb.OPEN))
+        extra = (shut, *set_aside(case.failed, pick.target), again)
+        change = f"{part.address} is closed meanwhile"
+        yield Correction(inserted(case.actions, case.index, extra), change)
+
+
 def brought_out(case: FailedCase, furniture: str, vessels: Iterable[str]) -> Iterator[Correction]:
     """The branch with a vessel taken out of or from under furniture, where the hand does not
     get at what is in it.
