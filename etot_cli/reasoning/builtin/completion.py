@@ -16,7 +16,7 @@ from etot_cli.reasoning.builtin.choices import address_of
 from etot_cli.reasoning.builtin.goal import Goal, Near, Open, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.openings import TURNS, closed_by_others
 from etot_cli.reasoning.builtin.relations import container_address, is_open, parts_of
-from etot_cli.reasoning.builtin.revision import Actions, purpose
+from etot_cli.reasoning.builtin.revision import Actions, purpose, taken_at_once
 from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.builtin.turning import turned
@@ -29,9 +29,12 @@ _Home = tuple[Relation, str, tuple[Whereabouts, ...]]
 """In or on what an object is, and where there."""
 
 
-def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Branch:
+def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Iterator[Branch]:
     """The revision without last openings that nobody asked for, and with steps that restore what
     held at the start and was asked for.
+
+    What would come back as soon as it was set down is rather put back from the hand, where it may
+    well come to stand or lie otherwise than it did.
 
     Args:
         revised: a well-formed revision.
@@ -39,7 +42,8 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
         goals: what the branches were proposed for; without them the revision stays as it is.
     """
     if not goals:
-        return revised
+        yield revised
+        return
     start = failed.start
     kept = _without_last_openings(revised.actions, goals, start)
     away = _taken_away(kept)
@@ -67,9 +71,9 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
     opened = (
         *left_open(failed.branch.actions, start), *closed_by_others(actions, start), *stays_open
     )  # fmt: skip
-    if actions == revised.actions or check_plan(actions, start, opened):
-        return revised
-    return replace(revised, actions=actions)
+    plans = (*taken_at_once(actions, revised.actions), actions)
+    sound = [plan for plan in plans if not check_plan(plan, start, opened)]
+    yield from (replace(revised, actions=plan) for plan in sound or [revised.actions])
 
 
 def _closes_for_good(actions: Actions, index: int) -> bool:
@@ -78,9 +82,7 @@ def _closes_for_good(actions: Actions, index: int) -> bool:
     return actions[index].verb is Verb.CLOSE and actions[index].target not in later
 
 
-def _bring_back_before(
-    sketch: Sketch, rest: Actions, homes: Mapping[str, Sequence[_Home]]
-) -> None:
+def _bring_back_before(sketch: Sketch, rest: Actions, homes: Mapping[str, Sequence[_Home]]) -> None:
     """Brings back what belongs in or behind the part that the rest of a branch begins by closing,
     unless the rest has a use for it where it is by now.
     """
