@@ -592,10 +592,40 @@ def test_what_comes_back_into_a_drawer_does_so_before_that_is_closed() -> None:
     assert format_plan(branch.actions) == "[CLOSE, chest]"
     rollout = record(start, effect=False, cause=cause(CauseKind.BLOCKED, "bottle", "chest"))
     verdict = reasoner.judge(branch.actions[0], rollout)
-    revised = first_revision(reasoner, FailedStep(branch, 0, rollout, verdict, start))
+    revisions = reasoner.reflect(FailedStep(branch, 0, rollout, verdict, start))
+    # From the hand it may come to lie; it is set down first where it does not.
+    assert [format_plan(next(revisions).actions) for _ in range(2)] == [
+        "[PICK UP, bottle] [PUT INTO, chest] [CLOSE, chest]",
+        "[PICK UP, bottle] [PUT ON, desk] [PICK UP, bottle] [PUT INTO, chest] [CLOSE, chest]",
+    ]
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_what_comes_back_onto_something_in_a_drawer_does_so_before_that_is_closed(
+    turned: bool,
+) -> None:
+    """Whatever the order of the conditions."""
+    start = scenes.scene(
+        scenes.drawers("chest", (0.5, 0.0), {"only": 0.0}),
+        scenes.cup("tin", (0.5, 0.0), inside="chest", on="chest"),
+        scenes.item("nut", at=(0.5, 0.0), inside="tin", on="tin"),
+        scenes.item("lid", at=(0.5, 0.0), inside="chest", on="tin"),
+        scenes.cup("bowl", (0.3, 0.3)),
+    )
+    goal = [
+        Condition(inside=("nut", "bowl")), Condition(on=("lid", "tin")), Condition(closed="chest"),
+    ]  # fmt: skip
+    reasoner = BuiltinReasoner()
+    (branch,) = reasoner.propose(Assignment("", tuple(goal[::-1] if turned else goal)), start)
+    index = next(i for i, a in enumerate(branch.actions) if a.target == "nut")
+    before = changed(start, chest={"openness": {"chest": 1.0}})
+    rollout = record(before, effect=False, cause=cause(CauseKind.NO_GRASP, "lid", "nut"))
+    verdict = reasoner.judge(branch.actions[index], rollout)
+    revised = first_revision(reasoner, FailedStep(branch, index, rollout, verdict, start))
     assert revised is not None
     assert format_plan(revised.actions) == (
-        "[PICK UP, bottle] [PUT ON, desk] [PICK UP, bottle] [PUT INTO, chest] [CLOSE, chest]"
+        "[OPEN, chest] [PICK UP, lid] [PUT ON, desk] [PICK UP, nut] [PUT INTO, bowl] "
+        "[PICK UP, lid] [PUT ON, tin] [CLOSE, chest]"
     )
 
 
@@ -1039,6 +1069,49 @@ def test_what_leaves_later_anyway_makes_room_before_though_it_is_not_named() -> 
     assert away in revisions(step)
     step = failed(start, f"{egg} {nut}", 3, reason, before)
     assert not any("die" in one for one in revisions(step)), "it is to stay there"
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_of_those_that_fill_a_board_the_one_that_leaves_anyway_makes_room(turned: bool) -> None:
+    jars = [f"jar{number}" for number in range(3)]
+    places = dict(zip(jars, (-0.1, 0.0, 0.1), strict=True))
+    start = scenes.scene(
+        scenes.item("rack", "shelf", at=(0.5, 0.0), boards=("low", "high")),
+        *(scenes.item(name, at=(0.5, y), on="rack.low") for name, y in places.items()),
+        scenes.item("new", at=(0.3, -0.3)), scenes.item("mat", at=(0.3, 0.3)),
+    )  # fmt: skip
+    new, out = "[PICK UP, new] [PUT ON, rack.low]", "[PICK UP, {0}] [PUT ON, mat]"
+    reason = cause(CauseKind.NO_ROOM, *(jars[::-1] if turned else jars))
+    for name in jars:
+        step = failed(start, f"{new} {out.format(name)}", 1, reason, held(start, "new"))
+        assert revision(step) == f"{out.format(name)} {new}"
+    shifted = f"[PICK UP, jar0] [PUT ON, rack.low] {out.format('jar1')}"
+    step = failed(start, f"{new} {shifted}", 1, reason, held(start, "new"))
+    assert revision(step).startswith(f"{out.format('jar1')} {new}"), "jar0 only moves there"
+
+
+@pytest.mark.parametrize(
+    ("place", "taken_there"), [("mat", True), ("desk", True), ("rack.low", False)]
+)
+def test_a_vessel_is_brought_out_to_its_own_place_where_that_is_in_the_open(
+    place: str, taken_there: bool
+) -> None:
+    start = scenes.scene(
+        scenes.cabinet("cupboard", (0.5, 0.0), 1.0),
+        scenes.cup("mug", (0.5, 0.0), inside="cupboard", on="cupboard"),
+        scenes.item("rack", "shelf", at=(0.5, 0.4), boards=("low", "high")),
+        scenes.ball("nut", (0.3, -0.3)), scenes.item("mat", at=(0.3, 0.3)),
+    )  # fmt: skip
+    fill, away = "[PICK UP, nut] [PUT INTO, mug]", f"[PICK UP, mug] [PUT ON, {place}]"
+    reason = cause(CauseKind.COLLISION, "nut", "cupboard")
+    step = failed(start, f"{fill} {away}", 1, reason, held(start, "nut"))
+    found = revisions(step)
+    waits = f"{RELOCATE.format('mug')} {fill} {away}"
+    assert waits in found
+    if taken_there:
+        assert found.index(f"{away} {fill}") < found.index(waits)
+    else:
+        assert f"{away} {fill}" not in found
 
 
 def test_of_what_goes_into_a_drawer_and_what_comes_out_this_may_come_first() -> None:

@@ -8,15 +8,15 @@ left behind of an opening whose use has come earlier is dropped.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 
 from etot_cli.reasoning.builtin.choices import address_of
 from etot_cli.reasoning.builtin.goal import Goal, Near, Open, Put, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.openings import closed_by_others
+from etot_cli.reasoning.builtin.openings import TURNS, closed_by_others
 from etot_cli.reasoning.builtin.relations import container_address, is_open, parts_of
-from etot_cli.reasoning.builtin.revision import Actions, purpose
+from etot_cli.reasoning.builtin.revision import Actions, purpose, taken_at_once
 from etot_cli.reasoning.builtin.rules import check_plan, in_hand, left_open
 from etot_cli.reasoning.builtin.sketch import Sketch
 from etot_cli.reasoning.builtin.turning import turned
@@ -29,9 +29,12 @@ _Home = tuple[Relation, str, tuple[Whereabouts, ...]]
 """In or on what an object is, and where there."""
 
 
-def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Branch:
+def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Iterator[Branch]:
     """The revision without last openings that nobody asked for, and with steps that restore what
     held at the start and was asked for.
+
+    What would come back as soon as it was set down is rather put back from the hand, where it may
+    well come to stand or lie otherwise than it did.
 
     Args:
         revised: a well-formed revision.
@@ -39,7 +42,8 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
         goals: what the branches were proposed for; without them the revision stays as it is.
     """
     if not goals:
-        return revised
+        yield revised
+        return
     start = failed.start
     kept = _without_last_openings(revised.actions, goals, start)
     away = _taken_away(kept)
@@ -48,31 +52,54 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Bra
         kept = _as_wanted(kept, put, wanted[name])
         kept = _located(kept, put, _apart_from(name, goals))
     revised = replace(revised, actions=kept)
-    last = kept[-1]
-    shut_too_early = last.verb is Verb.CLOSE and any(
-        (Relation.INSIDE, last.target) == home[:2] for name in away for home in wanted[name]
-    )
-    sketch = Sketch(start, kept[:-1] if shut_too_early else kept)
+    homes = {name: wanted[name] or _filled_elsewhere(name, kept, start) for name in away}
+    sketch = Sketch(start)
+    for index, action in enumerate(kept):
+        if _closes_for_good(kept, index):
+            set_down = [name for name, put in away.items() if put < index]
+            _bring_back_before(sketch, kept[index:], {name: homes[name] for name in set_down})
+        sketch.do(action)
     stays_open = _stays_open(sketch, goals)
-    closed_at_last = (last.target,) if shut_too_early else ()
     for name in away:
-        for relation, target, where in wanted[name] or _filled_elsewhere(name, kept, start):
-            if not sketch.holds(name, relation, target, where):
-                put_open = (*stays_open, *closed_at_last)
-                sketch.put(name, relation, target, where=where, left_open=put_open)
-                break
+        home = _left_home(sketch, name, homes[name])
+        if home is not None:
+            sketch.put(name, *home[:2], where=home[2], left_open=stays_open)
     held = purpose(revised.actions, start).held
     if held is not None:
         sketch.pick_up(held)  # it was put down for what had to go back
     actions = tuple(sketch.actions)
-    if shut_too_early and actions[-1] != last:
-        actions = (*actions, last)
     opened = (
         *left_open(failed.branch.actions, start), *closed_by_others(actions, start), *stays_open
     )  # fmt: skip
-    if actions == revised.actions or check_plan(actions, start, opened):
-        return revised
-    return replace(revised, actions=actions)
+    plans = (*taken_at_once(actions, revised.actions), actions)
+    sound = [plan for plan in plans if not check_plan(plan, start, opened)]
+    yield from (replace(revised, actions=plan) for plan in sound or [revised.actions])
+
+
+def _closes_for_good(actions: Actions, index: int) -> bool:
+    """Whether a branch closes a part and turns it no more after that."""
+    later = {action.target for action in actions[index + 1 :] if action.verb in TURNS}
+    return actions[index].verb is Verb.CLOSE and actions[index].target not in later
+
+
+def _bring_back_before(sketch: Sketch, rest: Actions, homes: Mapping[str, Sequence[_Home]]) -> None:
+    """Brings back what belongs in or behind the part that the rest of a branch begins by closing,
+    unless the rest has a use for it where it is by now.
+    """
+    closed = rest[0].target
+    for name, places in homes.items():
+        home = _left_home(sketch, name, places)
+        if home is None or closed not in sketch.around(home[1]):
+            continue
+        back = Sketch(sketch.scene, sketch.actions)
+        back.put(name, *home[:2], where=home[2], left_open=(closed,))
+        if back.follows(rest):
+            sketch.put(name, *home[:2], where=home[2], left_open=(closed,))
+
+
+def _left_home(sketch: Sketch, name: str, homes: Iterable[_Home]) -> _Home | None:
+    """The first of an object's places that it has left."""
+    return next((home for home in homes if not sketch.holds(name, *home)), None)
 
 
 def _without_last_openings(actions: Actions, goals: Iterable[Goal], start: SceneState) -> Actions:

@@ -96,7 +96,7 @@ class FailedCase:
         ]
         opened = {owner_of(self.actions[i].target) for i in opened_before(self.actions, self.index)}
         if not others and self.cause.kind is CauseKind.NO_ROOM:
-            others = self._occupants()
+            others = self.occupants()
         brought = {name: self._brought_with(name) for name in others}
         others = list(dict.fromkeys(chain(others, *brought.values())))
         vessels = {name for name in others if scene.infos[name].movable}
@@ -134,8 +134,8 @@ class FailedCase:
         named = [name for name in self.culprits() if name in self.scene.infos]
         return bool(named) and not any(self.scene.infos[name].movable for name in named)
 
-    def _occupants(self) -> list[str]:
-        """What stands or lies where the action puts something, when nobody else is to blame."""
+    def occupants(self) -> list[str]:
+        """What stands or lies where the action puts something."""
         target = self.action.target
         if self.action.verb is Verb.PUT_INTO:
             return list(contents(self.scene, target))

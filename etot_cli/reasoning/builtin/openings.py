@@ -13,7 +13,7 @@ from etot_cli.reasoning.builtin.rules import left_open
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import SceneState, owner_of
 
-_TURNS = (Verb.OPEN, Verb.CLOSE)
+TURNS = (Verb.OPEN, Verb.CLOSE)
 
 
 def shared(
@@ -33,7 +33,7 @@ def shared(
     """
     dropped: set[int] = set()
     last: list[Action] = []
-    turns = [index for index, action in enumerate(actions) if action.verb in _TURNS]
+    turns = [index for index, action in enumerate(actions) if action.verb in TURNS]
     for first, second in pairwise(turns):
         close, address = actions[first], actions[first].target
         again = Action(Verb.OPEN, address) == actions[second] and close.verb is Verb.CLOSE
@@ -80,7 +80,7 @@ def reopened(actions: Sequence[Action]) -> bool:
 
 def closed_by_others(actions: Sequence[Action], scene: SceneState) -> tuple[str, ...]:
     """Parts that some insertions into them leave open, and that the plan closes at last."""
-    last = {action.target: action.verb for action in actions if action.verb in _TURNS}
+    last = {action.target: action.verb for action in actions if action.verb in TURNS}
     return tuple(part for part in left_open(actions, scene) if last.get(part) is Verb.CLOSE)
 
 
@@ -98,7 +98,7 @@ def kept_open(actions: Sequence[Action], rest: Sequence[Action]) -> tuple[Action
 
 
 def _turns(action: Action, address: str) -> bool:
-    return action.verb in _TURNS and action.target == address
+    return action.verb in TURNS and action.target == address
 
 
 def closed_alike(actions: Sequence[Action], model: Sequence[Action]) -> tuple[Action, ...]:
@@ -108,7 +108,7 @@ def closed_alike(actions: Sequence[Action], model: Sequence[Action]) -> tuple[Ac
     that was its own comes too early for the rest.
     """
     left, wanted = (
-        {action.target: action.verb for action in plan if action.verb in _TURNS}
+        {action.target: action.verb for action in plan if action.verb in TURNS}
         for plan in (actions, model)
     )
     last = actions[-1].verb if actions else None

@@ -78,7 +78,9 @@ class BuiltinReasoner:
 
     def reflect(self, failed: FailedStep) -> Iterator[Branch]:
         """All corrected branches from the root, best first, worked out as they are asked for."""
-        revisions = (completed(revised, failed, self._goals) for revised in reflect_on(failed))
+        revisions = chain.from_iterable(
+            completed(revised, failed, self._goals) for revised in reflect_on(failed)
+        )
         instead = turned_round(failed, self._goals)
         # Of what keeps a thing from its place what can be taken away is, before others go for it.
         first, then = (instead, revisions) if is_hopeless(failed) else (revisions, instead)

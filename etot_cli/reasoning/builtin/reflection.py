@@ -173,7 +173,9 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
     others = {name for name in case.culprits() if case.scene.infos[name].movable}
     if others <= {owner, *marks}:
         yield from _room_beside(case, marks)
-    for name in case.culprits():
+    leaving = leaving_later(case)
+    # Where any of them makes room, that is one which the branch takes away anyway.
+    for name in sorted(case.culprits(), key=lambda name: name not in leaving[:1]):
         if name == owner:
             yield from opened_wider(case.failed, owner)
             yield from shut_meanwhile(case.failed, owner)
@@ -194,7 +196,7 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
             yield from fetched_first(case.failed, name)
             if owner in case.scene.infos:
                 yield from brought_out(case, name, [owner])
-    for name in leaving_later(case):
+    for name in leaving:
         yield from out_of_the_way(case, name)
     if not others <= {owner, *marks}:
         yield from _room_beside(case, marks)

@@ -10,7 +10,7 @@ from itertools import pairwise
 from etot_cli.reasoning.builtin.company import coming_beside
 from etot_cli.reasoning.builtin.failed_case import FailedCase
 from etot_cli.reasoning.builtin.keepouts import kept_away
-from etot_cli.reasoning.builtin.relations import bearers, carriers, contents
+from etot_cli.reasoning.builtin.relations import bearers, carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction, put_first, relocated, set_aside
 from etot_cli.reasoning.builtin.revision import (
     Actions,
@@ -22,7 +22,7 @@ from etot_cli.reasoning.builtin.revision import (
     reachable_throughout,
     relocations,
 )
-from etot_cli.skills.action import PUTS, Verb
+from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.specs.base import heading_of
 from etot_cli.world.spatial import Whereabouts
 from etot_cli.world.state import CauseKind, SceneState, owner_of
@@ -34,19 +34,23 @@ stays within a millimetre."""
 
 def out_of_the_way(case: FailedCase, name: str) -> Iterator[Correction]:
     """The branch with an object brought to its own place, or else to a safe one, first."""
-    for pick in range(case.index + 1, len(case.actions)):
-        action = case.actions[pick]
-        if action.verb is Verb.PICK_UP and action.target == name:
-            yield from _its_own_place_first(case, pick, name)
-            break
+    yield from own_place_first(case, name)
     yield from relocated(case.failed, name, case.acted, case.index)
 
 
-def _its_own_place_first(case: FailedCase, pick: int, name: str) -> Iterator[Correction]:
-    """The branch with a cycle brought forward that takes an object away for good."""
+def own_place_first(
+    case: FailedCase, name: str, *, in_the_open: bool = False
+) -> Iterator[Correction]:
+    """The branch with the cycle brought forward that takes an object away for good.
+
+    ``in_the_open``: only to where the hand comes from above.
+    """
+    pick = _taken_at(case, name)
+    put = None if pick is None else _put_after(case, pick)
+    if pick is None or put is None or (in_the_open and has_front(case.scene, put.target)):
+        return
     own, failing = cycle_of(case.actions, pick), cycle_of(case.actions, case.index)
-    put = case.actions[pick + 1] if pick + 1 < len(case.actions) else None
-    if put is None or put.safe or pick not in own or case.index in own:
+    if put.safe or pick not in own or case.index in own:
         return
     actions = moved_before(case.actions, own, failing.start)
     at = failing.start + pick + 1 - own.start
@@ -59,6 +63,20 @@ def _its_own_place_first(case: FailedCase, pick: int, name: str) -> Iterator[Cor
             reachable_throughout((*actions[:at], own_place, *actions[at + 1 :]), case.start),
             f"{name} is put where it belongs before it is in the way",
         )
+
+
+def _taken_at(case: FailedCase, name: str) -> int | None:
+    """Index of the first PICK UP of an object after the failed action."""
+    for index in range(case.index + 1, len(case.actions)):
+        action = case.actions[index]
+        if action.verb is Verb.PICK_UP and action.target == name:
+            return index
+    return None
+
+
+def _put_after(case: FailedCase, pick: int) -> Action | None:
+    """The action that puts down what is picked up."""
+    return case.actions[pick + 1] if pick + 1 < len(case.actions) else None
 
 
 def _where_landmarks_go(actions: Actions, index: int, scene: SceneState) -> tuple[Whereabouts, ...]:
@@ -141,16 +159,22 @@ def taken_out_first(case: FailedCase, before: int, name: str) -> Iterator[Correc
 
 def leaving_later(case: FailedCase) -> list[str]:
     """What is where something finds no hold or room, and the branch itself takes from there later:
-    it may as well go before, even where only what came there meanwhile is named.
+    it may as well go before, even where only what came there meanwhile is named. What goes
+    elsewhere comes before what only moves there.
     """
     if case.cause.kind not in (CauseKind.NO_ROOM, CauseKind.REBOUND):
         return []
-    later = {a.target for a in case.actions[case.index :] if a.verb is Verb.PICK_UP}
-    return [
-        name
-        for name in contents(case.scene, case.action.target)
-        if name in later and placed_by(case.actions, name, case.index) is None
-    ]
+
+    def stays_there(name: str) -> bool:
+        put = _put_after(case, picks[name])
+        return put is not None and put.target == case.action.target
+
+    found = ((name, _taken_at(case, name)) for name in case.occupants())
+    picks = {name: pick for name, pick in found if pick is not None}
+    return sorted(
+        (name for name in picks if placed_by(case.actions, name, case.index) is None),
+        key=stays_there,
+    )
 
 
 def taken_before_moved(case: FailedCase) -> Iterator[Correction]:

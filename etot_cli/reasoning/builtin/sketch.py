@@ -167,6 +167,22 @@ class Sketch:
             return False
         return all(self._accessible[part.address] for part in self._parts_around(owner))
 
+    def follows(self, actions: Iterable[Action]) -> bool:
+        """Whether no closed part keeps the hand from anything in the actions to come."""
+        ahead = Sketch(self.scene, self.actions)
+        for action in actions:
+            if not ahead.reaches(action):
+                return False
+            ahead.do(action)
+        return True
+
+    def around(self, target: str) -> tuple[str, ...]:
+        """Addresses of the movable parts that a place is in by now, it itself among them."""
+        owner, part = owner_of(target), self.scene.part(target)
+        own = () if part is None else (part.address,)
+        outer = self._parts_around(owner) if owner in self.scene.states else ()
+        return (*own, *(part.address for part in outer))
+
     def is_accessible(self, address: str) -> bool:
         """Whether a movable part is open far enough for something to go in or out."""
         return self._accessible[address]

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from etot_cli.reasoning.builtin.failed_case import FailedCase
 from etot_cli.reasoning.builtin.relations import distance, has_front, is_closed, is_inside, radius
 from etot_cli.reasoning.builtin.relocation import Correction, relocated, set_aside
+from etot_cli.reasoning.builtin.reordering import own_place_first
 from etot_cli.reasoning.builtin.revision import cycle_of, inserted, opened_before, relocations
 from etot_cli.skills.action import Action, Verb
 from etot_cli.world.state import PartInfo, owner_of
@@ -70,12 +71,13 @@ def taken_anew(case: FailedCase, owner: str) -> Iterator[Correction]:
 
 def brought_out(case: FailedCase, furniture: str, vessels: Iterable[str]) -> Iterator[Correction]:
     """The branch with a vessel taken out of or from under furniture, where the hand does not
-    get at what is in it.
+    get at what is in it: to its own place if that is in the open, or else to a safe one.
     """
     for vessel in sorted(vessels):
         state = case.scene.states[vessel]
         places = {*state.on, state.inside or vessel}
         if any(owner_of(p) == furniture and has_front(case.scene, p) for p in places):
+            yield from own_place_first(case, vessel, in_the_open=True)
             yield from relocated(case.failed, vessel, None, case.index)
 
 
