@@ -476,3 +476,17 @@ def test_what_never_touched_its_target_did_not_rebound() -> None:
     off = record(start, beside, contacts=(contact("nut", "mug"),))
     verdict = judge("[PUT INTO, mug]", off)
     assert verdict.cause is not None and verdict.cause.kind is CauseKind.REBOUND
+
+
+@pytest.mark.parametrize(
+    ("size", "too_wide"), [((0.09, 0.09, 0.09), True), ((0.09, 0.05, 0.05), False)]
+)
+def test_what_is_wider_than_the_mouth_is_refused_for_that(
+    size: tuple[float, float, float], too_wide: bool
+) -> None:
+    mug = scenes.cup("mug", (0.4, 0.0))
+    start = held(scenes.scene(mug, scenes.item("nut", at=(0.2, 0.0), size=size)), "nut")
+    verdict = judge("[PUT INTO, mug]", record(start, released(start)))
+    assert verdict.cause is not None
+    assert ("the mouth" in verdict.cause.text) == too_wide
+    assert (verdict.cause.kind is CauseKind.NO_ROOM) == too_wide

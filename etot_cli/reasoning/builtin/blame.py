@@ -105,6 +105,8 @@ def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[
     if record.after.states[held].lost:
         return Cause(CauseKind.LOST, (held,), f"{held} fell off the desk")
     blamed = (owner, held) if owner in record.before.infos else (held,)
+    if action.verb is Verb.PUT_INTO and (why := _too_wide(held, owner, record)):
+        return Cause(CauseKind.NO_ROOM, blamed, f"{held} does not go into {target}: {why}")
     if target != DESK and owner not in _struck_by({held}, record, excluding=set()):
         text = f"{held} came down beside {target} without touching it"
         return Cause(CauseKind.NO_EFFECT, blamed, text)
@@ -112,6 +114,15 @@ def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[
         text = f"{held} does not go into {target}: it came to rest on its rim"
         return Cause(CauseKind.NO_ROOM, blamed, text)
     return Cause(CauseKind.REBOUND, blamed, f"{held} did not stay {joint} {target}")
+
+
+def _too_wide(held: str, owner: str, record: RolloutRecord) -> str:
+    """That something is wider than a vessel's mouth however it is turned; empty where it is not."""
+    info = record.before.infos.get(owner)
+    width = sorted(record.before.infos[held].size)[1]
+    if info is None or not 0.0 < info.mouth < width:
+        return ""
+    return f"it is {1000 * width:.0f} mm wide, the mouth {1000 * info.mouth:.0f} mm"
 
 
 def _stance_missed(action: Action, record: RolloutRecord) -> Nearby | None:
