@@ -181,7 +181,7 @@ NOTHING_MAY_BE = """
     there (may|can) (not|no longer) be anything [left]
 """
 _BROUGHT = """
-    put|placed|moved|brought|taken|took|set|stored|stowed|dropped|inserted|thrown|tossed|transferred|laid|parked|left|kept|
+    put|placed|moved|brought|taken|took|set|stored|stowed|dropped|inserted|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|
     set out|laid out|lowered|collected|gathered|tidied|tidied away|tidied up
 """ + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
@@ -205,6 +205,7 @@ _TO_STAND = "stand|sit|lie|rest|live|sleep"
 """How what goes somewhere is there then."""
 _BETTER = "better [off]|best|nicer|nicest|tidier|neater|safer"
 _WELL = "good|nice|nicely|lovely|great|perfect|perfectly|fine|well"
+TO_BE_THROWN = f"({_MUST}|can|may|could) {_SIMPLY} be (thrown|tossed|chucked)"
 MODAL = f"""
     [{_IN_FACT}] ({_MUST}) {_SIMPLY} (be [{_BROUGHT}|{_BEING}|found|returned|stood]|
     find (its|their) way [back]|(end|finish|wind) up [{_BEING}]|get|land|

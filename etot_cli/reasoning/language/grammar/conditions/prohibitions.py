@@ -384,9 +384,12 @@ AVOID = either(
         build=lambda things, avoid: AvoidClause(avoid, things),
     ),
     sequence(
-        optional(verbs.ENSURE),
-        THINGS,
-        "(does|do|must|should|shall|may|can|will|is to|are to) not [ever] (move|budge|shift)",
+        # "It will not budge" is what happens to it.
+        either(
+            sequence(THINGS, "(must|should|shall|may|is to|are to) not"),
+            sequence(verbs.ENSURE, THINGS, "(does|do|will|can) not"),
+        ),
+        "[ever] (move|budge|shift)",
         build=partial(AvoidClause, Avoid.MOVE),
     ),
 )

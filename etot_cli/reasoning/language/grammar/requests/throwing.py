@@ -15,7 +15,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import LIST
 from etot_cli.reasoning.language.grammar.phrases.destinations import INTO, ONTO
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -80,6 +80,12 @@ THROWN = quiet(
     either(
         sequence(verbs.SLIDE, _GROUPS, build=_slid),
         sequence(verbs.THROW, _GROUPS, build=_into_bins),
+        sequence(
+            ALL_THINGS,
+            verbs.TO_BE_THROWN,
+            INTO,
+            build=lambda things, into: _into_bins((PutGroup(things, (into,)),)),
+        ),
         sequence(
             phrase(f"{verbs.THROW_AWAY}, shelv(e|ing)"),
             THINGS,
