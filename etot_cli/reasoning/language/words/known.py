@@ -70,7 +70,7 @@ LINKS = word_set(
 """Words that are nothing without what stands behind them."""
 BEFORE_NOUNS = [(word,) for word in ("the", "a", "an", "my", "this", "that", "both", "all")]
 """Before what a verb is about; a noun has none of them behind it."""
-BLAMED = words_of((verbs.PULL,)) | {"where"}
+BLAMED = words_of((verbs.PULL, verbs.PUSH)) | {"where", "room", "space"}
 """Words that are understood in some places only, and where they are not are what is wrong."""
 NEVER_NOUNS = frozenset({"the", "a", "an", "and", "or", "in", "on", "of", "not", "~comma", "to"})
 GRAMMAR_WORDS = frozenset(_FUNCTION.split()) | VERB_WORDS | OTHER_VERBS | {"~comma"}
@@ -141,6 +141,8 @@ REASONS = {
     ),
     "rather": "say only what is to be done",
     "instead": "say only what is to be done",
+    "room": "room is made by what goes elsewhere: say what that is, or what goes there",
+    "space": "room is made by what goes elsewhere: say what that is, or what goes there",
     "upside": "how a thing is to lie cannot be asked for",
     "where": "where something is does not say what is there: say into, onto or beside what",
     **dict.fromkeys(

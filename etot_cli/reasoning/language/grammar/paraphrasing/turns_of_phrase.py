@@ -24,10 +24,19 @@ _NOW = "currently|at present|at the moment|presently|right now|now|still"
 _FOUND_THERE = r"(?=(?:between|in|inside|on|behind|beside|under|next to|near)\b)"
 _YOU_FIND = r"you (?:will |can |should |may )?(?:find|see)"
 _POSED = r"(?:still )?(?:lying|standing|sitting)"
+_TAKE = r"grasp|grab|grip|grab hold of|take|take hold of|seize|pick up|pick|lift up|lift|get|fetch"
+_LIFT_OR_PUT = (
+    r"lift|raise|hold|pick|put|place|set|move|bring|carry|drop|stow|insert|transfer"
+)
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Grasp and lift the cup", "take and put the cup on the tray": the second verb says it all
+    (
+        rf"\b(?:{_TAKE}) and (?:then )?(?=(?:{_LIFT_OR_PUT}) (?:up )?{NAMED})",
+        "",
+    ),
     (
         r"\b(i|we) (need|want|would like) (?:easy |free |quick )?access to "
         rf"(?:the (?:inside|interior) of )?(?={NAMED})",

@@ -21,7 +21,7 @@ _INSIDE_IT = """
     [still|safely] inside, [still|safely] in there, in,
     [still|safely] [lying|standing|sitting] (inside|in) (it|them|which)
 """
-_UPON_IT = "on [top of] (it|them), on top"
+_UPON_IT = "[still|safely|left] on [top of] (it|them), [still] on top"
 _POSED = "currently|now|standing|lying|sitting|resting"
 _HAVING = f"with, {nouns.CONTAINING}"
 

@@ -96,6 +96,7 @@ from etot_cli.reasoning.language.grammar.sentences.topics import (
     fit_for,
     for_a_reason,
     one_of_them,
+    room_for,
 )
 from etot_cli.reasoning.language.grammar.sentences.wishes import TOLD_APART
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -373,6 +374,7 @@ WITH_MORE_BEFORE_IT = either(
     sequence(TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
     sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by, ~colon", CHAIN, build=add),
     sequence(plain(SEEING), "[~comma] by, ~comma, ~colon", CHAIN, build=_opened_for),
+    sequence(plain(MAKING_ROOM), _AND, CHAIN, build=room_for),
     sequence(CHAIN, "to, in order to, so as to", plain(MAKING_ROOM), build=add),
     sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
     sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=each_sorted),

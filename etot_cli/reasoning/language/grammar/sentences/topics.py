@@ -167,7 +167,7 @@ _REMARK = either(
     sequence("(i|we) do not want", ALL_THINGS, "(rolling|lying|standing|sitting) (around|about)"),
 )
 MAKING_ROOM = spanned(
-    sequence(verbs.MAKE_ROOM, ALL_THINGS, silent(optional(sequence("in, on", noun_phrase)))),
+    sequence(verbs.MAKE_ROOM, ALL_THINGS, silent(optional(sequence("in, on, for", noun_phrase)))),
     lambda said, things: ReorientClause(things, only_named=True, remark=said),
 )
 """What something else is done for."""
@@ -243,6 +243,13 @@ def about(topic: Reading, rest: Reading) -> Reading | None:
         )
     )
     return (*topic, *rest) if spoken else one_of_them(topic, rest)
+
+
+def room_for(topic: Reading, rest: Reading) -> Reading | None:
+    """What is put where room is made for it; without it nobody knows how much room that is."""
+    where = [to for to in nodes(rest[0].clause) if isinstance(to, Destination)]
+    there = any(to.toward is Toward.HERE or any(np.pronoun for np in to.targets) for to in where)
+    return (*topic, *rest) if there else None
 
 
 def done_there(topic: Reading, rest: Reading) -> Reading | None:

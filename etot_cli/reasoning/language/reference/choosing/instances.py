@@ -13,7 +13,12 @@ from etot_cli.reasoning.language.reference.choosing.selection import select, too
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.naming.matching import Match
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, OPEN_SURFACES, matches_any
+from etot_cli.reasoning.language.words.lexicon import (
+    JOINT_NOUNS,
+    OPEN_SURFACES,
+    matches_any,
+    singular,
+)
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK, SceneState
@@ -137,9 +142,11 @@ def options_of(
         if len({thing.name for thing in things}) < len(things):
             raise ReferenceProblem(phrase.text, "say which one of each", 2)
         return (tuple(things),)
-    if quantity.every and quantity.count is not None and len(things) != quantity.count:
+    # "Both the mug and the butter" speaks of two things rather than of both the mug.
+    alone = phrase.determiner == "both the" and singular(phrase.head) == phrase.head
+    if quantity.every and quantity.count is not None and (alone or len(things) != quantity.count):
         why = f"there should be {quantity.count}, but what fits is {names}"
-        raise ReferenceProblem(phrase.text, why, 1)
+        raise ReferenceProblem(phrase.text, why, int(not alone))
     if quantity.definite and count is not None and 1 < count < len(things):
         raise ReferenceProblem(phrase.text, f"there are more than {count}: {names}", 1)
     if count is None or quantity.every:
