@@ -7,21 +7,19 @@ from msgspec.structs import replace
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.naming.determiners import is_distributive, quantity_of
+from etot_cli.reasoning.language.reference.naming.of_phrases import packed, without_of
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
     LEVELS,
     NUMBERS,
     ORDINALS,
-    PACKS,
     PAIRED,
     SIDES,
     SIZES,
     is_descriptive,
     singular,
 )
-from etot_cli.reasoning.language.words.nouns import STACK
-from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
 
 ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
@@ -37,10 +35,6 @@ _OTHERS = frozenset(
 
 _WHERE = (Prep.FROM, Prep.IN, Prep.ON)
 _AROUND = (Prep.WITH, Prep.CONTAINING, Prep.BEARING)
-_ITS_OWNER = NounPhrase(pronoun="it", text="the contents")
-"""Of "the contents" of what was spoken of."""
-
-
 _LIKE_THAT = frozenset({"colored", "coloured", "shaped"})
 """Behind a word for a colour or shape they say nothing more."""
 _EACH_OF = [["each", "of", "the"], ["every", "one", "of", "the"], ["both", "of", "the"]]
@@ -70,123 +64,141 @@ def how_many_out(modifier: Modifier) -> int | None:
 
 
 def usual_form(phrase: NounPhrase) -> NounPhrase:
-    """The phrase in the usual form: "the bigger of the mugs" is the bigger mug."""
-    if {*phrase.words[1:-1]} & _LIKE_THAT:  # "the lime coloured ball", "the cup shaped holder"
-        said = (word for word in phrase.words if word not in _LIKE_THAT)
-        return usual_form(replace(phrase, words=tuple(said)))
+    """The phrase in the usual form: "the bigger of the mugs" is the bigger mug.
+
+    Raises:
+        ReferenceProblem: a phrase that has none ("each two cups", "the bigger of the mug").
+    """
+    if phrase.head in GENERAL and len(phrase.words) == 1:
+        return _in_general(phrase)
+    for rewritten in _REWRITINGS:
+        plainer = rewritten(phrase)
+        if plainer is not None:
+            return usual_form(plainer)
+    return without_of(_with_its_noun(phrase)) if phrase.words else phrase
+
+
+def _in_general(phrase: NounPhrase) -> NounPhrase:
+    """All objects for "everything", whatever is so for "anything" that is so."""
+    determiner = GENERAL[phrase.head]
+    if phrase.head == "anything" and phrase.modifiers:
+        determiner = "all"
+    words = ("objects",) if determiner.startswith("all") else ("object",)
+    return replace(phrase, determiner=determiner, words=words)
+
+
+def _colored_like_that(phrase: NounPhrase) -> NounPhrase | None:
+    """As in "the lime coloured ball", "the cup shaped holder"."""
+    if not {*phrase.words[1:-1]} & _LIKE_THAT:
+        return None
+    return replace(phrase, words=tuple(word for word in phrase.words if word not in _LIKE_THAT))
+
+
+def _counted_from_a_side(phrase: NounPhrase) -> NounPhrase | None:
+    """As in "the drawer second from the top"."""
     for item in phrase.modifiers:
         if item.prep is Prep.SIDE and item.words[0] in ORDINALS and phrase.words:
-            # "The drawer second from the top"
             side = replace(item, words=item.words[1:])
             words = (*phrase.words[:-1], item.words[0], phrase.words[-1])
             modifiers = tuple(side if one is item else one for one in phrase.modifiers)
-            return usual_form(replace(phrase, words=words, modifiers=modifiers))
+            return replace(phrase, words=words, modifiers=modifiers)
+    return None
+
+
+def _of_a_number(phrase: NounPhrase) -> NounPhrase | None:
+    """As in "either one of the two cups", "each of the two biggest cups" of maybe more."""
     if is_distributive(phrase.determiner) and any(
         NUMBERS.get(w, 1) > 1 for w in phrase.words[1:-1]
     ):
         raise ReferenceProblem(phrase.text, "name them one by one", 3)
     counted = phrase.words[1:] and NUMBERS.get(phrase.words[0], 1) > 1
     if counted and phrase.determiner.endswith((" of the", " of these", " of those", " of my")):
-        # "Either one of the two cups"
         determiner = f"{phrase.determiner} {phrase.words[0]}"
-        return usual_form(replace(phrase, determiner=determiner, words=phrase.words[1:]))
+        return replace(phrase, determiner=determiner, words=phrase.words[1:])
     *each, number = phrase.determiner.split() or [""]
     if each in _EACH_OF and number in NUMBERS and any(map(_is_utmost, phrase.words[:-1])):
-        # "Each of the two biggest cups", of which there may be more
-        return usual_form(replace(phrase, determiner=f"all {number}"))
-    last = phrase.head
-    if last in GENERAL and len(phrase.words) == 1:
-        determiner = GENERAL[last]
-        if last == "anything" and phrase.modifiers:
-            determiner = "all"  # whatever is so
-        words = ("objects",) if determiner.startswith("all") else ("object",)
-        return replace(phrase, determiner=determiner, words=words)
-    if last in MASS_NOUNS and phrase.determiner == "the" and _compares(phrase):
-        return usual_form(replace(phrase, determiner="the 1"))  # "the leftmost fruit"
-    if last in _OTHERS and len(phrase.words) == 1:
-        of = next((m for m in phrase.modifiers if m.prep is Prep.OF and m.phrases[0].words), None)
-        left = replace(phrase, determiner="all other", words=())
-        if of is None:
-            return left
-        (whole, *_) = of.phrases
-        modifiers = (*whole.modifiers, *left.without_modifier(of).modifiers)
-        return usual_form(
-            replace(left, words=whole.words, modifiers=modifiers, without=whole.without)
-        )
+        return replace(phrase, determiner=f"all {number}")
+    return None
+
+
+def _of_a_mass(phrase: NounPhrase) -> NounPhrase | None:
+    """As in "the leftmost fruit", which is one."""
+    mass = phrase.head in MASS_NOUNS and phrase.determiner == "the" and _compares(phrase)
+    return replace(phrase, determiner="the 1") if mass else None
+
+
+def _the_others(phrase: NounPhrase) -> NounPhrase | None:
+    """As in "the rest of the red cups", which are all other red cups."""
+    if phrase.head not in _OTHERS or len(phrase.words) > 1:
+        return None
+    left = replace(phrase, determiner="all other", words=())
+    of = next((m for m in phrase.modifiers if m.prep is Prep.OF and m.phrases[0].words), None)
+    if of is None:
+        return left
+    (whole, *_) = of.phrases
+    modifiers = (*whole.modifiers, *left.without_modifier(of).modifiers)
+    return replace(left, words=whole.words, modifiers=modifiers, without=whole.without)
+
+
+def _no_more_than(phrase: NounPhrase) -> NounPhrase | None:
+    """As in "only the cups", "a pair of socks", which is one thing."""
     if phrase.determiner.startswith("only "):
-        phrase = replace(phrase, determiner=phrase.determiner.removeprefix("only "))
-    out = next((item for item in phrase.modifiers if item.prep is Prep.EXCEPT), None)
-    if not last and out is not None and out.phrases[0].words:
-        (left_out, *_) = out.phrases
-        head = left_out.words[-1]
-        plural = head if singular(head) != head else f"{head}s"
-        if how_many_out(out) is None:
-            return replace(phrase, words=(plural,))
-        # "All but one of the red cups on the tray": of the red cups there all but one
-        bare = replace(out, phrases=(NounPhrase(left_out.determiner, text=left_out.text),))
-        modifiers = (*left_out.modifiers, *(bare if m is out else m for m in phrase.modifiers))
-        return usual_form(
-            replace(phrase, words=(*left_out.words[:-1], plural), modifiers=modifiers)
-        )
-    of = next((item for item in phrase.modifiers if item.prep is Prep.OF), None)
-    if of is not None and last and of.phrases[0].words:
-        (inner, *_) = of.phrases
-        if singular(last) in PACKS and not (
-            inner.determiner or inner.modifiers or is_descriptive(inner.words[0])
-        ):
-            # "The packet of rice" is the rice packet.
-            return usual_form(phrase.without_modifier(of).called(*inner.words, last))
-        if singular(last) == "pair" and inner.words[-1] in PAIRED and not inner.determiner:
-            pair = phrase.without_modifier(of).called(*inner.words)
-            return usual_form(replace(pair, modifiers=(*inner.modifiers, *pair.modifiers)))
-    if phrase.determiner == "a pair of" and last in PAIRED:
-        phrase = replace(phrase, determiner="a")
+        return replace(phrase, determiner=phrase.determiner.removeprefix("only "))
+    one = phrase.determiner == "a pair of" and phrase.head in PAIRED
+    return replace(phrase, determiner="a") if one else None
+
+
+def _all_but(phrase: NounPhrase) -> NounPhrase | None:
+    """As in "all but one of the red cups on the tray": of the red cups there all but one."""
+    out = _left_out_of(phrase)
+    if phrase.head or out is None or not out.phrases[0].words:
+        return None
+    (left_out, *_) = out.phrases
+    head = left_out.words[-1]
+    plural = head if singular(head) != head else f"{head}s"
+    if how_many_out(out) is None:
+        return replace(phrase, words=(plural,))
+    bare = replace(out, phrases=(NounPhrase(left_out.determiner, text=left_out.text),))
+    modifiers = (*left_out.modifiers, *(bare if m is out else m for m in phrase.modifiers))
+    return replace(phrase, words=(*left_out.words[:-1], plural), modifiers=modifiers)
+
+
+def _at_one_end(phrase: NounPhrase) -> NounPhrase | None:
+    """As in "the top two drawers", which are the two at the top."""
     first = phrase.words[0] if phrase.words else ""
     several = (quantity_of(phrase.determiner).count or 1) > 1
-    if several and LEVELS.get(first) in ("top", "bottom") and len(phrase.words) > 1:
-        aside = Modifier(Prep.SIDE, words=(LEVELS[first],))
-        modifiers = (aside, *phrase.modifiers)
-        return usual_form(replace(phrase, words=phrase.words[1:], modifiers=modifiers))
-    if out is not None and last:
-        named = replace(out, phrases=tuple(_named(item, last) for item in out.phrases))
-        modifiers = tuple(named if item is out else item for item in phrase.modifiers)
-        phrase = replace(phrase, modifiers=modifiers)
-    if last == "contents" and not phrase.modifiers:
-        of = Modifier(Prep.OF, (phrase.owner or _ITS_OWNER,))
-        phrase = replace(phrase, owner=None, modifiers=(of,))
-    if not last or of is None:
+    if not (several and LEVELS.get(first) in ("top", "bottom") and len(phrase.words) > 1):
+        return None
+    aside = Modifier(Prep.SIDE, words=(LEVELS[first],))
+    return replace(phrase, words=phrase.words[1:], modifiers=(aside, *phrase.modifiers))
+
+
+_REWRITINGS = (
+    _colored_like_that,
+    _counted_from_a_side,
+    _of_a_number,
+    _of_a_mass,
+    _the_others,
+    _no_more_than,
+    _all_but,
+    packed,
+    _at_one_end,
+)
+"""Each makes a phrase plainer, where it says something of it; the first that does counts."""
+
+
+def _left_out_of(phrase: NounPhrase) -> Modifier | None:
+    return next((item for item in phrase.modifiers if item.prep is Prep.EXCEPT), None)
+
+
+def _with_its_noun(phrase: NounPhrase) -> NounPhrase:
+    """What is left out has the noun, too ("the drawers except those of the chest")."""
+    out = _left_out_of(phrase)
+    if out is None:
         return phrase
-    rest = phrase.without_modifier(of).modifiers
-    whole = of.phrases[0]
-    if last == "contents":
-        inside = Modifier(Prep.IN, (whole,))
-        words = (*phrase.words[:-1], "objects")
-        return replace(phrase, determiner="all", words=words, modifiers=(inside, *rest))
-    told = phrase.words[:-1] if phrase.is_elliptic and phrase.words[1:] else phrase.words
-    one = told[-1]
-    if whole.words and any(one in table for table in (SIZES, SIDES, ORDINALS, LEVELS)):
-        several = singular(whole.words[-1]) != whole.words[-1]
-        if whole.head in spellings(STACK):
-            return replace(phrase, words=(*told, "object"))
-        if not several:
-            raise ReferenceProblem(phrase.text, f"{last!r} of one thing is no thing", 1)
-        noun = (*whole.words[:-1], singular(whole.words[-1]))
-        among = quantity_of(whole.determiner).count or 0
-        modifiers = (*whole.modifiers, *rest)
-        if noun[-1] in MASS_NOUNS and phrase.determiner == "the":
-            phrase = replace(phrase, determiner="the 1")  # "the smaller of the two fruits"
-        if one in LEVELS:
-            # Of two open drawers the lower one may be the middle one of three.
-            told, modifiers = told[:-1], (Modifier(Prep.SIDE, words=(LEVELS[one],)), *modifiers)
-        without = (*phrase.without, *whole.without)
-        return replace(
-            phrase, words=(*told, *noun), modifiers=modifiers, among=among, without=without
-        )
-    if told != phrase.words and is_descriptive(one) and singular(whole.head) != whole.head:
-        # "The blue one of the pill boxes", after which "the white one" is one of these, too
-        noun = (*whole.words[:-1], whole.head if last == "ones" else singular(whole.head))
-        return replace(phrase, words=(*told, *noun), without=(*phrase.without, *whole.without))
-    return phrase
+    named = replace(out, phrases=tuple(_named(item, phrase.head) for item in out.phrases))
+    modifiers = tuple(named if item is out else item for item in phrase.modifiers)
+    return replace(phrase, modifiers=modifiers)
 
 
 def around_itself(phrase: NounPhrase) -> NounPhrase:
