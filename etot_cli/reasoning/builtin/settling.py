@@ -72,12 +72,27 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
         steps.append(step)
     _check_hand(goal, steps)
     for index in turned:
-        if not any(index in referents_of(step) for step in steps):
-            text = goal.referents[index].text
-            raise ReferenceProblem(
-                text, "turning something is no skill of its own; say where it is to go", 2
-            )
+        _check_turned(goal, steps, index, scene)
     return replace(goal, steps=tuple(steps))
+
+
+def _check_turned(goal: Goal, steps: Sequence[Step], referent: int, scene: SceneState) -> None:
+    """Raises a ReferenceProblem where something is turned for its own sake: what is long is turned
+    by being put into something, and nothing else is turned at all.
+    """
+    text = goal.referents[referent].text
+    said = [step for step in steps if referent in referents_of(step)]
+    if not said:
+        why = "turning something is no skill of its own; say where it is to go"
+        raise ReferenceProblem(text, why, 2)
+    inserted = any(
+        place.relation is Relation.INSIDE
+        for step in said
+        for place in (step.places if isinstance(step, Put) else ())
+    )
+    infos = [scene.infos[t.name] for t in things_in(goal.referents[referent].options)]
+    if not (inserted and all(info.elongated for info in infos)):
+        raise ReferenceProblem(text, "how it is to be turned cannot be asked for", 3)
 
 
 def _must_be_out(goal: Goal, referent: int, later: Sequence[Step], scene: SceneState) -> bool:

@@ -25,9 +25,7 @@ _FOUND_THERE = r"(?=(?:between|in|inside|on|behind|beside|under|next to|near)\b)
 _YOU_FIND = r"you (?:will |can |should |may )?(?:find|see)"
 _POSED = r"(?:still )?(?:lying|standing|sitting)"
 _TAKE = r"grasp|grab|grip|grab hold of|take|take hold of|seize|pick up|pick|lift up|lift|get|fetch"
-_LIFT_OR_PUT = (
-    r"lift|raise|hold|pick|put|place|set|move|bring|carry|drop|stow|insert|transfer"
-)
+_LIFT_OR_PUT = r"lift|raise|hold|pick|put|place|set|move|bring|carry|drop|stow|insert|transfer"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
 _STAYS = {"it": "it stays", "them": "they stay"}
 

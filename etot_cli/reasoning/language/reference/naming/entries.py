@@ -280,7 +280,11 @@ class Entry(Struct, frozen=True):
 
 _FLAT = 1 / 3
 """What is thinner than so much of its length is a plate or a bar, no block that has no other name:
-a brick of 21 by 10 by 7 cm is just one."""
+a brick of 21 by 10 by 7 cm is just one; a round one is no can or jar, as a tuna can is."""
+
+
+_LUMPS = {"box": frozenset({"block"}), "cylinder": PACKS}
+"""Nouns, by kind, for what is not flat."""
 
 
 def _kind_nouns(info: ObjectInfo, heads: Iterable[str]) -> tuple[str, ...]:
@@ -289,11 +293,12 @@ def _kind_nouns(info: ObjectInfo, heads: Iterable[str]) -> tuple[str, ...]:
     """
     kind = info.kind
     groups = KIND_GROUPS.get(kind, ())
-    if kind == "box" and min(info.size) < _FLAT * max(info.size):
-        groups = tuple(group for group in groups if "block" not in group or {*heads} & {*group})
+    if kind in _LUMPS and min(info.size) < _FLAT * max(info.size):
+        lumps = _LUMPS[kind]
+        groups = tuple(group for group in groups if not lumps & {*group} or {*heads} & {*group})
     own = {singular(head) for head in heads}
     fitting = [group for group in groups if own & set(group)]
-    if own & PACKED:
+    if own & PACKED and not own & PACKS:
         fitting += [group for group in groups if PACKS & {*group}]
     if not fitting and not own & (COMMON_NOUNS | OF_A_SORT):
         fitting = list(groups[-1:] if kind in NAMED_FOR_A_SORT else groups)
