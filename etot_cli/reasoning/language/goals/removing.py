@@ -112,6 +112,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
     for place in discourse.last_places:
         context.mention_part(place)
     known = {*discourse.things(*themes)} <= {*discourse.things(*discourse.put)}
+    if known and is_emptying(clause):
+        _check_named(clause)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
     if clause.by_then and is_emptying(clause):
         text = " and ".join(np.text for np in clause.things.phrases)
@@ -172,6 +174,18 @@ def _check_holds(context: Context, things: Things) -> None:
             meant = context.discourse.things(*context.phrases.refer(np, Role.ANY))
             if not any(thing.name in held for thing in meant):
                 raise ReferenceProblem(np.text or np.pronoun, "name what is to be empty", 3)
+
+
+def _check_named(clause: RemoveClause) -> None:
+    """Whether what is to be empty, though things were only put there, is named.
+
+    Raises:
+        ReferenceProblem: it is "it", which may rather be what was put there ("put the bowl on the
+            tray and empty it").
+    """
+    for np in (np for said in clause.things.phrases for m in said.modifiers for np in m.phrases):
+        if np.pronoun and not clause.by_then:
+            raise ReferenceProblem(np.text or np.pronoun, "name what is to be empty", 3)
 
 
 def _speak_of_emptied(context: Context, clause: RemoveClause) -> None:

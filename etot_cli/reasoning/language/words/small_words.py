@@ -77,7 +77,7 @@ WITHOUT_MEANING = f"""
     [in] (any|whichever|whatever) order
     [you (like|want|prefer|please|choose|see fit|fancy)|[that] suits you [best|{_EASIER}]|
     is (easier|easiest|best) [for you]|seems best [to you]],
-    out of sight, (before|after|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
+    out of sight, (before|for) (dinner|lunch|breakfast|supper|bedtime|school|work),
     as wide as it (goes|can|will [go]), until it (will|does) not go any further,
     as far as it (goes|can [go]|will [go]), whatever (it|that|this) takes,
     no matter what, at all costs,

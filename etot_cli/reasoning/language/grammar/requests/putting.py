@@ -153,8 +153,9 @@ def _put_away(verb: str, groups: tuple[PutGroup, ...], extras: Any) -> PutClause
 
 
 def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutClause | None:
+    """Several things over some places; one thing is not to be divided."""
     group = PutGroup(things, (Destination(Toward.TO, over),))
-    return put_of((group,), extras, Grouping.SPREAD)
+    return put_of((group,), extras, Grouping.SPREAD) if things.may_be_several else None
 
 
 def _in_after(things: Things, said: str) -> PutClause:
