@@ -23,11 +23,11 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATION
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.arrangements import HAVING_TURNED, STANDS_UP
+from etot_cli.reasoning.language.grammar.requests.carrying import OUT_AND_INTO, brought
 from etot_cli.reasoning.language.grammar.requests.emptying import (
     NOTHING_LEFT_THERE,
     emptied,
 )
-from etot_cli.reasoning.language.grammar.requests.putting import OUT_AND_INTO, brought
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
