@@ -53,9 +53,7 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
     left_so,
 )
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
-from etot_cli.reasoning.language.grammar.sentences.topics import (
-    SAID,
-)
+from etot_cli.reasoning.language.grammar.sentences.topics import SAID
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     Clause,
