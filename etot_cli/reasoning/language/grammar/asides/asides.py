@@ -12,6 +12,12 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause, clauses_of
+from etot_cli.reasoning.language.grammar.asides.asking_words import (
+    BEFORE_NAMES,
+    IsName,
+    asks_besides,
+    is_doing,
+)
 from etot_cli.reasoning.language.grammar.asides.displeasure import (
     dislikes,
     in_state,
@@ -33,27 +39,15 @@ from etot_cli.reasoning.language.grammar.asides.mishaps import (
     is_unspoilt,
     may_befall,
 )
-from etot_cli.reasoning.language.grammar.asides.remarks import (
-    BEFORE_NAMES,
-    PEOPLE,
-    IsName,
-    asks_besides,
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, is_of_people, is_of_relative
+from etot_cli.reasoning.language.grammar.asides.reasons import (
     is_comment,
-    is_doing,
-    is_in_passing,
     is_made_possible,
-    is_not_to_stay,
-    is_of_people,
-    is_of_relative,
     is_purpose,
     is_reason,
-    is_remark,
-    is_told_apart_by,
-    is_turning,
-    is_unused,
     is_warning,
-    told_of_thing,
 )
+from etot_cli.reasoning.language.grammar.asides.remarks import is_remark, is_unused
 from etot_cli.reasoning.language.grammar.asides.talk import is_talk
 from etot_cli.reasoning.language.grammar.asides.telling import (
     exclaims,
@@ -64,6 +58,13 @@ from etot_cli.reasoning.language.grammar.asides.telling import (
     stranger_is_there,
     tells_of_others,
     there_is_such,
+)
+from etot_cli.reasoning.language.grammar.asides.told_of_things import (
+    is_in_passing,
+    is_not_to_stay,
+    is_told_apart_by,
+    is_turning,
+    told_of_thing,
 )
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import wants_such_a_thing
 from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering

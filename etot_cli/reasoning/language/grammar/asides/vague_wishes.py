@@ -4,13 +4,13 @@ others: a reason why one of these is asked for next.
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.asides.remarks import (
+from etot_cli.reasoning.language.grammar.asides.asking_words import (
     ASKING,
-    PEOPLE,
     PLACED,
     REFERRING,
     IsName,
 )
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
