@@ -96,3 +96,6 @@ def is_doing(word: str) -> bool:
 def asks_besides(said: str) -> bool:
     """Whether something is asked for behind what is told ("because I need it and put it …")."""
     return bool(_ASKED.search(said))
+
+
+PRONOUNS = word_set("it they them that this those these he him she her")

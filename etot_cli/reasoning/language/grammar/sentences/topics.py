@@ -6,7 +6,7 @@ from functools import partial
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.language.grammar.asides.asides import ASIDE
+from etot_cli.reasoning.language.grammar.asides.named_in_asides import ASIDE
 from etot_cli.reasoning.language.grammar.conditions.occupied import ALREADY
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
