@@ -5,8 +5,9 @@ from __future__ import annotations
 from etot_cli.reasoning.language.grammar.parsers.combinators import either, one_of, sequence, some
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
-from etot_cli.reasoning.language.grammar.sentences.chains import JOINED, chained
+from etot_cli.reasoning.language.grammar.sentences.chains import JOINED
 from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, plain
+from etot_cli.reasoning.language.grammar.sentences.joining import chained
 from etot_cli.reasoning.language.grammar.syntax.clauses import MoveClause, put_to
 from etot_cli.reasoning.language.words import verbs
 
