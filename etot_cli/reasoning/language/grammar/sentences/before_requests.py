@@ -30,13 +30,7 @@ from etot_cli.reasoning.language.grammar.requests.unstacking import UNSTACK
 from etot_cli.reasoning.language.grammar.sentences.afterthoughts import TOLD_BEHIND
 from etot_cli.reasoning.language.grammar.sentences.ahead import NOT_SO
 from etot_cli.reasoning.language.grammar.sentences.announced import ANNOUNCED_PLACES
-from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
-from etot_cli.reasoning.language.grammar.sentences.end_states import END_STATES
-from etot_cli.reasoning.language.grammar.sentences.inversions import INVERTED
-from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
-from etot_cli.reasoning.language.grammar.sentences.named_ahead import NAMED_AHEAD
-from etot_cli.reasoning.language.grammar.sentences.past import (
+from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
     ALL_LATER,
     EARLIER,
     done_later,
@@ -44,6 +38,12 @@ from etot_cli.reasoning.language.grammar.sentences.past import (
     out_of_the_way,
     same_receiver,
 )
+from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
+from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.end_states import END_STATES
+from etot_cli.reasoning.language.grammar.sentences.inversions import INVERTED
+from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
+from etot_cli.reasoning.language.grammar.sentences.named_ahead import NAMED_AHEAD
 from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.sentences.told_with import WITH_SO
 from etot_cli.reasoning.language.grammar.syntax.clauses import (

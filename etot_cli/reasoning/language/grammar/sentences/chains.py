@@ -47,6 +47,14 @@ from etot_cli.reasoning.language.grammar.requests.arrangements import (
 from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY
 from etot_cli.reasoning.language.grammar.requests.grasping import WITH_A_GRASP
 from etot_cli.reasoning.language.grammar.requests.word_order import PLACE_AHEAD
+from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
+    ALL_LATER,
+    EARLIER,
+    EARLIER_ALONE,
+    LATER,
+    done_later,
+    once_done,
+)
 from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, NOT_OF_ONE, plain
 from etot_cli.reasoning.language.grammar.sentences.doubles import so_in_turn
 from etot_cli.reasoning.language.grammar.sentences.headlines import (
@@ -66,15 +74,7 @@ from etot_cli.reasoning.language.grammar.sentences.passives import (
     THEN_PLACED,
     THEN_TURNED,
 )
-from etot_cli.reasoning.language.grammar.sentences.past import (
-    ALL_LATER,
-    EARLIER,
-    EARLIER_ALONE,
-    LATER,
-    UNDER_WAY,
-    done_later,
-    once_done,
-)
+from etot_cli.reasoning.language.grammar.sentences.past import UNDER_WAY
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
 from etot_cli.reasoning.language.grammar.sentences.which_clauses import (

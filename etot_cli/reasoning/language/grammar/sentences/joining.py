@@ -9,9 +9,13 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import Parser, Part
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS
+from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
+    ahead_of,
+    once_done,
+    then_done,
+)
 from etot_cli.reasoning.language.grammar.sentences.clauses import Reading
 from etot_cli.reasoning.language.grammar.sentences.passives import goes_on
-from etot_cli.reasoning.language.grammar.sentences.past import ahead_of, once_done, then_done
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.which_clauses import held_by, named_last
