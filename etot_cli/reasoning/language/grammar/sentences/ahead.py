@@ -16,7 +16,8 @@ from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_C
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, denied, rather
 from etot_cli.reasoning.language.grammar.phrases.exclusions import changed, only_there
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT, Reading
+from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,

@@ -19,9 +19,8 @@ from etot_cli.reasoning.language.grammar.phrases.gapping import beside_what, tol
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.headlines import PLACED
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.sentences.togetherness import PARTED
 from etot_cli.reasoning.language.grammar.sentences.topics import NAMED, are_several
 from etot_cli.reasoning.language.grammar.syntax.clauses import (

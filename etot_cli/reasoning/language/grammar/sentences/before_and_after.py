@@ -16,9 +16,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import COMMA
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, RECEIVER
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
 from etot_cli.reasoning.language.grammar.sentences.past import HAVING_DONE, SO_BY_THEN
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
     EnsureClause,

@@ -39,12 +39,11 @@ from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
     same_receiver,
 )
 from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.end_states import END_STATES
 from etot_cli.reasoning.language.grammar.sentences.inversions import INVERTED
 from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
 from etot_cli.reasoning.language.grammar.sentences.named_ahead import NAMED_AHEAD
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.sentences.told_with import WITH_SO
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,

@@ -55,7 +55,6 @@ from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
     done_later,
     once_done,
 )
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, NOT_OF_ONE, plain
 from etot_cli.reasoning.language.grammar.sentences.doubles import so_in_turn
 from etot_cli.reasoning.language.grammar.sentences.headlines import (
     HEADLINE,
@@ -65,6 +64,7 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
     timed,
 )
 from etot_cli.reasoning.language.grammar.sentences.joining import chained, joint
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE, NOT_OF_ONE
 from etot_cli.reasoning.language.grammar.sentences.not_before import NOT_BEFORE
 from etot_cli.reasoning.language.grammar.sentences.passives import (
     ALSO_DONE,
@@ -75,7 +75,7 @@ from etot_cli.reasoning.language.grammar.sentences.passives import (
     THEN_TURNED,
 )
 from etot_cli.reasoning.language.grammar.sentences.past import UNDER_WAY
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, plain
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
 from etot_cli.reasoning.language.grammar.sentences.which_clauses import (
     THAT,

@@ -22,9 +22,9 @@ from etot_cli.reasoning.language.grammar.phrases.states import STATE, states
 from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, NOTHING_THERE
 from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN, WITH_MORE_SO
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.headlines import HEADLINE, PLACED
 from etot_cli.reasoning.language.grammar.sentences.joining import Joined, chained, joint
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.topics import NAMED
 from etot_cli.reasoning.language.grammar.sentences.wishes import TOLD_APART
 from etot_cli.reasoning.language.grammar.syntax.clauses import (

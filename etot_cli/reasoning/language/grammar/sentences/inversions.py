@@ -6,8 +6,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import either, one_
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
 from etot_cli.reasoning.language.grammar.sentences.chains import JOINED
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, plain
 from etot_cli.reasoning.language.grammar.sentences.joining import chained
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
+from etot_cli.reasoning.language.grammar.sentences.spoken import plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import MoveClause, put_to
 from etot_cli.reasoning.language.words import verbs
 

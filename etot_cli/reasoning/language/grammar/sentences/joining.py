@@ -14,9 +14,8 @@ from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
     once_done,
     then_done,
 )
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading
 from etot_cli.reasoning.language.grammar.sentences.passives import goes_on
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.which_clauses import held_by, named_last
 from etot_cli.reasoning.language.grammar.syntax.clauses import (

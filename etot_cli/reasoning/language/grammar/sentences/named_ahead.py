@@ -22,9 +22,8 @@ from etot_cli.reasoning.language.grammar.parsers.trees import nodes, pronouns
 from etot_cli.reasoning.language.grammar.phrases.levels import THAT
 from etot_cli.reasoning.language.grammar.requests.reaching import SEPARATING
 from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.headlines import PLACED
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.sentences.topics import (
     AS_IT_IS,
     AS_IT_STANDS,

@@ -21,7 +21,8 @@ from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
     EARLIER,
     once_done,
 )
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,

@@ -37,7 +37,6 @@ from etot_cli.reasoning.language.grammar.sentences.chains import (
     JOINED,
     ONCE_MORE,
 )
-from etot_cli.reasoning.language.grammar.sentences.clauses import LEAD, ORDER_WORDS, Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.headlines import (
     PLACED,
     STARTING,
@@ -45,7 +44,8 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
     left_so,
 )
 from etot_cli.reasoning.language.grammar.sentences.joining import Joined, chained, joint
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LEAD, ORDER_WORDS
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.topics import SAID
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,

@@ -28,10 +28,9 @@ from etot_cli.reasoning.language.grammar.requests.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.sentences.before_and_after import once_done
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.headlines import taken_out
 from etot_cli.reasoning.language.grammar.sentences.past import SO
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,

@@ -21,8 +21,8 @@ from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.modifiers import ADJECTIVES, DESCRIBED, MODIFIERS
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
-from etot_cli.reasoning.language.grammar.sentences.clauses import plain
 from etot_cli.reasoning.language.grammar.sentences.hindrances import HINDRANCE, UNFIT
+from etot_cli.reasoning.language.grammar.sentences.spoken import plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import Clause, ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import small_words, verbs
