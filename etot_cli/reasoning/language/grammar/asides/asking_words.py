@@ -10,8 +10,6 @@ from etot_cli.reasoning.language.words.lexicon import word_set
 
 IsName = Callable[[str], bool]
 """Whether something in the scene is called by a word."""
-
-
 PROPOSING = word_set(
     """
     suggest recommend propose expect insist demand require request vote choose pick say says tell
@@ -19,8 +17,6 @@ PROPOSING = word_set(
     """
 )
 """What somebody does who asks for something in a roundabout way."""
-
-
 BIDDING = PROPOSING | word_set(
     """
     asked agreed having decided chosen chose ordered promised arranged suggested recommended voted
@@ -28,8 +24,6 @@ BIDDING = PROPOSING | word_set(
     """
 )
 """The same of what he has done or is doing ("we agreed on the cup")."""
-
-
 ASKING = word_set(
     """
     want wants need needs wanted needed wish like prefer should must shall would could may let ought
@@ -37,8 +31,6 @@ ASKING = word_set(
     unless when until instead except only
     """
 )
-
-
 DECREEING = word_set(
     """
     forbid forbids forbidden prohibit prohibits prohibited ban bans banned bar bars barred taboo
@@ -48,8 +40,6 @@ DECREEING = word_set(
     """
 )
 """Words by which things are ruled out, or meant for something."""
-
-
 CHANGING = word_set(
     """
     stay stays remain remains live lives come comes join joins move moves leave leaves open opens
@@ -58,33 +48,21 @@ CHANGING = word_set(
     """
 )
 """What a thing does that somebody asks for, and words before such things."""
-
-
 DOING = {
     verb
     for verb in VERB_WORDS
     if VERB_WORDS & {f"{verb}ing", f"{verb[:-1]}ing", f"{verb}{verb[-1]}ing"}
 } | {"open", "shut", "empty"}
 """What the robot could be asked to do."""
-
-
 WORK = DOING - {"clean", "tidy"}
 """Those that say nothing else of a thing."""
-
-
 _ASKED = Expression(rf"\b(?:and|but|then|please) (?:\w+ )?(?:{'|'.join(sorted(DOING))})\b")
-
-
 REFERRING = word_set(
     "it they them this that these those one ones two three other others another rest everything "
     "anything all both each every any same here there first last which whichever whatever whoever"
 )
 """They may speak of what was asked for ("one of them is enough")."""
-
-
 BEFORE_NAMES = word_set("the a an my your our his her their this that these those both all")
-
-
 PLACED = word_set("in on into onto at next beside near off out")
 
 

@@ -52,8 +52,6 @@ from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering
 from etot_cli.reasoning.language.words.known import all_words
 
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
-
-
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 
 

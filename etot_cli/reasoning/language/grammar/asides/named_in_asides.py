@@ -20,23 +20,13 @@ from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, JOINT_NOUNS, N
 
 ASIDE = "~aside"
 """Stands behind what a remark names, in its place."""
-
-
 _PARTS = frozenset(noun for nouns in JOINT_NOUNS.values() for noun in nouns)
-
-
 _LIKED = [["favourite"], ["favorite"], ["best"]]
-
-
 _IS_ONE = Expression(
     r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like) an? "
 )
 """Before what is no other thing ("the vase was a gift")."""
-
-
 _WHICH_ONE = Expression(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
-
-
 _OF_A_KIND = Expression(
     r" (?:(?:allergic|partial|addicted) to|(?:afraid|scared|fond|sick|tired) of"
     r"|likes?|loves?|hates?|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"

@@ -10,15 +10,11 @@ _RELATIONS = (
     "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
     "patients?|grand(?:ma|pa)|granny|grandad|uncle|aunt|cousin|niece|nephew|parents|toddler|grandchild(?:ren)?|lady|ladies|gentlem[ae]n|wom[ae]n|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
 )
-
-
 _OWN = (
     "hands?|feet|foot|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|shins?|elbows?|toes?|hips?"
     "|ankles?|wrists?|shoulders?|bus|train|taxi|shift"
 )
 """Of people, and of nothing that is in a scene."""
-
-
 PEOPLE = (
     r"(?:i|we|you|he|she|nobody|no one|somebody|someone|anybody|anyone|everybody|everyone|people"
     r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
@@ -27,8 +23,6 @@ PEOPLE = (
     rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)"
     rf"|(?:my|our) (?:{_OWN}))"
 )
-
-
 ON_ARRIVAL = (
     r"(?:when(?:ever)?|once|after|before|until|till|by the time|as soon as) "
     rf"(?:{PEOPLE}|they) (?:(?:finally|first|next) )?(?:gets?|comes?|arrives?|returns?|wakes?|"
@@ -37,14 +31,10 @@ ON_ARRIVAL = (
     r"| (?:from|for|to) (?:the |my |our |his |her |their )?\w+)*"
 )
 """When something is so with people."""
-
-
 _PERSON = Expression(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
     r"never |hardly |rarely )*(?P<did>.+)$"
 )
-
-
 _SOMEBODY = Expression(rf"^(?P<who>{PEOPLE}) ")
 
 

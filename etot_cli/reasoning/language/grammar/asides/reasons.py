@@ -21,28 +21,18 @@ from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS
 from etot_cli.reasoning.language.words.small_words import TURNED
 
 _GONE_WRONG = Expression(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
-
-
 _THING = r"(?:the|my|our) (?:\w+ )?\w+"
-
-
 _SO_OF_ITSELF = Expression(
     rf"^{_THING} (?:(?:stays?|keeps?|remains?) (?:warm|cold|cool|dry|fresh|clean|safe)"
     rf"|(?:do|does|will) not (?:get|go|turn) (?:{TURNED}))$"
 )
-
-
 _SO_IT_CAN = Expression(
     rf"^(?:it|they|{_THING}) (?:(?:can|could|will|may|might) (?:then )?"
     r"(?:be (?:closed|shut|opened)|close|shut|open|fit)|closes|shuts|fits)(?: again| properly)?$"
 )
-
-
 _SO_PEOPLE = Expression(
     rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has|need not)\b"
 )
-
-
 _SO_NOTHING = Expression(
     r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
     r"|nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
@@ -50,11 +40,7 @@ _SO_NOTHING = Expression(
     r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"
     r"|cool|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
 )
-
-
 _OR_WILL = Expression(rf"^(?:{PEOPLE}|it|they) \w+")
-
-
 _COMMENT = Expression(r"^(?:is|are|was|were|has|have) ")
 
 
@@ -93,8 +79,6 @@ def is_comment(said: str, is_name: IsName) -> bool:
 
 
 _YOU_DO = Expression(r"^you (?:then )?(\w+)")
-
-
 _IS_OPEN = Expression(
     rf"(?:it|they|{_THING}) (?:is|are|stands?)(?: (?:still|already|now|currently|just|wide|half))* "
     r"(?:open|closed|shut|ajar)"

@@ -36,15 +36,9 @@ _IN_PASSING = Expression(
     r"|(?:it|they) (?:is|are) (?:going|about) to (?:be|get) (?P<done>\w+(?:ed|t|n))"
     r"(?: (?:today|tomorrow|tonight|soon|later|next week|this week|in a (?:minute|moment)))?)"
 )
-
-
 _WHENEVER = Expression(r" (?:when|whenever|if|as soon as) (?:it|they|i|we|somebody|one) [^~]+$")
 """When something does what it does ("the tube leaks when it lies down")."""
-
-
 _YONDER = Expression(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
-
-
 _PREDICATE = Expression(
     r"(?:(?:is|are|was|were|has|have|had)(?: not| been| got)?|(?:does|do|did|will|can) not"
     r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|broke"
@@ -52,38 +46,26 @@ _PREDICATE = Expression(
     r"(?: (?:still|just|already|always|all|so|very|too|really|a bit|far|badly|quite|less|more))*"
     r"(?= |$)"
 )
-
-
 _A_BIT = Expression(
     r" (?:a (?:little|bit|lot)|quite a bit|by now|all the time|so often|every time)(?= |$)"
 )
-
-
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
-
-
 _TOO_BIG = Expression(
     r"^(?:is|are) (?:just |far |much |a bit |a little )*too \w+ "
     r"(?:to (?:stand|fit|lie|sit|go|be put)(?: (?:up|upright|straight|standing up|in|inside))?|for)"
     r"(?: (?:(?:in|into|on|onto|inside) )?(?:there|it|that|(?:the|my) (?:\w+ ){0,3}\w+))?$"
 )
 """Why something lies rather than stands somewhere, or goes elsewhere."""
-
-
 _NOT_STAYING = (
     r"(?:can|must|should|may|does|do) not (?:be (?:left|kept)|stay|remain"
     r"|(?:stand|lie|sit|belong|live|be|go)(?= (?:(?:up|down|over|out) )?(?:here|there)$))"
     r"(?: (?:like (?:this|that)|as (?:it is|they are)|that way|so))?"
 )
-
-
 _OVER_THE_EDGE = (
     r"(?:sticking|poking|peeking|hanging|jutting|bulging|spilling|protruding|leaning)"
     r"(?: (?:out|over|up|off|halfway))*(?: (?:of |over |at |from )?(?:the )?"
     r"(?:top|edge|side|rim|front))?"
 )
-
-
 _NO_PLACE = Expression(
     rf"(?:^belong(?:s|ed)? to {PEOPLE}$"
     rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
@@ -97,30 +79,20 @@ _NO_PLACE = Expression(
     r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "
     r"(?:warm|cold|cool|dry|fresh|clean|safe)$)"
 )
-
-
 _NEEDED = Expression(r"^needs? (?:a |some )?(?:little |good )?(?P<done>\w+ing)$")
-
-
 _DONE_TO_THINGS = VERB_WORDS | words_of(
     (verbs.COVER, verbs.UNCOVER, verbs.FILL, verbs.LOAD, verbs.THROW_AWAY, verbs.OPEN, verbs.CLOSE)
 )
 """What a thing may need of the robot; whatever else it needs, such as chilling, is a reason."""
-
-
 _TELLING = (
     word_set("full free clear ready taken occupied") | set(STATES) | set(LEVELS) | set(SIDES)
     | set(NUMBERS) - {"a", "an"} | set(THING_NOUNS) | REFERRING
 )  # fmt: skip
 """They tell one thing from another, or say how one is to be."""
-
-
 _UNFIT_THERE = Expression(
     rf"^(?P<what>it|they|(?:(?:the|my|our) )?(?:\w+ )?\w+) {_NOT_STAYING}"
     r"(?: (?:(?:up|down|over|out) )?(?:here|there))?$"
 )
-
-
 _TURNING = Expression(
     rf"(?: (?:(?:is|are) (?:getting|going|turning)|(?:has|have) gone) (?:{TURNED})$"
     r"|(?:must|should|(?:needs?|has|have) to) "

@@ -85,17 +85,11 @@ OUT_AND_INTO = sequence(
     SOURCE, either(DIRECTED, sequence(LIST, optional(f"go[es], {verbs.LIES}"), DESTINATIONS))
 )
 """From one place to another ("out of the box and on the desk")."""
-
-
 _FROM_BESIDE = ("from ", "away from the front", "away from in front")
-
-
 _COMES_AND_GOES = """
     [should|must|has to|have to|can] come[s] (out|off) [of (it|there)] and
     [should|must|has to|have to|can|to] (go|goes|be put|stand|sit|lie|rest)
 """
-
-
 CARRIED = either(
     sequence(
         either(

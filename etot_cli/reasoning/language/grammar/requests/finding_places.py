@@ -43,23 +43,15 @@ def _safely(things: Things, rather: bool = True) -> PutClause:
 _A_PLACE = """
     a [new|nice|good|free|safe|proper] (place|spot|home|seat) [~comma], [some|enough] (room|space)
 """
-
-
 _ALLOWED = {("you", "may"), ("you", "can"), ("you", "could")}
-
-
 _NOT_ALLOWED = Parser(
     lambda given, at: [] if _ALLOWED & {*pairwise(given.words[:at])} else [(at, NOTHING)]
 )
 """Who says that "you may move it somewhere else" leaves open whether it is moved."""
-
-
 _NEEDS_A_PLACE = """
     [still] (needs|need|deserves) (a|its|their) [new|safe|proper] (place|spot|home|places|homes),
     (should|must|has to|have to|is to|are to) find (a|its|their) [new|safe|proper] (place|spot|home)
 """
-
-
 PLACE_FOUND = either(
     sequence("find[ing], giv(e|ing)", THINGS, _A_PLACE, WHERE, build=put_to),
     sequence(verbs.FIND, _A_PLACE, "for", THINGS, OPTIONAL_COMMA, WHERE, build=put_to),

@@ -20,8 +20,6 @@ from etot_cli.skills.action import GraspPose
 _WAY = either(
     phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
 )
-
-
 _HAND = words_of((manner.GRIPPER,))
 
 
@@ -53,8 +51,6 @@ def _ruled_out(given: Input, at: int) -> list[Result]:
 
 
 OTHER_WAY = sequence("not, no", Parser(_ruled_out, lambda: ONE_WAY.first), optional("one"))
-
-
 _POSE = either(
     sequence(
         optional("only, just, exclusively, solely, purely"),
@@ -77,20 +73,12 @@ _POSE = either(
         build=lambda pose, other: None if pose is other else pose,
     ),
 )
-
-
 _BOTH = (GraspPose.VERTICAL, GraspPose.HORIZONTAL)
-
-
 POSES = either(alternatives(_POSE, 1), phrase(manner.EITHER_WAY, _BOTH))
-
-
 ONE_OR_BOTH = either(
     POSES,
     sequence("both", ONE_WAY, "and", ONE_WAY, build=lambda one, other: (one, other)),
 )
-
-
 NOT_WITH = sequence(
     forbidden.WITHOUT,
     either(
@@ -104,23 +92,13 @@ NOT_WITH = sequence(
     ),
     build=lambda pose: (other_way(pose),),
 )
-
-
 _GRIPPING = "(grasping|gripping|grabbing|approaching|holding|picking|lifting|taking)"
-
-
 IMPOSSIBLE = (
     "((is|are) (not (possible|feasible|doable)|impossible)|(does|do|will) not work"
     "|(is|are) no good|fails|can not be done)"
 )
-
-
 _IF_YOU_MUST = "if (you must|you have to|need be|necessary|needed)"
-
-
 _IF_YOU_CAN = "if (you can|possible|at all possible|feasible)"
-
-
 _AT_WORST = either(
     # "vertically if gripping it horizontally is not possible"
     sequence(
@@ -169,11 +147,7 @@ _AT_WORST = either(
     ),
 )
 """One way to grasp, and another where that is not possible: either, the better one first."""
-
-
 _ONE_OR_WORSE = valued(_AT_WORST, lambda poses: poses if poses[0] is not poses[1] else None)
-
-
 _HAND_TURNED = either(
     phrase(manner.HAND_LEVEL, (GraspPose.HORIZONTAL,)),
     phrase(manner.HAND_DOWN, (GraspPose.VERTICAL,)),
@@ -204,14 +178,10 @@ GRASPED = sequence(
     ),
 )
 """Behind what is picked up."""
-
-
 KEPT_SO = silent(
     optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")
 )
 """The same, for how long, which asks for nothing else."""
-
-
 HELD_SO = either(
     sequence(f"us(e|ing), try[ing], coming [in|down], {manner.HAND_COMES}", POSES),
     sequence(

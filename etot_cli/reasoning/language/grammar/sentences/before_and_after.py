@@ -181,12 +181,8 @@ _TOUCHED = sequence(
     f"{forbidden.TOUCH}, do[ing] anything (to|with)", NP_LIST, build=_not_touched_yet
 )
 """What is not touched before the rest is done, which asks for nothing of it yet."""
-
-
 LATER = sequence(small_words.BEFORE, either(LED_CLAUSE, plain(SO_BY_THEN), plain(_TOUCHED)))
 """What comes after the rest of a sentence ("before the drawer is closed")."""
-
-
 ALL_LATER = sequence(
     LATER,
     some(sequence("and [then], then", LED_CLAUSE), most=2),
@@ -227,11 +223,7 @@ def _earlier(between: Parser | str) -> Parser:
 
 
 _AND_ONCE = "and [(once|when|after|as soon as)]"
-
-
 EARLIER = _earlier(sequence(optional(COMMA), _AND_ONCE))
 """What comes before the rest of a sentence."""
-
-
 EARLIER_ALONE = _earlier(either("and", "[~comma] and (once|when|after|as soon as)"))
 """The same between commas, behind which something else is asked for."""

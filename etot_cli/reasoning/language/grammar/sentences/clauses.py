@@ -1,4 +1,4 @@
-"""Rules for clauses: one thing that is asked for, with what is left out of it or stands behind it."""
+"""Rules for clauses: one thing that is asked for, with what is left out or said behind it."""
 
 from __future__ import annotations
 

@@ -57,8 +57,6 @@ def _not_of_one(given: Input, at: int) -> list[Result]:
 
 
 NOT_OF_ONE = Parser(_not_of_one)
-
-
 ORDER_WORDS = sequence(
     one_of(
         {
@@ -70,8 +68,6 @@ ORDER_WORDS = sequence(
     ),
     NOT_OF_ONE,
 )
-
-
 _OUGHT = {"should", "would", "ought", "could", "needs"}
 
 
@@ -82,18 +78,12 @@ def _is_wish(given: Input, at: int) -> list[Result]:
 
 _OPINION = Parser(_is_wish)
 """Before a wish in such words; that something belongs somewhere is but thought."""
-
-
 _DOING = words_of((verbs.PICK, verbs.PUT, verbs.REMOVE, verbs.TIDY, verbs.FILL)) - LINKS
-
-
 _BEFORE_A_VERB = Parser(
     lambda given, at: (
         [(at, NOTHING)] if given.ahead[at] in {*_DOING, "open", "close", "shut"} else []
     )
 )
-
-
 LEAD = sequence(
     some(
         either(

@@ -104,8 +104,6 @@ _SO_BY_THEN = plain(
     )
 )
 """How things are by then, behind "with" ("with the drawer open, …")."""
-
-
 WITH_SO = either(
     sequence(
         # "With the drawer kept shut, …"
