@@ -15,7 +15,6 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
 from etot_cli.reasoning.language.grammar.asides.displeasure import dislikes
 from etot_cli.reasoning.language.grammar.asides.facts import tells_fact
 from etot_cli.reasoning.language.grammar.asides.going import goes_to_it
-from etot_cli.reasoning.language.grammar.asides.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.asides.left_open import is_desk_wish, is_left_open, is_plan
 from etot_cli.reasoning.language.grammar.asides.mishaps import (
     befalls,
@@ -47,7 +46,7 @@ from etot_cli.reasoning.language.grammar.asides.told_of_things import (
     is_not_to_stay,
     told_of_thing,
 )
-from etot_cli.reasoning.language.grammar.asides.vague_wishes import wants_such_a_thing
+from etot_cli.reasoning.language.grammar.asides.vague_wishes import lacks_room, wants_such_a_thing
 from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering
 from etot_cli.reasoning.language.words.known import all_words
 

@@ -21,9 +21,9 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     IsName,
     asks_besides,
 )
-from etot_cli.reasoning.language.grammar.asides.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.asides.people import ON_ARRIVAL, deed_of, is_of_people
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_in_passing
+from etot_cli.reasoning.language.grammar.asides.vague_wishes import lacks_room
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, STATES, word_set

@@ -11,9 +11,11 @@ from etot_cli.reasoning.language.grammar.conditions.left_alone import OTHERS_STI
 from etot_cli.reasoning.language.grammar.conditions.prohibitions import AVOID, WITHOUT
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    one_of,
     optional,
     phrase,
     sequence,
+    some,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COLON,
@@ -22,6 +24,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     not_ahead,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
 from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY
 from etot_cli.reasoning.language.grammar.requests.moves import IF_NOT_SO
@@ -38,9 +41,10 @@ from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
     out_of_the_way,
     same_receiver,
 )
-from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
+from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN, JOINED
 from etot_cli.reasoning.language.grammar.sentences.end_states import END_STATES
-from etot_cli.reasoning.language.grammar.sentences.inversions import INVERTED
+from etot_cli.reasoning.language.grammar.sentences.joining import chained
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
 from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
 from etot_cli.reasoning.language.grammar.sentences.named_ahead import NAMED_AHEAD
 from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, Spoken, plain
@@ -97,6 +101,34 @@ def _turned_before(said: str, rest: Reading) -> Reading | None:
     return (rest[0], Spoken(turned, rest[0].position), *rest[1:])
 
 
+_INVERTED = sequence(
+    either(
+        # "Only after that has been done should the pen be put in the cup"
+        sequence("(should|may|can|could|must|shall|will) you", LED_CLAUSE),
+        sequence("(are|do) you [allowed|supposed|free] [to]", LED_CLAUSE),
+        plain(
+            sequence(
+                "should, may, can, could, must, shall, will, is, are, has, have, does, do",
+                ALL_THINGS,
+                f"[to] (go|come|be ({verbs.DONE_WITH_IT}))",
+                DESTINATIONS,
+                build=put_to,
+            )
+        ),
+        plain(
+            sequence(
+                "should, may, can, could, must, shall, will, is, are, has, have",
+                ALL_THINGS,
+                "[to] be",
+                one_of({True: "opened, pulled open", False: "closed, shut"}),
+                build=MoveClause,
+            )
+        ),
+    ),
+    some(JOINED, most=6),
+    build=chained,
+)
+"""What is asked for behind a condition that begins with "only" or "not"."""
 WITH_MORE_BEFORE_IT = either(
     NAMED_AHEAD,
     END_STATES,
@@ -152,7 +184,7 @@ WITH_MORE_BEFORE_IT = either(
         OPTIONAL_COMMA,
         optional("[and] only then, [and] not before [then|that], [and] (no|not) (sooner|earlier)"),
         OPTIONAL_COMMA,
-        either(CHAIN, INVERTED),
+        either(CHAIN, _INVERTED),
         build=lambda earlier, rest: once_done(earlier, same_receiver(earlier, rest)),
     ),
     sequence(
