@@ -16,7 +16,7 @@ from etot_cli.reasoning.language.blame import blamed
 from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.goals.plausibility import plans_of
 from etot_cli.reasoning.language.grammar.asides.asides import without_asides
-from etot_cli.reasoning.language.grammar.asides.remarks import BEFORE_NAMES
+from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.grammar.text.corrections import mark_in, taken_back

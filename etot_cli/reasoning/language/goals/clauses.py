@@ -30,7 +30,7 @@ from etot_cli.reasoning.language.goals.stance import reorient
 from etot_cli.reasoning.language.goals.swapping import swap
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
-from etot_cli.reasoning.language.grammar.requests.putting import DOWN
+from etot_cli.reasoning.language.grammar.requests.laying import DOWN
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,

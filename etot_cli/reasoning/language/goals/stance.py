@@ -17,7 +17,7 @@ from etot_cli.reasoning.builtin.goal import (
 from etot_cli.reasoning.builtin.relations import can_topple
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.asides.asides import ASIDE
+from etot_cli.reasoning.language.grammar.asides.named_in_asides import ASIDE
 from etot_cli.reasoning.language.grammar.syntax.clauses import ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,

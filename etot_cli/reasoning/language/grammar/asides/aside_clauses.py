@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.asides.mishaps import (
     BY_ITSELF,
     THING_WILL,
 )
-from etot_cli.reasoning.language.grammar.asides.remarks import ON_ARRIVAL, PEOPLE
+from etot_cli.reasoning.language.grammar.asides.people import ON_ARRIVAL, PEOPLE
 from etot_cli.reasoning.language.grammar.asides.where_needed import done_where_needed
 from etot_cli.reasoning.language.grammar.text.splitting import COMMA
 from etot_cli.reasoning.language.words.expressions import Expression

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.language.grammar.asides.remarks import PEOPLE
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import STATES, word_set

@@ -12,22 +12,21 @@ from collections.abc import Iterable, Sequence
 
 from msgspec import Struct
 
-from etot_cli.reasoning.language.grammar.asides.remarks import (
+from etot_cli.reasoning.language.grammar.asides.asking_words import (
     ASKING,
     BEFORE_NAMES,
     CHANGING,
     DECREEING,
-    PEOPLE,
     PLACED,
     PROPOSING,
     REFERRING,
     WORK,
     IsName,
     asks_besides,
-    is_forbidding,
-    is_told_apart_by,
-    somebody,
 )
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, somebody
+from etot_cli.reasoning.language.grammar.asides.remarks import is_forbidding
+from etot_cli.reasoning.language.grammar.asides.told_of_things import is_told_apart_by
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (

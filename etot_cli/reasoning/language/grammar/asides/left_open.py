@@ -4,7 +4,7 @@ himself: none of them asks for anything.
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.asides.remarks import (
+from etot_cli.reasoning.language.grammar.asides.asking_words import (
     ASKING,
     PLACED,
     REFERRING,

@@ -7,24 +7,24 @@ asks for nothing unless somebody wishes or bids by it, or it speaks to the robot
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.asides.facts import (
-    BEFORE_SUBJECT,
-    HOLDING_TRUE,
-    is_past,
-)
-from etot_cli.reasoning.language.grammar.asides.remarks import (
+from etot_cli.reasoning.language.grammar.asides.asking_words import (
     ASKING,
     BEFORE_NAMES,
     BIDDING,
     CHANGING,
     DECREEING,
-    PEOPLE,
     PLACED,
     REFERRING,
     WORK,
     IsName,
     asks_besides,
 )
+from etot_cli.reasoning.language.grammar.asides.facts import (
+    BEFORE_SUBJECT,
+    HOLDING_TRUE,
+    is_past,
+)
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, word_set

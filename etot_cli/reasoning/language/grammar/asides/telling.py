@@ -10,17 +10,17 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 
-from etot_cli.reasoning.language.grammar.asides.remarks import (
+from etot_cli.reasoning.language.grammar.asides.asking_words import (
     ASKING,
     BEFORE_NAMES,
     CHANGING,
     DECREEING,
-    PEOPLE,
     PROPOSING,
     REFERRING,
     WORK,
     IsName,
 )
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (

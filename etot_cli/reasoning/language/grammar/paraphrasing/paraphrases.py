@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.asides.going import GOING
-from etot_cli.reasoning.language.grammar.asides.remarks import PEOPLE
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.grammar.paraphrasing.asked_otherwise import ASKED_OTHERWISE
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.paraphrasing.end_states import END_STATES

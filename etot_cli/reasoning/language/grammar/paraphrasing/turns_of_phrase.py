@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from etot_cli.reasoning.language.grammar.asides.remarks import PEOPLE
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 from etot_cli.world.colors import BASIC_COLORS
 

@@ -1,4 +1,4 @@
-"""What is filled, loaded, used for things or covered."""
+"""What is filled, loaded, used for things or covered, or receives them."""
 
 from __future__ import annotations
 
@@ -11,19 +11,15 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     one_of,
     optional,
+    phrase,
     quiet,
     sequence,
     some,
+    variants,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    LIST,
-    OPTIONAL_COMMA,
-    noun_phrase,
-)
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    FILLED,
-    TARGETS,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
+from etot_cli.reasoning.language.grammar.phrases.destinations import FILLED, RECEIVER, TARGETS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN
 from etot_cli.reasoning.language.grammar.requests.additions import put_of
@@ -31,6 +27,7 @@ from etot_cli.reasoning.language.grammar.requests.emptying import emptied
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     CoverClause,
     PutClause,
+    PutGroup,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -179,4 +176,40 @@ COVER = either(
     sequence(verbs.COVER, THINGS, "with", THINGS, build=CoverClause),
     sequence(verbs.COVER, THINGS, optional("with (its|their|a) lid"), build=CoverClause),
     sequence(verbs.UNCOVER, ALL_THINGS, build=partial(emptied, held=Prep.ON)),
+)
+
+
+def _received(place: NounPhrase, thing: NounPhrase) -> PutGroup:
+    return PutGroup(Things((thing,)), (Destination(Toward.TO, (place,)),))
+
+
+def _suiting(said: tuple[NounPhrase, Things]) -> tuple[PutClause, ...]:
+    """What "will do for" something: that goes in there, or it goes in that, whichever can hold the
+    other.
+    """
+    first, things = said
+    inside = [(things, first), *((Things((first,)), np) for np in things.phrases[:1])]
+    several = things.phrases[1:]
+    return tuple(
+        put_to(what, (Destination(Toward.INSIDE, (where,)),))
+        for what, where in (inside[:1] if several else inside)
+    )
+
+
+RECEIVED = either(
+    variants(sequence(noun_phrase, "(will|would) do for", ALL_THINGS), _suiting),
+    sequence(
+        either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
+        ALL_THINGS,
+        optional(phrase("each"), ""),
+        build=lambda np, things, said: put_to(
+            things, (Destination(Toward.TO, all_of((np,), said), RECEIVER),)
+        ),
+    ),
+    sequence(
+        # "Box A gets the cup and box B the plate"
+        sequence(noun_phrase, verbs.RECEIVE, noun_phrase, build=_received),
+        some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
+        build=lambda first, more: PutClause((first, *more)),
+    ),
 )

@@ -6,10 +6,17 @@ from msgspec.structs import replace
 
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    optional,
     phrase,
+    quiet,
     sequence,
+    silent,
 )
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.requests.word_order import BROUGHT
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
@@ -18,10 +25,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import places
-from etot_cli.reasoning.language.words.lexicon import (
-    singular,
-)
+from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
@@ -57,7 +62,7 @@ FLANKED = sequence(
 """Behind a clause about that ("… in the middle, with a cup on either side of it")."""
 
 
-def beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
+def _beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> PutClause | None:
     """In or on what other things are in or on ("put the spoon with the forks")."""
     things, said = found
     where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
@@ -79,8 +84,70 @@ def beside_others(found: tuple[Things, str], others: tuple[NounPhrase, ...]) -> 
     return put_to(things, (where,)) if named else None
 
 
-def to_others(things: Things, said: str, others: tuple[NounPhrase, ...]) -> PutClause | None:
+def _to_others(things: Things, said: str, others: tuple[NounPhrase, ...]) -> PutClause | None:
     """In or on what other things are in or on ("add the spoon to the forks in the drawer")."""
     told = all(any(m.prep in (Prep.IN, Prep.ON) for m in np.modifiers) for np in others)
     where = Destination(Toward.WITH, others, f"{said} {Things(others).text}")
     return replace(put_to(things, (where,)), far_fetched=2) if told else None
+
+
+_GOING = either(
+    sequence(ALL_THINGS, verbs.MODAL),
+    sequence(verbs.WANTED, ALL_THINGS, f"{verbs.DONE}, to (go|be)"),
+)
+
+
+def _in_after(things: Things, said: str) -> PutClause:
+    """Where what was spoken of went."""
+    np = NounPhrase(pronoun=said.split()[-1], text=said.split()[-1])
+    return put_to(things, (Destination(Toward.WITH, (np,), said),))
+
+
+FLANKING = either(
+    sequence(
+        BROUGHT,
+        optional(sequence(DESTINATIONS, OPTIONAL_COMMA), ()),
+        optional("one"),
+        ON_BOTH_SIDES,
+        noun_phrase,
+        silent(optional(places.ONE_AT_EACH_SIDE)),
+        build=lambda things, where, said, np: flanking(things, said, np, where),
+    ),
+    sequence(
+        BROUGHT,
+        places.NEARBY[Nearby.NEXT_TO],
+        noun_phrase,
+        OPTIONAL_COMMA,
+        "one (on|to) (each|either) side",
+        build=lambda things, np: flanking(things, "each", np),
+    ),
+)
+
+
+WITH_OTHERS = either(
+    quiet(
+        sequence(
+            either(
+                sequence(verbs.SET_DOWN, THINGS, phrase("with, together with, in with")),
+                sequence(verbs.THROW, THINGS, phrase("in with")),
+                sequence(_GOING, phrase("with, together with, in with")),
+            ),
+            NP_LIST,
+            build=_beside_others,
+        )
+    ),
+    sequence(
+        # "Drop the small ball in after it"
+        either(sequence(f"{verbs.SET_DOWN}, {verbs.THROW}", THINGS), _GOING),
+        phrase("in (after|behind|along with) (it|them)"),
+        build=_in_after,
+    ),
+    quiet(
+        sequence(
+            either(sequence("add[ing]", ALL_THINGS), sequence(ALL_THINGS, "go[es], belong[s]")),
+            phrase("to"),
+            NP_LIST,
+            build=_to_others,
+        )
+    ),
+)

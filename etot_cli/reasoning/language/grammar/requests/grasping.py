@@ -10,10 +10,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     Parser,
     either,
     optional,
-    phrase,
     quiet,
     sequence,
-    silent,
     spanned,
     valued,
 )
@@ -22,77 +20,22 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     alternatives,
 )
-from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.requests.poses import (
+    IMPOSSIBLE,
+    NOT_WITH,
+    ONE_OR_BOTH,
+    ONE_WAY,
+    OTHER_WAY,
+    POSES,
+    other_way,
+)
 from etot_cli.reasoning.language.grammar.syntax.clauses import GraspClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
-from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.skills.action import GraspPose
 
-_WAY = either(
-    phrase(manner.HORIZONTAL, GraspPose.HORIZONTAL), phrase(manner.VERTICAL, GraspPose.VERTICAL)
-)
-_HAND = words_of((manner.GRIPPER,))
-
-
-def _grasped(given: Input, at: int) -> list[Result]:
-    """A way to grasp; "with the hand level" where nothing in the scene is called "hand"."""
-    found = _WAY.find(given, at)
-    return [(end, way) for end, way in found if not _HAND & given.nouns & {*given.words[at:end]}]
-
-
-_POSE = Parser(_grasped, lambda: _WAY.first)
-
-
-def _other(pose: GraspPose) -> GraspPose:
-    """The pose that is left where one is ruled out."""
-    return next(item for item in GraspPose if item is not pose)
-
-
-def _ruled_out(given: Input, at: int) -> list[Result]:
-    """A way not to grasp; behind "from the shelf" "not from the top" may say from where instead."""
-    said = any(
-        word in ("off", "out") or (word == "from" and not _POSE.find(given, index))
-        for index, word in enumerate(given.words[:at])
-    )
-    return [
-        (end, _other(pose))
-        for end, pose in _POSE.find(given, at)
-        if not (said and given.words[at] == "from" and given.words[at + 1] in ("the", "its"))
-    ]
-
-
-_OTHER_POSE = sequence("not, no", Parser(_ruled_out, lambda: _POSE.first), optional("one"))
-POSE = either(
-    sequence(
-        optional("only, just, exclusively, solely, purely"),
-        _POSE,
-        optional("only, exclusively, alone"),
-    ),
-    _OTHER_POSE,
-    sequence(
-        _POSE,
-        OPTIONAL_COMMA,
-        optional("and, but"),
-        _OTHER_POSE,
-        build=lambda pose, left: pose if pose is left else None,
-    ),
-    sequence(
-        _POSE,
-        "[~comma] (rather than|instead of)",
-        _POSE,
-        optional("one"),
-        build=lambda pose, other: None if pose is other else pose,
-    ),
-)
-_BOTH = (GraspPose.VERTICAL, GraspPose.HORIZONTAL)
-POSES = either(alternatives(POSE, 1), phrase(manner.EITHER_WAY, _BOTH))
-_OR_BOTH = either(
-    POSES,
-    sequence("both", _POSE, "and", _POSE, build=lambda one, other: (one, other)),
-)
 _GRASPS = word_set("grasp grip pick approach grasps grips picks approaches")
 _SAID = _GRASPS | {"from", "by", "down"}
 
@@ -125,8 +68,8 @@ _NAMED_GRASP = sequence(
 _A_GRASP, _NO_SUCH_GRASP = (
     sequence(spanned(said, _named_grasp), build=lambda poses: poses)
     for said in (
-        alternatives(_POSE, 1),
-        valued(_OTHER_POSE, lambda pose: (pose,)),
+        alternatives(ONE_WAY, 1),
+        valued(OTHER_WAY, lambda pose: (pose,)),
     )
 )
 
@@ -135,120 +78,13 @@ def _told(parser: Parser) -> Parser:
     return sequence(spanned(parser, _in_so_many_words), build=lambda poses: poses)
 
 
-_NOT_WITH = sequence(
-    forbidden.WITHOUT,
-    either(
-        sequence(
-            "grasping, gripping, holding, picking, lifting, taking, approaching",
-            optional("it, them"),
-            optional("up"),
-            _POSE,
-        ),
-        sequence("using", _POSE),
-    ),
-    build=lambda pose: (_other(pose),),
-)
-_GRIPPING_HARD = "grasping|gripping|grabbing|approaching"
-_GRIPPING = f"({_GRIPPING_HARD}|holding|picking|lifting|taking)"
-_IMPOSSIBLE = """
-    (is|are) (not (possible|feasible|doable)|impossible), (does|do|will) not work, (is|are) no good,
-    fails, can not be done
-"""
-_IF_YOU_MUST = "if (you must|you have to|need be|necessary|needed)"
-_IF_YOU_CAN = "if (you can|possible|at all possible|feasible)"
-_AT_WORST = either(
-    # "vertically if gripping it horizontally is not possible"
-    sequence(
-        _POSE,
-        OPTIONAL_COMMA,
-        f"(if|when|where|in case) [{_GRIPPING} [(it|them)] [up]]",
-        _POSE,
-        _IMPOSSIBLE,
-        build=lambda worse, better: (better, worse),
-    ),
-    # "vertically if you must, horizontally if you can", and the other way around
-    sequence(
-        _POSE,
-        _IF_YOU_MUST,
-        OPTIONAL_COMMA,
-        optional("but, and"),
-        _POSE,
-        optional(_IF_YOU_CAN),
-        build=lambda worse, better: (better, worse),
-    ),
-    sequence(
-        _POSE,
-        optional(_IF_YOU_CAN),
-        OPTIONAL_COMMA,
-        optional("but, and"),
-        _POSE,
-        _IF_YOU_MUST,
-        build=lambda better, worse: (better, worse),
-    ),
-    # "from the side, or if that is not possible from above", "from the side if possible, else …"
-    sequence(
-        _POSE,
-        OPTIONAL_COMMA,
-        either(
-            sequence(
-                optional("or"),
-                OPTIONAL_COMMA,
-                f"if (that|this|it) ({_IMPOSSIBLE.replace(',', '|')})",
-            ),
-            sequence(
-                "if (possible|you can|feasible), preferably, ideally",
-                OPTIONAL_COMMA,
-                "else, otherwise, or else, or, if not",
-            ),
-            "failing (that|this|which), [or|and] otherwise, or else",
-        ),
-        OPTIONAL_COMMA,
-        _POSE,
-        build=lambda better, worse: (better, worse),
-    ),
-)
-"""One way to grasp, and another where that is not possible: either, the better one first."""
-_ONE_OR_WORSE = valued(_AT_WORST, lambda poses: poses if poses[0] is not poses[1] else None)
-GRASPED = sequence(
-    OPTIONAL_COMMA,
-    either(
-        sequence(
-            optional(
-                "but, with, using, being, [being] (grasped|gripped|held|approached),"
-                "[while|by] (grasping|gripping|holding|approaching) (it|them),"
-                f"[while|by] coming [in|at it], approaching, ({manner.HAND_COMES}),"
-                "(grasp|grip) [~comma]"
-            ),
-            either(POSES, _ONE_OR_WORSE),
-        ),
-        _NOT_WITH,
-        phrase(f"with {manner.HAND_EITHER_WAY}", _BOTH),
-        sequence(
-            "[no matter] whether, no matter if",
-            POSES,
-            optional(f"[that] ({small_words.DOES_NOT_MATTER})"),
-        ),
-        sequence(
-            "[while|by] (keeping|holding)",
-            either(
-                phrase(manner.HAND_LEVEL, (GraspPose.HORIZONTAL,)),
-                phrase(manner.HAND_DOWN, (GraspPose.VERTICAL,)),
-            ),
-        ),
-    ),
-)
-"""Behind what is picked up."""
-KEPT_SO = silent(
-    optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")
-)
-"""The same, for how long, which asks for nothing else."""
 WITH_A_GRASP = spanned(
     either(
         sequence(spanned(POSES, _with_a_grasp), build=lambda clause: clause),
         valued(
             either(
-                _NOT_WITH,
-                sequence(f"[by|while] ({_GRIPPING_HARD}) (it|them)", POSES),
+                NOT_WITH,
+                sequence("[by|while] (grasping|gripping|grabbing|approaching) (it|them)", POSES),
                 sequence(
                     "(by|while) (holding|picking|lifting|taking) (it|them) [up]", _told(POSES)
                 ),
@@ -259,17 +95,6 @@ WITH_A_GRASP = spanned(
     _written,
 )
 """Behind what is put somewhere."""
-HELD_SO = either(
-    sequence(f"us(e|ing), try[ing], coming [in|down], {manner.HAND_COMES}", POSES),
-    sequence(
-        "[by|while] (keep|keeping|hold|holding)",
-        either(
-            phrase(manner.HAND_LEVEL, (GraspPose.HORIZONTAL,)),
-            phrase(manner.HAND_DOWN, (GraspPose.VERTICAL,)),
-        ),
-    ),
-)
-"""Before what is picked up ("use a vertical grasp to …", "keep the gripper level while you …")."""
 
 
 def _so(poses: tuple[GraspPose, ...], things: Things | None = None) -> GraspClause:
@@ -283,7 +108,7 @@ def _asked(things: Things, poses: tuple[GraspPose, ...]) -> GraspClause:
 
 
 def _not_so(things: Things, pose: GraspPose) -> GraspClause:
-    return _so((_other(pose),), things)
+    return _so((other_way(pose),), things)
 
 
 def _anyhow(things: Things) -> GraspClause:
@@ -341,39 +166,39 @@ GRASP = quiet(
             ),
             sequence(
                 optional("(grasping|gripping|holding|grabbing|taking|lifting) (it|them)"),
-                _told(_OR_BOTH),
+                _told(ONE_OR_BOTH),
                 optional("[~comma] (either|any|both) [one|of them|way|grasp|grasps]"),
                 small_words.ANY_WILL_DO,
                 build=_so,
             ),
             sequence(
                 # "A side grip is fine, so is one from above"
-                _told(_POSE),
+                _told(ONE_WAY),
                 small_words.ANY_WILL_DO,
                 OPTIONAL_COMMA,
                 either(
-                    sequence("[and] so (is|would be|will|does) [one]", _POSE, optional("one")),
-                    sequence("and [one]", _POSE, optional("one"), "too, as well, also"),
+                    sequence("[and] so (is|would be|will|does) [one]", ONE_WAY, optional("one")),
+                    sequence("and [one]", ONE_WAY, optional("one"), "too, as well, also"),
                 ),
                 build=lambda one, other: None if one is other else _so((one, other)),
             ),
             sequence(_NAMED_GRASP, build=_so),
-            sequence(_told(_OR_BOTH), "~comma", small_words.DOES_NOT_MATTER, build=_so),
+            sequence(_told(ONE_OR_BOTH), "~comma", small_words.DOES_NOT_MATTER, build=_so),
             sequence(
                 "the (grasp|grip)", "(should|must|may|can|has to|needs to) be", POSES, build=_so
             ),
-            sequence(_told(valued(_OTHER_POSE, lambda pose: (pose,))), build=_so),
+            sequence(_told(valued(OTHER_WAY, lambda pose: (pose,))), build=_so),
             sequence(
                 f"{forbidden.DO_NOT}, {forbidden.WITHOUT}, avoid[ing]",
                 optional("us(e|ing)"),
-                _told(_POSE),
-                build=lambda pose: _so((_other(pose),)),
+                _told(ONE_WAY),
+                build=lambda pose: _so((other_way(pose),)),
             ),
             sequence(
                 ALL_THINGS,
                 forbidden.NOT_TO_BE,
                 f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
-                _POSE,
+                ONE_WAY,
                 build=_not_so,
             ),
             sequence(_BY_THE_HAND, POSES, build=_so),
@@ -387,11 +212,11 @@ GRASP = quiet(
             ),
             # "If it cannot be done from the side, do it from above"
             sequence(
-                f"if (it|this|that) ({_IMPOSSIBLE.replace(',', '|')})",
-                _POSE,
+                f"if (it|this|that) {IMPOSSIBLE}",
+                ONE_WAY,
                 OPTIONAL_COMMA,
                 f"[then] (do|try|{verbs.PICK.replace(',', '|')}) (it|so) [up]",
-                _POSE,
+                ONE_WAY,
                 build=lambda better, worse: None if better is worse else _so((better, worse)),
             ),
             sequence("approach[ing]", _told(POSES), build=_so),
@@ -400,7 +225,7 @@ GRASP = quiet(
                 verbs.PICK,
                 THINGS,
                 optional("up"),
-                _POSE,
+                ONE_WAY,
                 build=_not_so,
             ),
             sequence(

@@ -16,7 +16,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import EITHER_SIDE, THINGS, one_so
-from etot_cli.reasoning.language.grammar.requests.grasping import GRASPED, HELD_SO, KEPT_SO
+from etot_cli.reasoning.language.grammar.requests.poses import GRASPED, HELD_SO, KEPT_SO
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PickClause
 from etot_cli.reasoning.language.words import small_words, verbs

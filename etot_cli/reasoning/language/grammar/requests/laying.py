@@ -1,24 +1,36 @@
-"""Rules for laying things down: they lie where they are put."""
+"""Rules for laying things down, where they lie then, and for putting them down, away or back."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.language.grammar.parsers.combinators import either, sequence
+from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    either,
+    optional,
+    phrase,
+    sequence,
+    spanned,
+)
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
-from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Things,
+    Toward,
     in_a_stance,
     stance_in,
 )
 from etot_cli.reasoning.language.words import manner, verbs
 from etot_cli.world.spatial import Nearby
+
+DOWN = (Destination(Toward.HERE, word="down"),)
+_BACK = (Destination(Toward.HOME),)
 
 
 def _laid_down(things: Things, where: tuple[Destination, ...], extras: Any) -> PutClause | None:
@@ -27,19 +39,7 @@ def _laid_down(things: Things, where: tuple[Destination, ...], extras: Any) -> P
     return None if lying is None else put_of((PutGroup(things, lying),), extras)
 
 
-LAID_DOWN = sequence(
-    either(
-        sequence("lay[ing]", either(sequence(THINGS, "down"), sequence("down", THINGS))),
-        # "Tip the vase onto its side on the tray"
-        sequence(verbs.TIP, THINGS, manner.LAID),
-    ),
-    DESTINATIONS,
-    EXTRAS,
-    build=_laid_down,
-)
-
-
-def rather_laid_down(text: str, clause: PutClause) -> PutClause:
+def _rather_laid_down(text: str, clause: PutClause) -> PutClause:
     """Putting that is said so: who lays a thing down somewhere wants it to lie, if it can."""
     verb, *words = text.split()
     laid = verb in ("lay", "laying") and {"down", "down,"} & {*words}
@@ -56,3 +56,43 @@ def lies_flat(groups: tuple[PutGroup, ...]) -> bool:
         for group in groups
         for np in group.things.phrases
     )
+
+
+def _put_away(verb: str, groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
+    """Each thing to its place; "put away everything on the tray" tells what, and not where to."""
+    away = verb.endswith("away") and any(group.things.are_any for group in groups)
+    if verb.split()[-1] in ("return", "returning", "back"):
+        groups = tuple(replace(group, back=True) for group in groups)
+    return None if away else put_of(groups, extras)
+
+
+def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
+    """Down, or where it was; behind "carry it to the bowl" "and release it" asks for no more."""
+    again = any(np.pronoun for np in things.phrases)
+    return replace(put_to(things, where), far_fetched=int(again))
+
+
+PUT_DOWN = either(
+    sequence(
+        either(
+            sequence("lay[ing]", either(sequence(THINGS, "down"), sequence("down", THINGS))),
+            # "Tip the vase onto its side on the tray"
+            sequence(verbs.TIP, THINGS, manner.LAID),
+        ),
+        DESTINATIONS,
+        EXTRAS,
+        build=_laid_down,
+    ),
+    spanned(
+        sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away), _rather_laid_down
+    ),
+    sequence(ALL_THINGS, "need[s]", verbs.SET_DOWN, DESTINATIONS, build=put_to),
+    *(
+        sequence(verb, THINGS, particle, build=partial(_down_or_back, where=where))
+        for verb, particle, where in (
+            (verbs.PUT_DOWN, optional("down"), DOWN),
+            (verbs.LAY, "down", DOWN),
+            (verbs.PUT_BACK, optional("back"), _BACK),
+        )
+    ),
+)

@@ -18,8 +18,8 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
-from etot_cli.reasoning.language.grammar.requests.grasping import GRASPED, HELD_SO, KEPT_SO, POSES
 from etot_cli.reasoning.language.grammar.requests.piles import COLOR
+from etot_cli.reasoning.language.grammar.requests.poses import GRASPED, HELD_SO, KEPT_SO, POSES
 from etot_cli.reasoning.language.grammar.requests.unstacking import UNSTACK, is_stack
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,

@@ -16,7 +16,7 @@ from msgspec import Struct
 from etot_cli.reasoning.builtin.goal import Grouping
 from etot_cli.reasoning.language.grammar.parsers.combinators import phrase
 from etot_cli.reasoning.language.grammar.parsers.input import Input
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     Avoid,
@@ -161,7 +161,7 @@ _ALLOWED_LATER = Expression(
 """What may be done some time is not asked for now."""
 
 
-def unaccounted(words: Sequence[str], reading: tuple[Spoken, ...]) -> str | None:
+def unaccounted(words: Sequence[str], reading: Reading) -> str | None:
     """The first word of a sentence that its reading has read over, None when there is none."""
     left = Counter(_traces(reading))
     text = " ".join(words)
@@ -183,7 +183,7 @@ def unaccounted(words: Sequence[str], reading: tuple[Spoken, ...]) -> str | None
     return None
 
 
-def _is_first_alone(reading: tuple[Spoken, ...]) -> bool:
+def _is_first_alone(reading: Reading) -> bool:
     """Whether all that is asked for is to be done first."""
     if len(reading) > 1 or reading[0].order is not Order.FIRST:
         return False

@@ -30,7 +30,8 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     quality_alone,
 )
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT, Reading
+from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading
 from etot_cli.reasoning.language.grammar.sentences.topics import AS_IT_IS
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,

@@ -7,20 +7,17 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
-    Parser,
     either,
     optional,
     sequence,
     valued,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    COMMA,
-    OPTIONAL_COMMA,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, denied, rather
 from etot_cli.reasoning.language.grammar.phrases.exclusions import changed, only_there
-from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT, Reading
+from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
+from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -93,16 +90,13 @@ def _for_each(np: NounPhrase, rest: Reading) -> Reading | None:
     return None if same else (replace(rest[0], clause=new),)
 
 
-def not_so(chain: Parser) -> Parser:
-    """What is not meant, or not to be, or for each of what it is, and then what is asked for."""
-    there = sequence(
-        small_words.NOT_THERE, optional(verbs.BEING), valued(DESTINATIONS, denied), OPTIONAL_COMMA
-    )
-    return either(
-        sequence(LEFT_OUT, COMMA, chain, build=_without),
-        sequence(
-            valued(_NOT_THIS, lambda np: Modifier(Prep.CONTRAST, (np,))), chain, build=_without
-        ),
-        sequence(there, chain, build=_elsewhere),
-        sequence("for", noun_phrase, OPTIONAL_COMMA, chain, build=_for_each),
-    )
+_NOT_THERE = sequence(
+    small_words.NOT_THERE, optional(verbs.BEING), valued(DESTINATIONS, denied), OPTIONAL_COMMA
+)
+NOT_SO = either(
+    sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
+    sequence(valued(_NOT_THIS, lambda np: Modifier(Prep.CONTRAST, (np,))), CHAIN, build=_without),
+    sequence(_NOT_THERE, CHAIN, build=_elsewhere),
+    sequence("for", noun_phrase, OPTIONAL_COMMA, CHAIN, build=_for_each),
+)
+"""What is not meant, or not to be, or for each of what it is, and then what is asked for."""

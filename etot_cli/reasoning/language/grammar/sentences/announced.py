@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from operator import add
 
 from msgspec.structs import replace
 
+from etot_cli.reasoning.language.grammar.conditions.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     optional,
     sequence,
     silent,
 )
+from etot_cli.reasoning.language.grammar.parsers.common import COLON, COMMA
 from etot_cli.reasoning.language.grammar.phrases.gapping import beside_what, told_beside
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
-from etot_cli.reasoning.language.grammar.sentences.topics import are_several
+from etot_cli.reasoning.language.grammar.requests.putting import PUT
+from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
+from etot_cli.reasoning.language.grammar.sentences.headlines import PLACED
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, Spoken, plain
+from etot_cli.reasoning.language.grammar.sentences.togetherness import PARTED
+from etot_cli.reasoning.language.grammar.sentences.topics import NAMED, are_several
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     PutClause,
@@ -106,7 +112,7 @@ def _each(change: Callable[[NounPhrase], NounPhrase], things: Things) -> Things:
     return replace(things, phrases=tuple(map(change, things.phrases)))
 
 
-def each_sorted(topic: Reading, rest: Reading) -> Reading | None:
+def _each_sorted(topic: Reading, rest: Reading) -> Reading | None:
     """Where each of several things goes ("sort the cars: the red one into the bin, …")."""
     rest = _by_material(_rest_of(topic, rest))
     named = _named_in(rest)
@@ -137,7 +143,7 @@ def _sides(group: PutGroup) -> list[Nearby]:
     return [item.relation for where in group.destinations for item in where.beside]
 
 
-def in_detail(first: Reading, rest: Reading) -> Reading | None:
+def _in_detail(first: Reading, rest: Reading) -> Reading | None:
     """Where several things go, and behind a colon where each of them goes there."""
     (said, *others), (each, *more) = first, rest
     match said.clause:
@@ -159,12 +165,12 @@ def in_detail(first: Reading, rest: Reading) -> Reading | None:
     return (replace(said, clause=PutClause((whole, *each.clause.groups))),)
 
 
-def shared_out(topic: Reading, rest: Reading) -> Reading | None:
+def _shared_out(topic: Reading, rest: Reading) -> Reading | None:
     """Several things are taken, and each of them goes somewhere of its own."""
-    return each_sorted(topic, rest) if are_several(topic[0].clause) else None
+    return _each_sorted(topic, rest) if are_several(topic[0].clause) else None
 
 
-def parted(topic: Reading, rest: Reading) -> Reading | None:
+def _parted(topic: Reading, rest: Reading) -> Reading | None:
     """Several things that are to be in different places, and then which of them goes where."""
     where: list[tuple[Destination, ...]] = []
     for said in rest:
@@ -174,7 +180,7 @@ def parted(topic: Reading, rest: Reading) -> Reading | None:
             case EnsureClause(states=states):
                 where += [so.destinations for so in states if so.destinations]
     apart = len(where) > 1 and len({*where}) == len(where)
-    return each_sorted(topic, rest) if apart else None
+    return _each_sorted(topic, rest) if apart else None
 
 
 def _each_and_one(words: tuple[str, ...], places: tuple[str, ...]) -> Reading:
@@ -184,7 +190,7 @@ def _each_and_one(words: tuple[str, ...], places: tuple[str, ...]) -> Reading:
     return tuple(Spoken(ReorientClause(Things((np,)), only_named=True), -1) for np in topics)
 
 
-ONE_FOR_EACH = either(
+_ONE_FOR_EACH = either(
     sequence(
         silent(optional(f"{verbs.PUT}, {verbs.WANTED}, there should be")),
         "one, a, an",
@@ -204,7 +210,7 @@ ONE_FOR_EACH = either(
 """What each of several places gets, before it is said which ("one cup on each tray: …")."""
 
 
-def one_for_each(topics: Reading, rest: Reading) -> Reading | None:
+def _one_for_each(topics: Reading, rest: Reading) -> Reading | None:
     """One thing for each of several places, which may leave their noun out ("on the lower")."""
     announced, (said, *more) = topics[0].clause, rest
     put = said.clause
@@ -225,10 +231,42 @@ def one_for_each(topics: Reading, rest: Reading) -> Reading | None:
     return (*topics, replace(said, clause=replace(put, groups=groups)))
 
 
-def all_put(topic: Reading, rest: Reading) -> Reading | None:
+def _all_put(topic: Reading, rest: Reading) -> Reading | None:
     """Where all that is to be tidied up goes ("tidy up the cars and put them …")."""
     named = _named_in(rest)
     if named is None:
         return None
     spoken = all(np.pronoun in ("them", "they") or np.text.endswith(" of them") for np in named)
     return (*topic, *rest) if spoken else None
+
+
+ANNOUNCED_PLACES = either(
+    sequence(plain(either(PUT, ENSURE)), COLON, PLACED, build=_in_detail),
+    sequence(plain(PARTED), COMMA, either(BARE_CHAIN, CHAIN), build=_parted),
+    sequence(_ONE_FOR_EACH, COLON, BARE_CHAIN, build=_one_for_each),
+    sequence(NAMED, COMMA, BARE_CHAIN, build=_each_sorted),
+    sequence("put[ting], stow[ing]", NAMED, "away", COMMA, PLACED, build=add),
+    sequence("put[ting] away, stow[ing] [away]", NAMED, COMMA, CHAIN, build=_each_sorted),
+    sequence(verbs.STACK, NAMED, COMMA, PLACED, build=_each_sorted),
+    sequence(
+        verbs.TIDY,
+        NAMED,
+        optional("by (color|colour|kind|type|size)"),
+        COMMA,
+        either(BARE_CHAIN, CHAIN),
+        build=_each_sorted,
+    ),
+    sequence(
+        "tak(e|ing), get[ting], grab[bing], pick[ing] up",
+        NAMED,
+        either(sequence(COMMA, PLACED), sequence("and, and then, ~comma and", CHAIN)),
+        build=_shared_out,
+    ),
+    sequence(
+        f"{verbs.TIDY_AWAY}, put[ting] away, stow[ing] [away]",
+        NAMED,
+        "[away|up] (~comma|and)",
+        CHAIN,
+        build=_all_put,
+    ),
+)

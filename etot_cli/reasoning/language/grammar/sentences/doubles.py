@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATION
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.putting import PUT
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
@@ -45,7 +45,7 @@ from etot_cli.reasoning.language.words.lexicon import singular
 
 def bared(
     orders: tuple[Order | bool, ...], put: tuple[int, PutClause], out: tuple[NounPhrase, ...]
-) -> tuple[Spoken, ...] | None:
+) -> Reading | None:
     """Who puts a mug somewhere "without the pen" takes the pen out of it first."""
     at, clause = put
     (theme, *more) = clause.groups[0].things.phrases
@@ -56,7 +56,7 @@ def bared(
 
 def with_others(
     orders: tuple[Order | bool, ...], put: tuple[int, Clause], more: tuple[int, Clause]
-) -> tuple[Spoken, ...] | None:
+) -> Reading | None:
     """What goes somewhere, and then others beside it."""
     at, clause = put
     return None if orders else (Spoken(clause, at), Spoken(more[1], more[0]))

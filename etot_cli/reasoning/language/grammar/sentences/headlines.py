@@ -25,9 +25,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, INTO, ONTO
 from etot_cli.reasoning.language.grammar.phrases.exclusions import alone_there, of_the_things
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    CONTRASTED,
-)
+from etot_cli.reasoning.language.grammar.phrases.modifiers import CONTRASTED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import (
     IN_OR_ON_IT,
@@ -40,9 +38,9 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
 from etot_cli.reasoning.language.grammar.requests.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.requests.emptying import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.requests.towers import STACKED
-from etot_cli.reasoning.language.grammar.sentences.clauses import INSTEAD, LEFT_OUT, plain
+from etot_cli.reasoning.language.grammar.sentences.clauses import INSTEAD, LEFT_OUT
 from etot_cli.reasoning.language.grammar.sentences.doubles import on_one_place
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, plain
 from etot_cli.reasoning.language.grammar.sentences.topics import sources
 from etot_cli.reasoning.language.grammar.sentences.verbless import VERBLESS
 from etot_cli.reasoning.language.grammar.syntax.clauses import (

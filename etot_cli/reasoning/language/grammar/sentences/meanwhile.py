@@ -15,9 +15,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_C
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.requests.arrangements import KEPT_UPRIGHT
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
 from etot_cli.reasoning.language.grammar.sentences.past import UNDER_WAY
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
     PutClause,

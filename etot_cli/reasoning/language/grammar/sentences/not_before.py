@@ -16,8 +16,13 @@ from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, n
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
-from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, Reading, plain
-from etot_cli.reasoning.language.grammar.sentences.past import DONE_BY_THEN, EARLIER, once_done
+from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
+    DONE_BY_THEN,
+    EARLIER,
+    once_done,
+)
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     MoveClause,

@@ -12,7 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.input import Input, TooManyRead
 from etot_cli.reasoning.language.grammar.parsers.trees import reading_cost
 from etot_cli.reasoning.language.grammar.sentences.accounting import unaccounted
 from etot_cli.reasoning.language.grammar.sentences.sentences import readings
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Reading
 from etot_cli.reasoning.language.grammar.text.spelling import (
     Correction,
     corrected,
@@ -83,7 +83,7 @@ class Sentence(Struct, frozen=True):
     """A sentence's readings, the simplest first, each as clauses in the order they are put."""
 
     text: str
-    readings: tuple[tuple[Spoken, ...], ...]
+    readings: tuple[Reading, ...]
     costs: tuple[int, ...]
     """How far-fetched they are."""
 

@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 from etot_cli.reasoning.language.grammar.parsers.input import Input
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.emptying import TO_BE_EMPTY
 from etot_cli.reasoning.language.grammar.sentences.before_requests import WITH_MORE_BEFORE_IT
@@ -35,16 +35,7 @@ from etot_cli.reasoning.language.grammar.sentences.chains import (
     ENDING_WITH,
     GOES_ON,
     JOINED,
-    Joined,
-    chained,
-    joint,
-    once_more,
-)
-from etot_cli.reasoning.language.grammar.sentences.clauses import (
-    LEAD,
-    ORDER_WORDS,
-    Reading,
-    plain,
+    ONCE_MORE,
 )
 from etot_cli.reasoning.language.grammar.sentences.headlines import (
     PLACED,
@@ -52,10 +43,10 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
     lacks_verb,
     left_so,
 )
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order
-from etot_cli.reasoning.language.grammar.sentences.topics import (
-    SAID,
-)
+from etot_cli.reasoning.language.grammar.sentences.joining import Joined, chained, joint
+from etot_cli.reasoning.language.grammar.sentences.led_clauses import LEAD, ORDER_WORDS
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.topics import SAID
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     Clause,
@@ -121,7 +112,7 @@ SENTENCE = either(
         ),
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        plain(sequence(THINGS, build=once_more)),
+        ONCE_MORE,
         build=lambda order, said: (replace(said[0], order=order),),
     ),
 )

@@ -1,4 +1,4 @@
-"""A clause where it is said, and when it is to be done."""
+"""A clause where it is said, and when it is to be done; several of these are a reading."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from enum import StrEnum
 
 from msgspec import Struct
 
+from etot_cli.reasoning.language.grammar.parsers.combinators import Parser, located
 from etot_cli.reasoning.language.grammar.syntax.clauses import Clause
 
 
@@ -36,3 +37,11 @@ class Spoken(Struct, frozen=True):
     """
     far_fetched: int = 0
     """What says when ("first", "second") may rather say which ("the second drawer")."""
+
+
+Reading = tuple[Spoken, ...]
+
+
+def plain(parser: Parser, order: Order = Order.SAID) -> Parser:
+    """A clause with nothing around it, as a reading."""
+    return located(parser, lambda at, clause: (Spoken(clause, at, order),))

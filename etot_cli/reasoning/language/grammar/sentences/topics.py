@@ -6,7 +6,7 @@ from functools import partial
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.language.grammar.asides.asides import ASIDE
+from etot_cli.reasoning.language.grammar.asides.named_in_asides import ASIDE
 from etot_cli.reasoning.language.grammar.conditions.occupied import ALREADY
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
@@ -18,41 +18,15 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     spanned,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
-from etot_cli.reasoning.language.grammar.parsers.trees import nodes, pronouns
-from etot_cli.reasoning.language.grammar.phrases.levels import THAT
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    ADJECTIVES,
-    DESCRIBED,
-    MODIFIERS,
-)
+from etot_cli.reasoning.language.grammar.phrases.modifiers import ADJECTIVES, DESCRIBED, MODIFIERS
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
-from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.hindrances import HINDRANCE, UNFIT
-from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
-from etot_cli.reasoning.language.grammar.syntax.clauses import (
-    Clause,
-    MoveClause,
-    PutClause,
-    PutGroup,
-    RemoveClause,
-    ReorientClause,
-    put_to,
-)
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Destination,
-    Modifier,
-    NounPhrase,
-    Things,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.sentences.spoken import plain
+from etot_cli.reasoning.language.grammar.syntax.clauses import Clause, ReorientClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import (
-    JOINT_NOUNS,
-    is_descriptive,
-    matches_any,
-    singular,
-)
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -76,7 +50,7 @@ def _identified(
     return Things((replace(np.told_by(*modifiers), words=(*np.words[:-1], *words, np.head)),))
 
 
-def _all_of_any(np: NounPhrase) -> Things | None:
+def all_of_any(np: NounPhrase) -> Things | None:
     """All of which any will do."""
     any_one = np.determiner.split()[:1] in (["any"], ["either"]) and np.words
     return Things((np.called(f"{singular(np.head)}s"),)) if any_one else None
@@ -137,7 +111,7 @@ _STATED = either(
     sequence(
         noun_phrase,
         small_words.ANY_WILL_DO,
-        build=_all_of_any,
+        build=all_of_any,
     ),
     sequence(
         f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}",
@@ -231,98 +205,7 @@ SAID = either(
 NAMED = plain(either(sequence(THINGS, build=_topic), SAID))
 
 
-def about(topic: Reading, rest: Reading) -> Reading | None:
-    """What is named before a clause speaks of it ("the red mug: put it on the plate")."""
-    remark = isinstance(topic[0].clause, ReorientClause) and topic[0].clause.remark
-    therein = any(item is Toward.HERE for item in nodes(rest[0].clause))
-    spoken = (
-        remark
-        or therein
-        or any(
-            isinstance(np, NounPhrase) and np.pronoun and np != THAT for np in nodes(rest[0].clause)
-        )
-    )
-    return (*topic, *rest) if spoken else one_of_them(topic, rest)
-
-
-def room_for(topic: Reading, rest: Reading) -> Reading | None:
-    """What is put where room is made for it; without it nobody knows how much room that is."""
-    where = [to for to in nodes(rest[0].clause) if isinstance(to, Destination)]
-    there = any(to.toward is Toward.HERE or any(np.pronoun for np in to.targets) for to in where)
-    return (*topic, *rest) if there else None
-
-
-def done_there(topic: Reading, rest: Reading) -> Reading | None:
-    """What is taken out of, or opened of, what the robot goes to ("go to the fridge, take out the
-    cup").
-    """
-    named, clause = topic[0].clause, rest[0].clause
-    place, *more = named.things.phrases if isinstance(named, ReorientClause) else ()
-    match clause:
-        case RemoveClause(source=None) if not (more or sources(clause.things)):
-            there: Clause = replace(clause, source=place)
-        case MoveClause(things=Things(phrases=(part,))) if not (more or part.owner):
-            if not (part.words and matches_any(part.head, sum(JOINT_NOUNS.values(), ()))):
-                return None
-            there = replace(clause, things=Things((replace(part, owner=place),)))
-        case _:
-            return None
-    return (*topic, replace(rest[0], clause=there), *rest[1:])
-
-
-def for_a_reason(topic: Reading, rest: Reading) -> Reading | None:
-    """What is done with one thing for what is said of it, in whatever words."""
-    return (*topic, *rest) if {"it", "that", "them"} & {*pronouns(rest[0].clause)} else None
-
-
-def one_of_them(topic: Reading, rest: Reading) -> Reading | None:
-    """Several things are named before a clause speaks of some of them ("of the cups take the left
-    one", "… put one on the tray and the other in the sink").
-    """
-    nps = [item for item in nodes(rest[0].clause) if isinstance(item, NounPhrase)]
-    some = are_several(topic[0].clause) and any(map(_is_one_of_them, nps))
-    return (*topic, *rest) if some else None
-
-
-def _is_one_of_them(np: NounPhrase) -> bool:
-    """Whether a phrase takes up a noun that was said before, or speaks of another one."""
-    adjectives = np.words and all(map(is_descriptive, np.words))
-    if np.determiner in ("the", "only the") and adjectives:
-        return True
-    noun_left_out = np.is_elliptic or not (np.words or np.pronoun)
-    return noun_left_out or "other" in np.determiner.split()
-
-
 def are_several(topic: Clause) -> bool:
     """Whether several things are named."""
     nps = topic.things.phrases if isinstance(topic, ReorientClause) else ()
     return len(nps) > 1 or any(singular(np.head) != np.head for np in nps)
-
-
-def any_of_them(topic: NounPhrase, rest: Reading) -> Reading | None:
-    """Any of some things will do for what is to be done with "it"."""
-    put = Spoken(ReorientClause(Things((topic,)), only_named=True), -1)
-    return (put, *rest) if _all_of_any(topic) and "it" in pronouns(rest[0].clause) else None
-
-
-_SUCH_A_ONE = (NounPhrase("one", text="one"), NounPhrase("", ("one",), text="one"))
-
-
-def fit_for(place: NounPhrase, theme: NounPhrase, rest: Reading) -> Reading | None:
-    """What is fine for something that is put there ("any cup is fine for the pen, so put it in
-    one").
-    """
-    match rest[0].clause:
-        case PutClause(
-            groups=(
-                PutGroup(
-                    things=Things(phrases=(NounPhrase(pronoun="it" | "them"),)),
-                    destinations=(Destination(beside=()) as where,),
-                ),
-            ),
-            stays=False,
-        ) if all(np.pronoun or np in _SUCH_A_ONE for np in where.targets):
-            toward = Toward.TO if where.toward is Toward.HERE else where.toward
-            put = put_to(Things((theme,)), (Destination(toward, (place,)),))
-            return (replace(rest[0], clause=put), *rest[1:])
-    return None

@@ -36,10 +36,10 @@ from etot_cli.reasoning.language.grammar.requests.additions import (
     EXTRAS,
     put_of,
 )
+from etot_cli.reasoning.language.grammar.requests.carrying import brought
 from etot_cli.reasoning.language.grammar.requests.flanking import ON_BOTH_SIDES, flanking
 from etot_cli.reasoning.language.grammar.requests.laying import lies_flat
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
-from etot_cli.reasoning.language.grammar.requests.putting import brought
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.requests.word_order import (
     ANNOUNCED,

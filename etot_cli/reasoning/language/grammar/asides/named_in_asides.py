@@ -1,0 +1,121 @@
+"""What asides name, which is spoken of before the rest."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from etot_cli.reasoning.language.grammar.asides.aside_clauses import Clause
+from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES, PRONOUNS, IsName
+from etot_cli.reasoning.language.grammar.asides.displeasure import in_state, is_misplaced
+from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, is_of_people
+from etot_cli.reasoning.language.grammar.asides.told_of_things import (
+    is_not_to_stay,
+    is_told_apart_by,
+)
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import all_words
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, JOINT_NOUNS, NUMBERS, singular
+
+ASIDE = "~aside"
+"""Stands behind what a remark names, in its place."""
+_PARTS = frozenset(noun for nouns in JOINT_NOUNS.values() for noun in nouns)
+_LIKED = [["favourite"], ["favorite"], ["best"]]
+_IS_ONE = Expression(
+    r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like) an? "
+)
+"""Before what is no other thing ("the vase was a gift")."""
+_WHICH_ONE = Expression(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
+_OF_A_KIND = Expression(
+    r" (?:(?:allergic|partial|addicted) to|(?:afraid|scared|fond|sick|tired) of"
+    r"|likes?|loves?|hates?|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"
+)
+
+
+def are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> bool:
+    """Whether what is told of things may be why something is asked of them; else it may ask for
+    something itself ("the shears are forbidden").
+    """
+    words = {word for said in rest for word in said.replace(",", "").split()}
+    referring = PRONOUNS | {"either", "one", "both"}
+    return all(
+        (referring | {*topic[-1:]}) & words or topic[-1] in {*DESK_NOUNS, *PRONOUNS}
+        for topic in topics
+        if topic
+    )
+
+
+def of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:
+    """What asides say; where it is left open which of several things is meant, "one" of the rest is
+    one of these.
+    """
+    one = any("one" in said.split() for said in rest)
+    for aside in asides:
+        open_one = one and is_left_open(aside.whole) and _WHICH_ONE.match(aside.whole)
+        yield f"the {open_one[1]}s" if open_one else aside.said
+
+
+def named_in(asides: Iterable[str], is_name: IsName) -> str:
+    """What asides name in the scene, as a remark. Of what stands too close to something else more
+    is said next, so that is named last and alone.
+    """
+    phrases, alone = list[str](), list[str]()
+    for aside in asides:
+        said = f"the {aside}" if _is_bare(aside, is_name) else _with_kind(aside, is_name)
+        found = [in_state(said, phrase) for phrase in _phrases(said.split(), is_name)]
+        alone += found[:1] if is_misplaced(said) else []
+        phrases += found[1:] if is_misplaced(said) else found
+    remarks = (" and ".join(dict.fromkeys(named)) for named in (phrases, alone))
+    return ". ".join(f"{named} {ASIDE}" for named in remarks if named)
+
+
+def _with_kind(said: str, is_name: IsName) -> str:
+    """What is said of somebody, with an article for the kind of thing that he likes or cannot
+    stand, of which the next sentence may mean the one that is there ("is allergic to lemons").
+    """
+    found = _OF_A_KIND.search(said) if is_of_people(said) else None
+    known = found and found["kind"] != singular(found["kind"]) and is_name(found["kind"])
+    return (
+        f"{said[: found.start('kind')]}the {singular(found['kind'])}" if found and known else said
+    )
+
+
+def _is_bare(said: str, is_name: IsName) -> bool:
+    """Whether what cannot stay is named without an article ("honey must not stand up there")."""
+    return is_not_to_stay(said) and is_name(said.split()[0])
+
+
+def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
+    """Phrases that name something in the scene."""
+    for at, word in enumerate(words):
+        if word in BEFORE_NAMES:
+            counted = words[at + 1 : at + 2] in _LIKED or {*words[at + 1 : at + 2]} & {*NUMBERS}
+            end = last = at + 1 + bool(counted)
+            while end < len(words) and is_told_apart_by(words[end], is_name):
+                end += 1
+                last = end if is_name(words[end - 1]) else last
+            if at + 1 < last == end < len(words) and words[end] in _PARTS:
+                last += 1  # "the bottom drawer"
+            if last > at + 1:
+                owner = "the" if word in ("his", "her", "their") else word
+                if re.match(rf"{PEOPLE}\b", " ".join(words[at:])):
+                    continue  # "my hands" are no hand cream
+                yield " ".join((owner, *(w for w in words[at + 1 : last] if [w] not in _LIKED)))
+
+
+def names_stranger(said: str, is_name: IsName) -> bool:
+    """Whether something is named that the scene does not have, and no person."""
+    words = _IS_ONE.sub(" ", said).split()
+    return any(
+        word in BEFORE_NAMES
+        and words[at + 1] not in all_words()
+        and not any(map(is_name, words[at + 1 : at + 4]))
+        and not re.match(rf"{PEOPLE}\b", " ".join(words[at:]))
+        for at, word in enumerate(words[:-1])
+    )
+
+
+def refers_back(words: Sequence[str], is_name: IsName, meaning: frozenset[str]) -> bool:
+    """Whether one of some pronouns comes before anything that is named."""
+    return next((word in meaning for word in words if word in PRONOUNS or is_name(word)), False)
