@@ -17,7 +17,7 @@ from etot_cli.reasoning.builtin.goal import (
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
-from etot_cli.reasoning.language.grammar.phrases.abreast import EACH_OTHER
+from etot_cli.reasoning.language.grammar.phrases.beside import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,

@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import disagrees, said_of_all
-from etot_cli.reasoning.language.grammar.phrases.destinations import AS_SAID, DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_PLACES, respective
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import (
@@ -55,6 +55,7 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    AS_SAID,
     Destination,
     NounPhrase,
     State,

@@ -28,12 +28,12 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
     DESTINATIONS,
-    WHERE,
     destination,
     of_one_noun,
 )
 from etot_cli.reasoning.language.grammar.phrases.gapping import other_sides
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
+from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,

@@ -19,10 +19,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    DESTINATIONS,
-    DIRECTED,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE

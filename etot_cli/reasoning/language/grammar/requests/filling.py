@@ -20,10 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    FILLED,
-    TARGETS,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import TARGETS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN
 from etot_cli.reasoning.language.grammar.requests.additions import put_of
@@ -34,6 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    FILLED,
     Destination,
     NounPhrase,
     Things,

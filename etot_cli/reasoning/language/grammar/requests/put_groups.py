@@ -24,20 +24,18 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.beside import BESIDE
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    ACROSS,
-    BESIDE,
-    FILLED,
-    STANCE,
-    WHERE,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import STANCE
 from etot_cli.reasoning.language.grammar.phrases.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.phrases.modifiers import NONE_OF_THEM
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    ACROSS,
+    FILLED,
     Beside,
     Destination,
     Modifier,

@@ -35,21 +35,17 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID
 from etot_cli.reasoning.language.grammar.phrases.as_many import AS_MANY
+from etot_cli.reasoning.language.grammar.phrases.beside import BESIDE
 from etot_cli.reasoning.language.grammar.phrases.coordination import (
     all_of,
     coordinated,
     said_of_all,
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    BESIDE,
     DESTINATIONS,
     DIRECTED,
-    INSTEAD,
     INTO,
     ONTO,
-    ONWARD,
-    RECEIVER,
-    WHERE,
 )
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
@@ -66,6 +62,7 @@ from etot_cli.reasoning.language.grammar.phrases.successions import (
     FROM_FIRST_TO_LAST,
     put_in_turn,
 )
+from etot_cli.reasoning.language.grammar.phrases.where_not import INSTEAD, WHERE
 from etot_cli.reasoning.language.grammar.requests.additions import (
     CONDITION,
     EXTRA,
@@ -98,6 +95,8 @@ from etot_cli.reasoning.language.grammar.requests.word_order import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, Turns, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    ONWARD,
+    RECEIVER,
     Beside,
     Destination,
     NounPhrase,

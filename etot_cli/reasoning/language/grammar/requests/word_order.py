@@ -22,12 +22,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     not_after,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    DESTINATIONS,
-    WHERE,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN
+from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.requests.additions import (
     BY_COLOR,
     CONDITION,

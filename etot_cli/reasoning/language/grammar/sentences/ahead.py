@@ -18,8 +18,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, denied, rather
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.exclusions import changed, only_there
+from etot_cli.reasoning.language.grammar.phrases.where_not import denied, rather
 from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT, Reading
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (

@@ -31,7 +31,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     not_ahead,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import STATE, WITH_KEPT_SO, states
 from etot_cli.reasoning.language.grammar.requests.arrangements import STANDS_UP
@@ -111,6 +111,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    FILLED,
     Destination,
     NounPhrase,
     State,

@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED, WHERE
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import (
     PREDICATE,
@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
     containing,
     state_of,
 )
+from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.sentences.passives import PASSIVE
@@ -46,6 +47,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    FILLED,
     Destination,
     NounPhrase,
     State,

@@ -12,9 +12,12 @@ from msgspec import structs
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    ACROSS,
+    FILLED,
+    ONWARD,
+    TOP,
     Beside,
     Destination,
     NounPhrase,
