@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import either, one_of, phrase, sequence
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
+from etot_cli.reasoning.language.grammar.parsers.common import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,

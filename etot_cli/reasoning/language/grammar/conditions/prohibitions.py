@@ -37,10 +37,10 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.requests.arrangements import HELD_MEANWHILE

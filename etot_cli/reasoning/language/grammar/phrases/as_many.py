@@ -8,10 +8,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     quiet,
     sequence,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, WORDS, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,

@@ -21,9 +21,11 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
+    DESCRIPTIVE,
     LIST,
     LIST_COMMA,
     OPTIONAL_COMMA,
+    WORDS,
     alternatives,
     exceptions,
     noun_phrase,
@@ -35,7 +37,7 @@ from etot_cli.reasoning.language.grammar.phrases.coordination import (
     of_each,
     told_together,
 )
-from etot_cli.reasoning.language.grammar.phrases.naming import DESCRIPTIVE, WORDS
+from etot_cli.reasoning.language.grammar.phrases.naming import NAMED
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.words import small_words, verbs
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
@@ -164,6 +166,7 @@ def _one_out_of(nps: tuple[NounPhrase, ...]) -> Things | None:
 
 _COORDINATION = sequence(_LIST, build=lambda nps: None if _out_of(nps) else nps)
 _NEITHER = sequence(alternatives(noun_phrase, 3), build=lambda nps: nps if nps[1:] else None)
+noun_phrase.define(NAMED)
 exceptions.define(either(_COORDINATION, ONES_OF_A_COLOR, _NEITHER))
 NP_LIST = Rule(
     either(

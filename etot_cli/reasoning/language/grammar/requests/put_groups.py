@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     LIST,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.beside import BESIDE
@@ -29,7 +30,6 @@ from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import STANCE
 from etot_cli.reasoning.language.grammar.phrases.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.phrases.modifiers import NONE_OF_THEM
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST,
     LIST_COMMA,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID
@@ -48,7 +49,6 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import (
     ONTO,
 )
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_GROUPS
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
     ALL_THINGS,
     CHOICE,

@@ -19,9 +19,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST,
     LIST_COMMA,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (

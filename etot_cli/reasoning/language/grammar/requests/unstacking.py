@@ -21,10 +21,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     LIST,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, ONTO
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import (

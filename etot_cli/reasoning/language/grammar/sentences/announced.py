@@ -12,8 +12,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
 )
+from etot_cli.reasoning.language.grammar.parsers.common import WORDS
 from etot_cli.reasoning.language.grammar.phrases.gapping import beside_what, told_beside
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.sentences.clauses import Reading
 from etot_cli.reasoning.language.grammar.sentences.spoken import Spoken
 from etot_cli.reasoning.language.grammar.sentences.topics import are_several

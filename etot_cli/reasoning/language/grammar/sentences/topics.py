@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     spanned,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import WORDS, noun_phrase
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes, pronouns
 from etot_cli.reasoning.language.grammar.phrases.levels import THAT
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
@@ -25,7 +25,6 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     DESCRIBED,
     MODIFIERS,
 )
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.hindrances import HINDRANCE, UNFIT
