@@ -13,7 +13,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import counted_by
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
-from etot_cli.reasoning.language.grammar.phrases.modifiers import ANY_SUCH
+from etot_cli.reasoning.language.grammar.phrases.descriptions import ANY_SUCH
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,

@@ -6,8 +6,8 @@ from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import either, sequence
 from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.descriptions import DESCRIBED
 from etot_cli.reasoning.language.grammar.phrases.free_relatives import ALREADY_THERE
-from etot_cli.reasoning.language.grammar.phrases.modifiers import DESCRIBED
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.places import Prep

@@ -26,9 +26,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    BETWEEN,
-)
+from etot_cli.reasoning.language.grammar.phrases.descriptions import BETWEEN
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
     NounPhrase,
@@ -80,22 +78,12 @@ def _beside(relation: Nearby, *nps: NounPhrase) -> tuple[Beside, ...]:
 
 
 _NEARBY = one_of({**places.NEARBY, Nearby.NEAR: places.GOES_NEAR, Nearby.AWAY: places.GOES_AWAY})
-
-
 _REGION = one_of(places.REGIONS)
-
-
 _ITS_SIDE = one_of(places.ITS_SIDE)
-
-
 _SIDE_OF_IT = one_of(
     {Nearby.LEFT: "left [hand] side, left", Nearby.RIGHT: "right [hand] side, right"}
 )
-
-
 _REGION_OF_IT = one_of(places.REGION_OF_IT)
-
-
 BESIDE = spanned(
     either(
         sequence(
@@ -136,16 +124,12 @@ BESIDE = spanned(
     ),
     lambda text, found: tuple(replace(item, text=text) for item in found),
 )
-
-
 PART_OF_IT = sequence(
     optional("the"),
     spanned(_REGION_OF_IT, lambda text, near: tuple(Beside(region, text=text) for region in near)),
 )
 """Behind a surface, where on that ("on the table, left side")."""
 _SIDES_OF_IT = {Nearby.AT_LEFT: Nearby.LEFT, Nearby.AT_RIGHT: Nearby.RIGHT}
-
-
 _OF_THE_DESK = frozenset({"far", "half", "part", "end", "edge", "border"})
 """With such words a side is that of the desk, whatever is said before."""
 
@@ -181,8 +165,6 @@ BESIDES = sequence(
     ),
     build=_besides,
 )
-
-
 BESIDE_IT = sequence(
     EXACTLY,
     one_of(places.NEARBY),

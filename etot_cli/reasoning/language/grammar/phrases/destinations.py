@@ -83,8 +83,6 @@ TARGETS = either(
     ),
     sequence(noun_phrase, COMMA, BE_IT, alternatives(noun_phrase, 3), build=one_out_of),
 )
-
-
 _HOMES = frozenset(spellings(places.HOME))
 
 
@@ -127,8 +125,6 @@ _AT_END = sequence(
 OVER = sequence(
     places.OVER, TARGETS, build=lambda targets: Destination(Toward.ON, targets, places.OVER)
 )
-
-
 _to = sequence(_RIGHT, places.TO, TARGETS, build=_toward(Toward.TO))
 _ON_OR_IN = either(INTO, ONTO, _to)
 _in_front = sequence(
@@ -301,8 +297,6 @@ DESTINATIONS = Rule(
         ),
     )
 )
-
-
 _directed = either(
     sequence(places.INTO_DIRECTED, TARGETS, build=_toward(Toward.INSIDE)),
     sequence(places.ONTO_DIRECTED, TARGETS, build=_toward(Toward.ON)),

@@ -23,14 +23,13 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE, WHERE_THAT_IS
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    LEAVING_OUT,
-    MODIFIERS,
+from etot_cli.reasoning.language.grammar.phrases.contrasts import LEAVING_OUT, without_such
+from etot_cli.reasoning.language.grammar.phrases.descriptions import (
     PLAIN_MODIFIER,
     denied,
     quality_alone,
-    without_such,
 )
+from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import nouns, small_words
 from etot_cli.reasoning.language.words.known import VERB_WORDS

@@ -29,19 +29,15 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.comparing import NEAREST_TO, ONE_COMPARED
+from etot_cli.reasoning.language.grammar.phrases.contrasts import NOT_BUT, OF_ALL
+from etot_cli.reasoning.language.grammar.phrases.descriptions import QUALITY
 from etot_cli.reasoning.language.grammar.phrases.free_relatives import (
     FREE_CHOICE,
     FREE_RELATIVE,
     WHICHEVER,
 )
 from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    MODIFIERS,
-    NOT_BUT,
-    OF_ALL,
-    ONE_SUCH,
-    QUALITY,
-)
+from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS, ONE_SUCH
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import nouns, small_words
 from etot_cli.reasoning.language.words.lexicon import (
@@ -59,8 +55,6 @@ from etot_cli.reasoning.language.words.places import Prep
 
 PRONOUN = phrase("it, them, they, this, that, these, those, its, he, him, she, her")
 ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
-
-
 _NEAREST = word_set("nearest closest farthest furthest")
 
 

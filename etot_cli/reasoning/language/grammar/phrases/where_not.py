@@ -69,8 +69,6 @@ def rather(out: tuple[Destination, ...], where: tuple[Destination, ...]) -> Any:
 
 
 _BUT = sequence(OPTIONAL_COMMA, "but [rather|instead]")
-
-
 INSTEAD = sequence(DESTINATIONS, _BUT, DESTINATIONS, build=rather)
 """Behind "not": where things are not to go, and where they are."""
 
@@ -94,8 +92,6 @@ _ANYWHERE_BUT = sequence(
     build=lambda out: (Destination(Toward.ON, (THE_DESK,)), *denied(out)),
 )
 """All that is said is where things are not to go: they go somewhere else on the desk."""
-
-
 WHERE = Rule(
     either(
         DESTINATIONS,

@@ -26,10 +26,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.beside import BESIDE
+from etot_cli.reasoning.language.grammar.phrases.contrasts import NONE_OF_THEM
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import STANCE
 from etot_cli.reasoning.language.grammar.phrases.gapping import lending_nouns
-from etot_cli.reasoning.language.grammar.phrases.modifiers import NONE_OF_THEM
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup

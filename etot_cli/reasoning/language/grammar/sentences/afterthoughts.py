@@ -20,15 +20,10 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.contrasts import CONTRASTED, OF_ALL, excepting
+from etot_cli.reasoning.language.grammar.phrases.descriptions import DESCRIBED, quality_alone
 from etot_cli.reasoning.language.grammar.phrases.exclusions import changed, excluding
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    CONTRASTED,
-    DESCRIBED,
-    OF_ALL,
-    ONE_SUCH,
-    excepting,
-    quality_alone,
-)
+from etot_cli.reasoning.language.grammar.phrases.modifiers import ONE_SUCH
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
 from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT, Reading
 from etot_cli.reasoning.language.grammar.sentences.topics import AS_IT_IS

@@ -32,14 +32,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     exceptions,
 )
 from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD, Input, Result
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.exclusions import (
-    but_some,
-    excluding,
-    of_the_things,
-)
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    APPOSED,
+from etot_cli.reasoning.language.grammar.phrases.contrasts import (
     CONTRASTED,
     LEAVING_OUT,
     LEFT,
@@ -48,6 +41,13 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     excepting,
     without_such,
 )
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.exclusions import (
+    but_some,
+    excluding,
+    of_the_things,
+)
+from etot_cli.reasoning.language.grammar.phrases.modifiers import APPOSED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.requests.arrangements import REORIENT, SWAP
 from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY

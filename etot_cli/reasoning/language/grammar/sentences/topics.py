@@ -19,12 +19,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import WORDS, noun_phrase
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes, pronouns
+from etot_cli.reasoning.language.grammar.phrases.descriptions import ADJECTIVES, DESCRIBED
 from etot_cli.reasoning.language.grammar.phrases.levels import THAT
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    ADJECTIVES,
-    DESCRIBED,
-    MODIFIERS,
-)
+from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.sentences.clauses import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.hindrances import HINDRANCE, UNFIT
