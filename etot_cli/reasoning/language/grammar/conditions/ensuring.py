@@ -25,34 +25,34 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.being_so import (
+    ALWAYS,
+    IS_OPEN_OR_CLOSED,
+    NONE,
+    OPEN_OR_CLOSED,
+    PREDICATE,
+    ensured,
+    not_left,
+    opposite,
+    state_of,
+    there_is_none,
+)
 from etot_cli.reasoning.language.grammar.phrases.coordination import disagrees, said_of_all
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_PLACES, respective
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import (
     ALL_SO,
-    ALWAYS,
     EACH_SHOULD,
     IN_OR_ON_IT,
-    IS_OPEN_OR_CLOSED,
-    KEPT_THERE,
-    NONE,
-    OPEN_OR_CLOSED,
-    PREDICATE,
-    STAYS,
     being,
     containing,
     each_so,
-    ensured,
     holding,
     holding_only,
-    kept_so,
-    not_left,
-    opposite,
-    state_of,
     states,
-    there_is_none,
 )
+from etot_cli.reasoning.language.grammar.phrases.staying import KEPT_THERE, STAYS, kept_so
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     AS_SAID,

@@ -17,13 +17,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED, PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import (
-    OPEN_OR_CLOSED,
-    PREDICATE,
-    STATE,
-    state_of,
-)
+from etot_cli.reasoning.language.grammar.phrases.states import STATE
 from etot_cli.reasoning.language.grammar.requests.emptying import contents_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (

@@ -40,9 +40,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     WORDS,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.being_so import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.requests.arrangements import HELD_MEANWHILE
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING
 from etot_cli.reasoning.language.grammar.syntax.clauses import (

@@ -14,8 +14,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COLON, COMMA, LIST, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State
 from etot_cli.reasoning.language.words import manner, verbs

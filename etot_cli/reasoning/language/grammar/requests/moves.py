@@ -21,9 +21,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.doors import SET_TO_STATE
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, MoveClause, Turns

@@ -33,7 +33,8 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import STATE, WITH_KEPT_SO, states
+from etot_cli.reasoning.language.grammar.phrases.states import STATE, states
+from etot_cli.reasoning.language.grammar.phrases.staying import WITH_KEPT_SO
 from etot_cli.reasoning.language.grammar.requests.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY, IS_EMPTY, NOTHING_THERE
 from etot_cli.reasoning.language.grammar.requests.moves import IF_NOT_SO

@@ -27,22 +27,15 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED, SHUT, ensured
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
     NP_LIST,
     THINGS,
     begins_like_a_verb,
 )
-from etot_cli.reasoning.language.grammar.phrases.states import (
-    BESIDES_SO,
-    MEANWHILE_SO,
-    OPEN_OR_CLOSED,
-    SHUT,
-    ensured,
-    holding_only,
-    kept_so,
-    states,
-)
+from etot_cli.reasoning.language.grammar.phrases.states import BESIDES_SO, holding_only, states
+from etot_cli.reasoning.language.grammar.phrases.staying import MEANWHILE_SO, kept_so
 from etot_cli.reasoning.language.grammar.requests.arrangements import (
     STANDING_BESIDES,
     STAYING_UPRIGHT,

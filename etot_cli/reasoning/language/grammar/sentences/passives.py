@@ -20,9 +20,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     after,
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID, pronouns
+from etot_cli.reasoning.language.grammar.phrases.being_so import NONE
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import NONE, STATE, being
+from etot_cli.reasoning.language.grammar.phrases.states import STATE, being
 from etot_cli.reasoning.language.grammar.requests.arrangements import TURNED, turned
 from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE

@@ -23,15 +23,11 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.phrases.being_so import PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import (
-    PREDICATE,
-    being,
-    containing,
-    state_of,
-)
+from etot_cli.reasoning.language.grammar.phrases.states import being, containing
 from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
