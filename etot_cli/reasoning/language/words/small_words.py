@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from etot_cli.reasoning.language.words.manner import BY_HAND, ONE_BY_ONE, THE_ONE_HAND
-from etot_cli.reasoning.language.words.verbs import BROUGHT, RELATIONS, THE_ROBOT
+from etot_cli.reasoning.language.words.predicates import BROUGHT, RELATIONS
+from etot_cli.reasoning.language.words.verbs import THE_ROBOT
 
 NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 """What a named thing begins with, as a regular expression."""

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 
 from etot_cli.reasoning.language.grammar.asides.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.asides.mishaps import befalls, is_spared
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import predicates, verbs
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (
@@ -297,7 +297,9 @@ def is_in_passing(said: str) -> bool:
     found = _IN_PASSING.fullmatch(said)
     done = (found and found["done"]) or ""
     stems = {done, done[:-1], done[:-2], done[:-3], f"{done[:-3]}y"}
-    return found is not None and not stems & (_DONE_TO_THINGS | words_of((verbs.BROUGHT,)) | WORK)
+    return found is not None and not stems & (
+        _DONE_TO_THINGS | words_of((predicates.BROUGHT,)) | WORK
+    )
 
 
 def is_not_to_stay(said: str) -> bool:

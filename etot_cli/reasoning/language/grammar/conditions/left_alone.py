@@ -31,7 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     Things,
 )
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -52,8 +52,8 @@ _EVERYTHING_ELSE = "everything else, anything else, all else, the rest [of it|of
 _OTHERS = "the others [of them]"
 _THERE = "[up|down|over] (there|here)"
 _STAYS = either(
-    sequence(verbs.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
-    phrase(verbs.KEEP_ITS_PLACE),
+    sequence(predicates.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
+    phrase(predicates.KEEP_ITS_PLACE),
 )
 _THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
 _THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))
@@ -72,7 +72,7 @@ OTHERS_STILL = sequence(
             OPTIONAL_COMMA,
             either(
                 sequence("leav(e|ing) everything, keep[ing] everything", manner.AS_IT_IS),
-                sequence("everything", verbs.LEFT_THERE, optional(manner.AS_IT_IS)),
+                sequence("everything", predicates.LEFT_THERE, optional(manner.AS_IT_IS)),
             ),
             build=lambda: _THE_REST,
         ),
@@ -99,7 +99,7 @@ def _in_number(text: str, clause: AvoidClause) -> AvoidClause | None:
 
 
 _STAYS_EMPTY = either(
-    sequence(noun_phrase, verbs.LEFT_THERE, "empty"),
+    sequence(noun_phrase, predicates.LEFT_THERE, "empty"),
     sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
 )
 KEEP_STILL = either(
@@ -123,7 +123,7 @@ KEEP_STILL = either(
     sequence(
         either(
             sequence("leav(e|ing), keep[ing]", THINGS),
-            sequence(optional("let"), THINGS, verbs.LEFT_THERE),
+            sequence(optional("let"), THINGS, predicates.LEFT_THERE),
         ),
         manner.WHERE_IT_IS,
         some(MODIFIER, least=1, most=2),

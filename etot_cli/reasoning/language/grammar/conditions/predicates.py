@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
 _EMPTY = "empty"
@@ -104,7 +104,7 @@ _HAS = sequence(
     optional(phrase("in it, inside, on it"), ""),
     build=lambda held, where: ("has", held, where),
 )
-_IS = sequence(f"{verbs.BE}, stay[s], remain[s]", _SO)
+_IS = sequence(f"{predicates.BE}, stay[s], remain[s]", _SO)
 _MORE = some(sequence(LIST, optional("to"), either(_IS, _HAS, _SO)), most=3)
 _WITH_IT = optional(
     sequence(
@@ -122,8 +122,8 @@ _WITH_IT = optional(
     (),
 )
 _SUBJECT = either(
-    sequence(NP_LIST, verbs.MODAL),
-    sequence(verbs.WANTED, NP_LIST, optional("to be")),
+    sequence(NP_LIST, predicates.MODAL),
+    sequence(predicates.WANTED, NP_LIST, optional("to be")),
     sequence(f"{verbs.KEEP}, mak(e|ing)", NP_LIST),
 )
 BOTH_ARE = sequence(NP_LIST, _IS, _MORE, _WITH_IT, build=_all_of_it)
@@ -131,7 +131,7 @@ _IS_SO = either(
     sequence(STATE, build=lambda state: EnsureClause((state,))),
     sequence(
         NP_LIST,
-        verbs.BE,
+        predicates.BE,
         manner.EMPTIED,
         build=lambda nps: EnsureClause(tuple(_empty(nps))),
     ),

@@ -58,7 +58,14 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import (
+    forbidden,
+    nouns,
+    places,
+    predicates,
+    small_words,
+    verbs,
+)
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 
 
@@ -113,7 +120,7 @@ AVOID = either(
     ),
     sequence(
         # "Nothing may be put on the desk"
-        either(verbs.NOTHING_GOES, sequence(phrase(verbs.SET), "nothing")),
+        either(predicates.NOTHING_GOES, sequence(phrase(verbs.SET), "nothing")),
         DESTINATIONS,
         build=lambda *said: AvoidClause(Avoid.PUT, ANYTHING, said[-1], negated=True),
     ),
@@ -190,7 +197,7 @@ AVOID = either(
         ),
         build=lambda things, avoid: AvoidClause(avoid, things, negated=True),
     ),
-    sequence(verbs.NOT_WANTED, THINGS, build=_not_wanted),
+    sequence(predicates.NOT_WANTED, THINGS, build=_not_wanted),
     sequence(
         # "Move neither the cup nor the can", "touch neither cup"
         one_of(
@@ -249,7 +256,7 @@ WITHOUT = sequence(
                         sequence(
                             NP_LIST, f"[ever] ({forbidden.FALLING}) [down] (off [of]|from), leaving"
                         ),
-                        sequence("let[ting]", NP_LIST, f"{verbs.FALL} (off [of]|from)"),
+                        sequence("let[ting]", NP_LIST, f"{predicates.FALL} (off [of]|from)"),
                     ),
                     noun_phrase,
                     build=_not_falling_off,
@@ -291,7 +298,7 @@ WITHOUT = sequence(
 KEEP_OUT = sequence(
     either(
         sequence(verbs.KEEP, THINGS),
-        sequence(optional(verbs.ENSURE), ALL_THINGS, verbs.STAY_OUT),
+        sequence(optional(verbs.ENSURE), ALL_THINGS, predicates.STAY_OUT),
     ),
     either(phrase("out of", Toward.INSIDE), phrase("off [of]", Toward.ON)),
     NP_LIST,

@@ -31,7 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Beside,
     NounPhrase,
 )
-from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words import places, predicates
 from etot_cli.world.spatial import Nearby
 
 EACH_OTHER = NounPhrase(pronoun="each other", text="each other")
@@ -49,7 +49,7 @@ _NO_MORE = Parser(
 )
 _WHICH_ON_SIDE = sequence(
     noun_phrase,
-    optional(f"being, standing, {verbs.BE}"),
+    optional(f"being, standing, {predicates.BE}"),
     one_of(
         {
             Nearby.LEFT: "[(on|to|at) the] left [side|hand side]",

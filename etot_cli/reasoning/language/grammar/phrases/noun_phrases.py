@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.phrases.coordination import (
 )
 from etot_cli.reasoning.language.grammar.phrases.naming import NAMED
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
@@ -131,7 +131,7 @@ _PARTS = sequence(
     either(COMMA, at_end),
     build=_parts,
 )
-_MODAL = openings_of((verbs.MODAL,))
+_MODAL = openings_of((predicates.MODAL,))
 _BEFORE_VERB = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] in _MODAL else [])
 _TOO = optional(sequence("too, as well", OPTIONAL_COMMA, _BEFORE_VERB))
 """Behind the last of several things of which something is said next."""

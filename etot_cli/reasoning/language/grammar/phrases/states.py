@@ -38,7 +38,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -121,10 +121,10 @@ EACH_SHOULD = either(
         # "Must both be put", "are both to go"
         "should, must, shall, can, could, may, are, are to, have [to], need [to]",
         _EACH,
-        f"[[meant|supposed] to] (be|go|stand|lie|sit|end up|(be|get) ({verbs.DONE}))",
+        f"[[meant|supposed] to] (be|go|stand|lie|sit|end up|(be|get) ({predicates.DONE}))",
     ),
-    sequence(_EACH, verbs.MODAL),
-    sequence(verbs.MODAL, OPTIONAL_COMMA, _EACH),
+    sequence(_EACH, predicates.MODAL),
+    sequence(predicates.MODAL, OPTIONAL_COMMA, _EACH),
 )
 """What several things are to be, and whether all or both of them."""
 
@@ -148,12 +148,12 @@ _NONE_MAY_BE = sequence(
     build=lambda nps, so: state_of(nps, so) if {np.determiner for np in nps} <= {*NONE} else None,
 )
 STATE = either(
-    being(f"{verbs.BE}, {verbs.LIES}"),
+    being(f"{predicates.BE}, {predicates.LIES}"),
     _NONE_MAY_BE,
     STAYS,
     KEPT_THERE,
     containing("contains, holds, has, have"),
-    containing(verbs.CARRIES, Toward.ON),
+    containing(predicates.CARRIES, Toward.ON),
 )
 _BY_THEN = silent(optional(small_words.BY_THE_END))
 states = Rule(
@@ -162,7 +162,9 @@ states = Rule(
         separated(STATE, sequence(_BY_THEN, LIST, optional("that")), most=6),
     )
 )
-_TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie|stay), {verbs.DONE}, {verbs.BE_PUT}")
+_TO_BE_SO = optional(
+    f"[to] (be|end up|go|stand|sit|lie|stay), {predicates.DONE}, {predicates.BE_PUT}"
+)
 
 
 # "…, the ball in the cup": the verb is left out.
@@ -190,7 +192,7 @@ BESIDES_SO = either(
         NP_LIST,
         silent(
             optional(
-                f"[still|left] (lying|standing|sitting|resting), safely, staying, {verbs.DONE}"
+                f"[still|left] (lying|standing|sitting|resting), safely, staying, {predicates.DONE}"
             )
         ),
         ALL_SO,

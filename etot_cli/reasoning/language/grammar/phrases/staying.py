@@ -40,7 +40,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, predicates, small_words
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -68,7 +68,7 @@ def staying(nps: tuple[NounPhrase, ...], said: str, predicate: Any, always: bool
     return None if state is None else replace(state, kept=True, always=always, allowed=allowed)
 
 
-STAYS = sequence(NP_LIST, phrase(verbs.STAY), PREDICATE, ALWAYS, build=staying)
+STAYS = sequence(NP_LIST, phrase(predicates.STAY), PREDICATE, ALWAYS, build=staying)
 
 
 def _kept_there(nps: tuple[NounPhrase, ...], toward: Toward, np: NounPhrase) -> State | None:
@@ -90,8 +90,8 @@ _AWAY_FROM = one_of({Toward.ON: "off [of]", Toward.INSIDE: "out of", Toward.TO: 
 KEPT_THERE = either(
     sequence(
         either(
-            sequence(NP_LIST, verbs.NOT_FALL),
-            sequence(forbidden.DO_NOT, "let", NP_LIST, verbs.FALL),
+            sequence(NP_LIST, predicates.NOT_FALL),
+            sequence(forbidden.DO_NOT, "let", NP_LIST, predicates.FALL),
         ),
         one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
         noun_phrase,
@@ -101,15 +101,15 @@ KEPT_THERE = either(
         # "The mug must not be taken off the shelf"
         NP_LIST,
         either(
-            phrase(verbs.NOT_LEAVE, Toward.TO),
-            sequence(verbs.NOT_BE_TAKEN, _AWAY_FROM),
+            phrase(predicates.NOT_LEAVE, Toward.TO),
+            sequence(predicates.NOT_BE_TAKEN, _AWAY_FROM),
         ),
         noun_phrase,
         build=_kept_there,
     ),
     sequence(
         _NONE_OF_THEM,
-        either(phrase(verbs.LEAVE, Toward.TO), sequence(verbs.BE_TAKEN, _AWAY_FROM)),
+        either(phrase(predicates.LEAVE, Toward.TO), sequence(predicates.BE_TAKEN, _AWAY_FROM)),
         noun_phrase,
         build=_kept_there,
     ),

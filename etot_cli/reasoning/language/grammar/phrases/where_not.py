@@ -35,7 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     Toward,
 )
-from etot_cli.reasoning.language.words import nouns, places, verbs
+from etot_cli.reasoning.language.words import nouns, places, predicates
 
 
 def denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
@@ -104,7 +104,7 @@ WHERE = Rule(
                 sequence(after("anywhere"), "except"),
                 sequence(after("rather", "prefer"), "than"),
             ),
-            optional(verbs.BEING),
+            optional(predicates.BEING),
             separated(destination, "or, nor", most=3),
             not_ahead("first", "last"),  # "…, not the cup first" is no place
             build=_but_not,

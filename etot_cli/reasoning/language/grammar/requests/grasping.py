@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import GraspClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.skills.action import GraspPose
@@ -372,7 +372,7 @@ GRASP = quiet(
             sequence(
                 ALL_THINGS,
                 forbidden.NOT_TO_BE,
-                f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
+                f"{_BY_THE_HAND}, {predicates.TAKEN_UP}, lifted",
                 _POSE,
                 build=_not_so,
             ),
@@ -405,11 +405,11 @@ GRASP = quiet(
             ),
             sequence(
                 either(
-                    sequence(ALL_THINGS, verbs.TO_BE_DONE),
-                    sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+                    sequence(ALL_THINGS, predicates.TO_BE_DONE),
+                    sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
                     sequence(ALL_THINGS, OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA),
                 ),
-                f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
+                f"{_BY_THE_HAND}, {predicates.TAKEN_UP}, lifted",
                 OPTIONAL_COMMA,
                 POSES,
                 build=_asked,

@@ -44,7 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
     in_a_stance,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, predicates, small_words
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
@@ -55,7 +55,7 @@ _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONA
 _SO_THAT_IT_IS = sequence(
     OPTIONAL_COMMA,
     f"{small_words.SO_THAT}, until, till",
-    either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
+    either(sequence("it, they", predicates.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
 )
 _PARTICLE = f"""
     down, up, away, back, over, out, inside, out of the way, together, {manner.ONE_BY_ONE}

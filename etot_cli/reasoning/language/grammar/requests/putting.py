@@ -103,7 +103,15 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import (
+    forbidden,
+    manner,
+    nouns,
+    places,
+    predicates,
+    small_words,
+    verbs,
+)
 from etot_cli.reasoning.language.words.lexicon import (
     STATES,
     singular,
@@ -113,8 +121,8 @@ from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
 _GOING = either(
-    sequence(ALL_THINGS, verbs.MODAL),
-    sequence(verbs.WANTED, ALL_THINGS, f"{verbs.DONE}, to (go|be)"),
+    sequence(ALL_THINGS, predicates.MODAL),
+    sequence(predicates.WANTED, ALL_THINGS, f"{predicates.DONE}, to (go|be)"),
 )
 
 
@@ -220,7 +228,7 @@ def _down_or_back(things: Things, where: tuple[Destination, ...]) -> PutClause:
 
 
 OUT_AND_INTO = sequence(
-    SOURCE, either(DIRECTED, sequence(LIST, optional(f"go[es], {verbs.LIES}"), DESTINATIONS))
+    SOURCE, either(DIRECTED, sequence(LIST, optional(f"go[es], {predicates.LIES}"), DESTINATIONS))
 )
 """From one place to another ("out of the box and on the desk")."""
 
@@ -297,23 +305,25 @@ PUT = either(
     variants(sequence(noun_phrase, "(will|would) do for", ALL_THINGS), _suiting),
     sequence(
         either(
-            sequence(CHOICE, verbs.MODAL),
-            sequence(verbs.WANTED, CHOICE, optional("to be")),
-            sequence(verbs.ENSURE, CHOICE, verbs.BE),
+            sequence(CHOICE, predicates.MODAL),
+            sequence(predicates.WANTED, CHOICE, optional("to be")),
+            sequence(verbs.ENSURE, CHOICE, predicates.BE),
         ),
         DESTINATIONS,
         some(
-            sequence(LIST, phrase("the other [one]"), silent(optional(verbs.BE)), DESTINATIONS),
+            sequence(
+                LIST, phrase("the other [one]"), silent(optional(predicates.BE)), DESTINATIONS
+            ),
             most=1,
         ),
         build=_one_and_the_other,
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(ALL_THINGS, predicates.MODAL),
             valued(sequence(NP_LIST, EACH_SHOULD, build=said_of_all), Things),
-            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.TO_BE_THERE)),
-            sequence(verbs.CAN, ALL_THINGS, verbs.BE_PUT),
+            sequence(predicates.WANTED, ALL_THINGS, optional(predicates.TO_BE_THERE)),
+            sequence(predicates.CAN, ALL_THINGS, predicates.BE_PUT),
         ),
         DESTINATIONS,
         some(EXTRA, least=1, most=2),
@@ -321,8 +331,10 @@ PUT = either(
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}"),
-            sequence(verbs.WANTED, ALL_THINGS, optional(f"{verbs.DONE}, to (come|get|go)")),
+            sequence(ALL_THINGS, f"{predicates.MODAL}, {predicates.COME_AWAY}"),
+            sequence(
+                predicates.WANTED, ALL_THINGS, optional(f"{predicates.DONE}, to (come|get|go)")
+            ),
         ),
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
@@ -357,9 +369,11 @@ PUT = either(
         # With what is opened next it is rather out of the way of that.
         either(
             sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS),
-            sequence(ALL_THINGS, verbs.MODAL),
-            sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to be, {verbs.TO_BE_THERE}"))),
-            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+            sequence(ALL_THINGS, predicates.MODAL),
+            sequence(
+                predicates.WANTED, ALL_THINGS, silent(optional(f"to be, {predicates.TO_BE_THERE}"))
+            ),
+            sequence(verbs.ENSURE, ALL_THINGS, predicates.BE),
         ),
         either(
             phrase("aside, to one side", False),
@@ -372,13 +386,13 @@ PUT = either(
     sequence(phrase(f"{verbs.TAKE}, {verbs.REMOVE}"), THINGS, BESIDE, build=_taken_away),
     sequence(
         ALL_THINGS,
-        verbs.COME_AWAY,
+        predicates.COME_AWAY,
         optional("[back|right] (out|off|down|over)"),
         DIRECTED,
         build=put_to,
     ),
     sequence(
-        either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
+        either(sequence(noun_phrase, predicates.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
         ALL_THINGS,
         optional(phrase("each"), ""),
         build=lambda np, things, said: put_to(
@@ -387,7 +401,7 @@ PUT = either(
     ),
     sequence(
         # "Box A gets the cup and box B the plate"
-        sequence(noun_phrase, verbs.RECEIVE, noun_phrase, build=_received),
+        sequence(noun_phrase, predicates.RECEIVE, noun_phrase, build=_received),
         some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
         build=lambda first, more: PutClause((first, *more)),
     ),
@@ -411,12 +425,12 @@ PUT = either(
     sequence(
         either(FIRST_THEN, FROM_FIRST_TO_LAST),
         either(
-            verbs.MODAL,
+            predicates.MODAL,
             sequence(
                 COMMA,
                 either(
                     sequence(verbs.PUT, "them [both|all], both [of them], all of them"),
-                    sequence("both [of them], all of them, they [both|all]", verbs.MODAL),
+                    sequence("both [of them], all of them, they [both|all]", predicates.MODAL),
                     "both [of them], all [of them]",
                 ),
             ),
@@ -466,7 +480,7 @@ PUT = either(
             silent(sequence(verbs.ARRANGE, "things, everything, it", small_words.SO_THAT)),
         ),
         ALL_THINGS,
-        f"{verbs.BE}, {verbs.LIES}",
+        f"{predicates.BE}, {predicates.LIES}",
         DESTINATIONS,
         CONDITION,
         build=lambda things, where, so: replace(put_to(things, where), conditions=(so,)),

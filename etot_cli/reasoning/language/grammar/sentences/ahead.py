@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     State,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words
 from etot_cli.reasoning.language.words.places import Prep
 
 _NOT_THIS = either(
@@ -97,7 +97,10 @@ def _for_each(np: NounPhrase, rest: Reading) -> Reading | None:
 def not_so(chain: Parser) -> Parser:
     """What is not meant, or not to be, or for each of what it is, and then what is asked for."""
     there = sequence(
-        small_words.NOT_THERE, optional(verbs.BEING), valued(DESTINATIONS, denied), OPTIONAL_COMMA
+        small_words.NOT_THERE,
+        optional(predicates.BEING),
+        valued(DESTINATIONS, denied),
+        OPTIONAL_COMMA,
     )
     return either(
         sequence(LEFT_OUT, COMMA, chain, build=_without),

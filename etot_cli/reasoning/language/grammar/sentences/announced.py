@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Things,
 )
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import predicates, verbs
 from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
@@ -186,7 +186,7 @@ def _each_and_one(words: tuple[str, ...], places: tuple[str, ...]) -> Reading:
 
 ONE_FOR_EACH = either(
     sequence(
-        silent(optional(f"{verbs.PUT}, {verbs.WANTED}, there should be")),
+        silent(optional(f"{verbs.PUT}, {predicates.WANTED}, there should be")),
         "one, a, an",
         WORDS,
         "(in|into|on|onto|to|for) (each|every), per",

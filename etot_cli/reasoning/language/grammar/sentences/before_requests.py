@@ -119,7 +119,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words import manner, places, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 
 
@@ -260,11 +260,11 @@ _SO_BY_THEN = plain(
         sequence(ALL_THINGS, build=taken_out),
         sequence(
             ALL_THINGS,
-            optional(f"{verbs.BE}, out of the way, staying, safely, {verbs.DONE}"),
+            optional(f"{predicates.BE}, out of the way, staying, safely, {predicates.DONE}"),
             DESTINATIONS,
             build=put_to,
         ),
-        sequence(ALL_THINGS, verbs.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
+        sequence(ALL_THINGS, predicates.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
         sequence(
             ALL_THINGS,
             "[safely] [moved|put] (out of the way|aside)",
@@ -318,12 +318,12 @@ WITH_MORE_BEFORE_IT = either(
     sequence(NAMED, COLON, BARE_CHAIN, build=about),
     sequence(
         # "I want the cup off the tray and the plate there instead"
-        verbs.WANTED,
+        predicates.WANTED,
         sequence(BARE_CHAIN, build=_taken_first),
     ),
     sequence(
         # "I want the box with the pen in it and the tray empty"
-        verbs.WANTED,
+        predicates.WANTED,
         sequence(BARE_CHAIN, build=_all_so),
     ),
     sequence(plain(either(PUT, ENSURE)), COLON, PLACED, build=in_detail),
@@ -363,8 +363,8 @@ WITH_MORE_BEFORE_IT = either(
     sequence(
         either(
             sequence(f"{verbs.SET_DOWN}, {verbs.FETCH}", ALL_THINGS),
-            sequence(ALL_THINGS, verbs.MODAL),
-            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+            sequence(ALL_THINGS, predicates.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, predicates.BE),
         ),
         places.NOT_IN_THE_WAY,
         _AND,

@@ -110,7 +110,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -181,7 +181,7 @@ WITH_MORE_SO = either(
         # "I want the box empty and the tray holding the pen only"
         "and",
         LIST,
-        plain(sequence(holding_only(verbs.HOLDING), build=ensured)),
+        plain(sequence(holding_only(predicates.HOLDING), build=ensured)),
     ),
 )
 """How other things are to be besides ("…, with the door closed")."""

@@ -97,7 +97,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.known import LINKS
 from etot_cli.reasoning.language.words.patterns import words_of
 
@@ -151,7 +151,7 @@ LEFT_OUT = either(
 )
 
 
-_WHICH_GOES = sequence("~comma which", verbs.MODAL, DESTINATIONS)
+_WHICH_GOES = sequence("~comma which", predicates.MODAL, DESTINATIONS)
 
 
 _ELSEWHERE = sequence(

@@ -8,7 +8,7 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
 from etot_cli.reasoning.language.grammar.sentences.chains import JOINED, chained
 from etot_cli.reasoning.language.grammar.sentences.clauses import LED_CLAUSE, plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import MoveClause, put_to
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import predicates
 
 INVERTED = sequence(
     either(
@@ -19,7 +19,7 @@ INVERTED = sequence(
             sequence(
                 "should, may, can, could, must, shall, will, is, are, has, have, does, do",
                 ALL_THINGS,
-                f"[to] (go|come|be ({verbs.DONE_WITH_IT}))",
+                f"[to] (go|come|be ({predicates.DONE_WITH_IT}))",
                 DESTINATIONS,
                 build=put_to,
             )

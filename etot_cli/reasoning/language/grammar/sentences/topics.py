@@ -42,7 +42,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     is_descriptive,
@@ -136,7 +136,7 @@ _STATED = either(
         build=_all_of_any,
     ),
     sequence(
-        f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}",
+        f"there is, there are, (i|you|we) [can] see, you have, {predicates.OTHERS_WANT}",
         ALL_THINGS,
         build=_the_some,
     ),
@@ -210,7 +210,7 @@ AS_IT_STANDS = plain(
     quiet(
         sequence(
             noun_phrase,
-            f"{verbs.BE}, {verbs.LIES}",
+            f"{predicates.BE}, {predicates.LIES}",
             DESCRIBED,
             build=_stands_there,
         )
