@@ -6,7 +6,9 @@ from functools import cache
 from types import ModuleType
 
 from etot_cli.reasoning.language.words import (
+    fillers,
     forbidden,
+    frames,
     manner,
     nouns,
     places,
@@ -169,7 +171,7 @@ def _patterns(module: ModuleType) -> list[str]:
 @cache
 def all_words() -> frozenset[str]:
     """Every word that the grammar knows, worked out where something is not understood."""
-    modules = (manner, nouns, places, predicates, small_words, verbs)
+    modules = (fillers, frames, manner, nouns, places, predicates, small_words, verbs)
     return GRAMMAR_WORDS.union(*(words_of(_patterns(module)) for module in modules))
 
 
@@ -177,5 +179,8 @@ def all_words() -> frozenset[str]:
 def opening_words() -> frozenset[str]:
     """Words that a sentence may begin with that is not about a thing of the scene."""
     return GRAMMAR_WORDS.union(
-        *(openings_of(_patterns(item)) for item in (predicates, small_words, verbs))
+        *(
+            openings_of(_patterns(item))
+            for item in (fillers, frames, predicates, small_words, verbs)
+        )
     )

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.asides.lacking_room import lacks_room
 from etot_cli.reasoning.language.grammar.asides.mishaps import befalls, is_spared
 from etot_cli.reasoning.language.words import predicates, verbs
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.fillers import TURNED
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
@@ -24,7 +25,6 @@ from etot_cli.reasoning.language.words.lexicon import (
     word_set,
 )
 from etot_cli.reasoning.language.words.patterns import words_of
-from etot_cli.reasoning.language.words.small_words import TURNED
 
 IsName = Callable[[str], bool]
 """Whether something in the scene is called by a word."""

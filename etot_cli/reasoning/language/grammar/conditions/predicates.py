@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, predicates, small_words, verbs
+from etot_cli.reasoning.language.words import frames, manner, predicates, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
 _EMPTY = "empty"
@@ -149,7 +149,7 @@ def _in_that_state(word: str, np: NounPhrase) -> EnsureClause | None:
 
 BOTH_SO = either(
     sequence(
-        f"{small_words.GOAL_IS}, {small_words.TASK}",
+        f"{frames.GOAL_IS}, {frames.TASK}",
         "a, an, the",
         OPEN_OR_CLOSED,
         noun_phrase,

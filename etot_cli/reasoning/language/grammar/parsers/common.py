@@ -18,7 +18,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.input import Input
 from etot_cli.reasoning.language.grammar.text import splitting as text
-from etot_cli.reasoning.language.words import known, manner, nouns, small_words
+from etot_cli.reasoning.language.words import fillers, known, manner, nouns, small_words
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import PURPOSES, is_descriptive
 
@@ -27,7 +27,7 @@ exceptions = Rule()
 """Defined in ``noun_phrases``; what those contain contains them."""
 COMMA = text.COMMA
 COLON = text.COLON
-EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))
+EMPTY_WORDS = Rule(silent(some(phrase(fillers.WITHOUT_MEANING))))
 LIST_COMMA = silent(word(lambda _, text: text == COMMA))
 """No colon stands between things of one list."""
 

@@ -31,7 +31,7 @@ from etot_cli.reasoning.language.grammar.phrases.descriptions import (
 )
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
-from etot_cli.reasoning.language.words import nouns, small_words
+from etot_cli.reasoning.language.words import fillers, nouns
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     singular,
@@ -111,7 +111,7 @@ FREE_CHOICE = either(
         phrase("one of the, one of these, one of those, one of my, one of our"),
         WORDS,
         "~comma",
-        f"[(either|any) [one|of them]] ({small_words.ANY_WILL_DO})",
+        f"[(either|any) [one|of them]] ({fillers.ANY_WILL_DO})",
         either(COMMA, at_end),
         build=NounPhrase,
     ),

@@ -37,6 +37,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.words import (
     forbidden,
+    frames,
     manner,
     places,
     predicates,
@@ -203,7 +204,7 @@ REORIENT = either(
             sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
             sequence("have, having, get, getting", ALL_THINGS),
             sequence(predicates.CAN, ALL_THINGS, "[please] be"),
-            sequence(small_words.WISH_IF, ALL_THINGS, predicates.WERE_DONE),
+            sequence(frames.WISH_IF, ALL_THINGS, predicates.WERE_DONE),
         ),
         TURNED,
         build=turned,

@@ -26,7 +26,13 @@ from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import GraspClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import forbidden, manner, predicates, small_words, verbs
+from etot_cli.reasoning.language.words import (
+    fillers,
+    forbidden,
+    manner,
+    predicates,
+    verbs,
+)
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.skills.action import GraspPose
@@ -226,7 +232,7 @@ GRASPED = sequence(
         sequence(
             "[no matter] whether, no matter if",
             POSES,
-            optional(f"[that] ({small_words.DOES_NOT_MATTER})"),
+            optional(f"[that] ({fillers.DOES_NOT_MATTER})"),
         ),
         sequence(
             "[while|by] (keeping|holding)",
@@ -343,13 +349,13 @@ GRASP = quiet(
                 optional("(grasping|gripping|holding|grabbing|taking|lifting) (it|them)"),
                 _told(_OR_BOTH),
                 optional("[~comma] (either|any|both) [one|of them|way|grasp|grasps]"),
-                small_words.ANY_WILL_DO,
+                fillers.ANY_WILL_DO,
                 build=_so,
             ),
             sequence(
                 # "A side grip is fine, so is one from above"
                 _told(_POSE),
-                small_words.ANY_WILL_DO,
+                fillers.ANY_WILL_DO,
                 OPTIONAL_COMMA,
                 either(
                     sequence("[and] so (is|would be|will|does) [one]", _POSE, optional("one")),
@@ -358,7 +364,7 @@ GRASP = quiet(
                 build=lambda one, other: None if one is other else _so((one, other)),
             ),
             sequence(_NAMED_GRASP, build=_so),
-            sequence(_told(_OR_BOTH), "~comma", small_words.DOES_NOT_MATTER, build=_so),
+            sequence(_told(_OR_BOTH), "~comma", fillers.DOES_NOT_MATTER, build=_so),
             sequence(
                 "the (grasp|grip)", "(should|must|may|can|has to|needs to) be", POSES, build=_so
             ),
@@ -415,11 +421,11 @@ GRASP = quiet(
                 build=_asked,
             ),
             sequence(
-                f"[i] do not (care|mind), {small_words.DOES_NOT_MATTER}, no matter",
+                f"[i] do not (care|mind), {fillers.DOES_NOT_MATTER}, no matter",
                 either(_HOW, _WHETHER),
                 build=_anyhow,
             ),
-            sequence(either(_HOW, _WHETHER), small_words.DOES_NOT_MATTER, build=_anyhow),
+            sequence(either(_HOW, _WHETHER), fillers.DOES_NOT_MATTER, build=_anyhow),
             # "Whether you come at it from above or from the side, …"
             sequence(_WHETHER, build=lambda things: _so((), things)),
         ),

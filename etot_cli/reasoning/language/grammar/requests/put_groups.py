@@ -44,11 +44,11 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
     in_a_stance,
 )
-from etot_cli.reasoning.language.words import manner, predicates, small_words
+from etot_cli.reasoning.language.words import fillers, manner, predicates, small_words
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
-_MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
+_MANNER = silent(some(phrase(fillers.WITHOUT_MEANING), least=1, most=2))
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
 
 

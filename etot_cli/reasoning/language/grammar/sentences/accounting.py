@@ -47,6 +47,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.words import manner, predicates
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.fillers import SO_LONG, SOMEBODY_LEFT, WITHOUT_MEANING
+from etot_cli.reasoning.language.words.frames import FRAMES
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -63,13 +65,7 @@ from etot_cli.reasoning.language.words.places import (
     SOMEWHERE_FREE,
     Prep,
 )
-from etot_cli.reasoning.language.words.small_words import (
-    FRAMES,
-    SO_LONG,
-    SOMEBODY_COMES,
-    SOMEBODY_LEFT,
-    WITHOUT_MEANING,
-)
+from etot_cli.reasoning.language.words.small_words import SOMEBODY_COMES
 from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
 

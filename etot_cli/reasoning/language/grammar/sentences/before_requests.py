@@ -119,7 +119,15 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, places, predicates, small_words, verbs
+from etot_cli.reasoning.language.words import (
+    fillers,
+    frames,
+    manner,
+    places,
+    predicates,
+    small_words,
+    verbs,
+)
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 
 
@@ -301,7 +309,7 @@ WITH_MORE_BEFORE_IT = either(
         either(
             sequence("(here|this|that) is how", NAMED, "(should|must|has to|is to) (look|be)"),
             sequence(NAMED, "(should|must|has to) (look|be) like this"),
-            sequence(small_words.LIKE_THIS, NAMED, "like this, as follows, this way"),
+            sequence(frames.LIKE_THIS, NAMED, "like this, as follows, this way"),
         ),
         COMMA,
         either(CHAIN, PLACED),
@@ -334,14 +342,14 @@ WITH_MORE_BEFORE_IT = either(
     sequence(NAMED, COMMA, BARE_CHAIN, build=each_sorted),
     sequence(
         noun_phrase,
-        small_words.ANY_WILL_DO,
+        fillers.ANY_WILL_DO,
         either(COMMA, "so, ~comma so"),
         CHAIN,
         build=any_of_them,
     ),
     sequence(
         noun_phrase,
-        f"({small_words.ANY_WILL_DO}) for",
+        f"({fillers.ANY_WILL_DO}) for",
         noun_phrase,
         either(COMMA, "so, ~comma so"),
         CHAIN,
@@ -432,7 +440,7 @@ WITH_MORE_BEFORE_IT = either(
         build=all_put,
     ),
     sequence(
-        f"{small_words.TASK}, {small_words.END_STATE}",
+        f"{frames.TASK}, {small_words.END_STATE}",
         IN_THE_END,
         some(either(joint("and", LIST, IN_THE_END), WITH_MORE_SO), most=6),
         build=chained,
@@ -454,7 +462,7 @@ WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(
-        "if you (could|would)", CHAIN, COMMA, f"[then] ({small_words.WOULD_BE_NICE}), that would do"
+        "if you (could|would)", CHAIN, COMMA, f"[then] ({frames.WOULD_BE_NICE}), that would do"
     ),
     sequence(
         # "With the drawer kept shut, …"

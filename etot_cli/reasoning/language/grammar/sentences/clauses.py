@@ -97,7 +97,15 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, nouns, predicates, small_words, verbs
+from etot_cli.reasoning.language.words import (
+    fillers,
+    frames,
+    manner,
+    nouns,
+    predicates,
+    small_words,
+    verbs,
+)
 from etot_cli.reasoning.language.words.known import LINKS
 from etot_cli.reasoning.language.words.patterns import words_of
 
@@ -302,10 +310,10 @@ _BEFORE_A_VERB = Parser(
 LEAD = sequence(
     some(
         either(
-            small_words.FRAMES,
+            frames.FRAMES,
             sequence("do", _BEFORE_A_VERB),
-            sequence(small_words.I_THINK, _OPINION),
-            small_words.WITHOUT_MEANING,
+            sequence(frames.I_THINK, _OPINION),
+            fillers.WITHOUT_MEANING,
             sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA),
             COMMA,
         ),

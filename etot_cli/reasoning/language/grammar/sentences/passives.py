@@ -42,7 +42,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import predicates, small_words, verbs
+from etot_cli.reasoning.language.words import frames, predicates, verbs
 from etot_cli.reasoning.language.words.patterns import words_of
 
 
@@ -73,7 +73,7 @@ PASSIVE = sequence(
         sequence("have, having, get, getting", ALL_THINGS),
         sequence(predicates.CAN, ALL_THINGS, "[please] be"),
         sequence(verbs.ENSURE, ALL_THINGS, "is, are, get[s], (has|have) been"),
-        sequence(small_words.WISH_IF, EMPTY_WORDS, ALL_THINGS, predicates.WERE_DONE),
+        sequence(frames.WISH_IF, EMPTY_WORDS, ALL_THINGS, predicates.WERE_DONE),
     ),
     _TAKEN,
     build=_taken,

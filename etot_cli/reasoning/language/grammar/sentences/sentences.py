@@ -64,7 +64,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, State
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION
-from etot_cli.reasoning.language.words import manner, small_words
+from etot_cli.reasoning.language.words import fillers, frames, manner, small_words
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -164,7 +164,7 @@ def _aside(joined: tuple[str, Reading]) -> tuple[str, Reading]:
     return said, (replace(placed, far_fetched=1), *rest)
 
 
-_GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
+_GREETING = silent(some(either(frames.GREETINGS, fillers.WITHOUT_MEANING, COMMA), most=6))
 
 
 WHOLE = either(

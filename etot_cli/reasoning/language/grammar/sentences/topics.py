@@ -42,7 +42,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import predicates, small_words, verbs
+from etot_cli.reasoning.language.words import fillers, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     is_descriptive,
@@ -101,14 +101,14 @@ _STATED = either(
     sequence(
         optional("(i|we) (noticed|notice|see|saw|think|believe|guess|know) [that]"),
         noun_phrase,
-        small_words.FOUND,
+        fillers.FOUND,
         DESCRIBED,
-        silent(optional(f"{small_words.SO_LONG}, {small_words.BY_NOW}")),
+        silent(optional(f"{fillers.SO_LONG}, {fillers.BY_NOW}")),
         build=lambda np, said: Things((np.told_by(said),)),
     ),
     sequence(
         noun_phrase,
-        small_words.FELL,
+        fillers.FELL,
         one_of({Prep.IN: "in, into, inside", Prep.ON: "on, onto"}),
         noun_phrase,
         build=lambda np, prep, at: Things((np.told_by(Modifier(prep, (at,))),)),
@@ -123,7 +123,7 @@ _STATED = either(
         build=_identified,
     ),
     sequence(
-        small_words.SOMEBODY_LEFT,
+        fillers.SOMEBODY_LEFT,
         noun_phrase,
         optional(DESCRIBED, None),
         build=lambda np, said: (
@@ -132,7 +132,7 @@ _STATED = either(
     ),
     sequence(
         noun_phrase,
-        small_words.ANY_WILL_DO,
+        fillers.ANY_WILL_DO,
         build=_all_of_any,
     ),
     sequence(
@@ -153,8 +153,8 @@ def _meant_for(things: Things, words: tuple[str, ...]) -> Things | None:
 _REMARK = either(
     sequence(ALL_THINGS, "(is|are|stands|lies) [right] in the way of", silent(noun_phrase)),
     sequence(ALL_THINGS, "is for, are for", WORDS, build=_meant_for),
-    sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
-    sequence(small_words.DONE_WITH, ALL_THINGS, silent(optional(small_words.ANY_MORE))),
+    sequence(ALL_THINGS, either(fillers.REMARKS, sequence("is for, are for", silent(WORDS)))),
+    sequence(fillers.DONE_WITH, ALL_THINGS, silent(optional(small_words.ANY_MORE))),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
     sequence(
         "(i|we) (need|want|have) to (get (at|into|inside|in)|reach [into]), let me get (at|into)",

@@ -50,7 +50,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import nouns, predicates, small_words, verbs
+from etot_cli.reasoning.language.words import frames, nouns, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 
 _MOVED = word_set("off out gone farther further closer nearer")
@@ -204,7 +204,7 @@ _SO_WISHED = sequence(
     build=lambda first, more: EnsureClause((first, *more)),
 )
 WISHED = either(
-    sequence(small_words.WISH_IF, EMPTY_WORDS, _SO_WISHED),
+    sequence(frames.WISH_IF, EMPTY_WORDS, _SO_WISHED),
     quiet(
         sequence(
             # "As long as the pen is in a cup, I am happy"
@@ -212,7 +212,7 @@ WISHED = either(
             _SO_WISHED,
             silent(optional(small_words.BY_THE_END)),
             COMMA,
-            f"[then] ({small_words.WOULD_BE_NICE}|{small_words.IS_ENOUGH})",
+            f"[then] ({frames.WOULD_BE_NICE}|{frames.IS_ENOUGH})",
         )
     ),
 )
