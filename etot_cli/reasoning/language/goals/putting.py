@@ -37,7 +37,7 @@ from etot_cli.reasoning.language.goals.choosing import (
 )
 from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.counting import counted
+from etot_cli.reasoning.language.goals.counting import check_enough, count_of_places, counted
 from etot_cli.reasoning.language.goals.described import note_described
 from etot_cli.reasoning.language.goals.homes import (
     in_stead,
@@ -46,14 +46,7 @@ from etot_cli.reasoning.language.goals.homes import (
     replaced_by,
     where_is,
 )
-from etot_cli.reasoning.language.goals.pairing import (
-    add_pairs,
-    check_enough,
-    count_of_places,
-    distributed,
-    elsewhere,
-    is_different,
-)
+from etot_cli.reasoning.language.goals.pairing import add_pairs
 from etot_cli.reasoning.language.goals.placing import add_put, add_puts, check_no_side, spread
 from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is, leave_out
 from etot_cli.reasoning.language.goals.removing import remove
@@ -61,6 +54,9 @@ from etot_cli.reasoning.language.goals.ruled_out import not_beside, rule_out
 from etot_cli.reasoning.language.goals.sharing import (
     bystanders,
     check_stance,
+    distributed,
+    elsewhere,
+    is_different,
     is_left,
     rest_there,
     shared,

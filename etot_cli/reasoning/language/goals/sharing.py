@@ -1,4 +1,4 @@
-"""Which things share a place, or are left in it."""
+"""Which things share a place, have one each, or are left in it."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
     Modifier,
     NounPhrase,
     State,
@@ -23,6 +24,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -109,3 +111,51 @@ def bystanders(context: Context, condition: State) -> list[int]:
         narrowed = options(there) == [1] and len(options(np)) > 1
         phrases.append(there if narrowed else np)
     return context.phrases.things(Things(tuple(phrases)), Role.THEME)
+
+
+_DIFFERENT = frozenset({"different", "separate", "distinct"})
+
+
+def is_different(group: PutGroup) -> bool:
+    """Whether a place is to be "a different one", of several things or from where it is now."""
+    targets = [target for item in group.destinations for target in item.targets]
+    return any(target.words[:1] == ("different",) for target in targets)
+
+
+def elsewhere(group: PutGroup) -> PutGroup:
+    """Of one thing "a different shelf" is another one than that on which it stands."""
+    return group.going_to(
+        lambda np: (
+            replace(np, determiner="another", words=np.words[1:])
+            if np.words[:1] == ("different",)
+            else np
+        )
+    )
+
+
+def distributed(group: PutGroup, grouping: Grouping) -> tuple[tuple[Destination, ...], Grouping]:
+    """The destinations without such words, and what they say.
+
+    Args:
+        group: things and destinations.
+        grouping: what the rest of the sentence says; such words overrule it.
+    """
+    destinations = []
+    for destination in group.destinations:
+        targets = []
+        for target in destination.targets:
+            plain, said = _target(target)
+            grouping = said or grouping
+            targets.append(plain)
+        destinations.append(replace(destination, targets=tuple(targets)))
+    return tuple(destinations), grouping
+
+
+def _target(phrase: NounPhrase) -> tuple[NounPhrase, Grouping | None]:
+    words = phrase.words
+    if words[:1] == ("own",) and phrase.determiner in ("its", "their"):
+        return replace(phrase, determiner="one", words=words[1:]), Grouping.SEPARATELY
+    if words and words[0] in _DIFFERENT:
+        determiner = "one" if singular(words[-1]) == words[-1] else ""
+        return replace(phrase, determiner=determiner, words=words[1:]), Grouping.SEPARATELY
+    return phrase, None
