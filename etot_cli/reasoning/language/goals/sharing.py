@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 
 from msgspec.structs import replace
 
@@ -18,7 +17,6 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Modifier,
     NounPhrase,
-    State,
     Things,
     Toward,
 )
@@ -90,27 +88,6 @@ def shared(
             targets.append(target)
         destinations.append(replace(item, targets=tuple(targets)))
     return replace(group, destinations=tuple(destinations)), grouping
-
-
-def bystanders(context: Context, condition: State) -> list[int]:
-    """What some place is said of; of several pens, "with the pen in it" is about the one there."""
-
-    def options(np: NounPhrase) -> list[int]:
-        """How many things each of those is that a phrase may mean."""
-        with suppress(ReferenceProblem):
-            return [len(option) for option in context.phrases.meaning(np, Role.THEME).options]
-        return []
-
-    (where, *more) = condition.destinations
-    prep = {Toward.INSIDE: Prep.IN, Toward.ON: Prep.ON}.get(where.toward)
-    phrases: list[NounPhrase] = []
-    for np in condition.subjects:
-        there = np
-        if prep and where.targets and not more and np.determiner == "the":
-            there = np.told_by(Modifier(prep, where.targets))
-        narrowed = options(there) == [1] and len(options(np)) > 1
-        phrases.append(there if narrowed else np)
-    return context.phrases.things(Things(tuple(phrases)), Role.THEME)
 
 
 _DIFFERENT = frozenset({"different", "separate", "distinct"})
