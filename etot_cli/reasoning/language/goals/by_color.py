@@ -12,10 +12,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_to, all_places
 from etot_cli.reasoning.language.grammar.phrases.descriptions import ANY_SUCH
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Modifier,
-    NounPhrase,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of

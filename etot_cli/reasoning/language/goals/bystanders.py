@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 
-from etot_cli.reasoning.builtin.goal import (
-    Place,
-    things_in,
-)
+from etot_cli.reasoning.builtin.goal import Place, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.choosing import choose_by_place

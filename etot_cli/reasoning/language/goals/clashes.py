@@ -9,9 +9,7 @@ from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Relation, Thing, t
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
-from etot_cli.reasoning.language.grammar.phrases.contents import (
-    HERE_BEFORE,
-)
+from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches

@@ -13,11 +13,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.counting import parts_of_a_unit
 from etot_cli.reasoning.language.goals.placing import add_put, add_to, all_places
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    NounPhrase,
-    Things,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
 from etot_cli.reasoning.language.reference.choosing.instances import MAX_OPTIONS, is_of_each
 from etot_cli.reasoning.language.reference.geometry.space import gap, touches
 from etot_cli.reasoning.language.reference.geometry.vessels import goes_in

@@ -7,14 +7,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Grouping,
-    Place,
-    Put,
-    Relation,
-    Thing,
-    things_in,
-)
+from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context

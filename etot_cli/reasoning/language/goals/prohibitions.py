@@ -9,13 +9,7 @@ from operator import attrgetter
 
 from msgspec import structs
 
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Constraint,
-    Keep,
-    Open,
-    Put,
-)
+from etot_cli.reasoning.builtin.goal import Close, Constraint, Keep, Open, Put
 from etot_cli.reasoning.builtin.relations import bearers, carriers, is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import check_alone

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Grouping,
-    Pick,
-    Put,
-    Thing,
-)
+from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side, told_sides
 from etot_cli.reasoning.language.goals.alone import check_alone, check_counted
@@ -56,9 +51,7 @@ from etot_cli.reasoning.language.goals.sharing import (
 )
 from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along
 from etot_cli.reasoning.language.goals.stance import with_stance
-from etot_cli.reasoning.language.goals.turned import (
-    ensure_turned,
-)
+from etot_cli.reasoning.language.goals.turned import ensure_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -70,12 +63,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Turns,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Destination,
-    State,
-    Things,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, State, Things, Toward
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import is_distributive
 from etot_cli.reasoning.language.words.expressions import Expression

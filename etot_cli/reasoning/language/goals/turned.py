@@ -28,10 +28,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import so_many_turned
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.ruled_out import is_not_chosen
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    NounPhrase,
-    State,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import singular

@@ -20,11 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     some,
     valued,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    LIST,
-    OPTIONAL_COMMA,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.being_so import (
     ALWAYS,
     IS_OPEN_OR_CLOSED,

@@ -7,11 +7,7 @@ from functools import partial
 from etot_cli.reasoning.language.grammar.parsers.combinators import either, one_of, phrase, sequence
 from etot_cli.reasoning.language.grammar.parsers.common import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
-from etot_cli.reasoning.language.grammar.syntax.clauses import (
-    Avoid,
-    AvoidClause,
-    ReorientClause,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.words import forbidden, predicates
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular

@@ -12,11 +12,7 @@ from etot_cli.reasoning.language.grammar.conditions.falling import (
     unharmed,
     unhit,
 )
-from etot_cli.reasoning.language.grammar.conditions.instruments import (
-    LET_MEET,
-    WITH_IT,
-    with_it,
-)
+from etot_cli.reasoning.language.grammar.conditions.instruments import LET_MEET, WITH_IT, with_it
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     one_of,
@@ -26,17 +22,11 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    COMMA,
-    OPTIONAL_COMMA,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING
-from etot_cli.reasoning.language.grammar.syntax.clauses import (
-    Avoid,
-    AvoidClause,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     NounPhrase,

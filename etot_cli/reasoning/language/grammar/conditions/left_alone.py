@@ -15,22 +15,12 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     some,
     spanned,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    OPTIONAL_COMMA,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIER
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.emptying import stays_empty
-from etot_cli.reasoning.language.grammar.syntax.clauses import (
-    Avoid,
-    AvoidClause,
-)
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Modifier,
-    NounPhrase,
-    Things,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.places import Prep

@@ -21,10 +21,7 @@ from etot_cli.reasoning.language.grammar.conditions.forbidden_acts import (
     NO_CONTACT,
     TOUCHED_OR_MOVED,
 )
-from etot_cli.reasoning.language.grammar.conditions.instruments import (
-    MEETING,
-    NOT_MET,
-)
+from etot_cli.reasoning.language.grammar.conditions.instruments import MEETING, NOT_MET
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     one_of,
@@ -35,11 +32,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    OPTIONAL_COMMA,
-    WORDS,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, WORDS, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.being_so import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS

@@ -14,10 +14,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    IN_HAND,
-    OPTIONAL_COMMA,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import IN_HAND, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
     DESTINATIONS,
     destination,

@@ -20,17 +20,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     spanned,
     valued,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    COMMA,
-    EXACTLY,
-    LIST,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, EXACTLY, LIST, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.descriptions import BETWEEN
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Beside,
-    NounPhrase,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Beside, NounPhrase
 from etot_cli.reasoning.language.words import places, predicates
 from etot_cli.world.spatial import Nearby
 

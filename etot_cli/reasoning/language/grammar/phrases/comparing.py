@@ -20,11 +20,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
-from etot_cli.reasoning.language.words.lexicon import (
-    ORDINALS,
-    SIZES,
-    singular,
-)
+from etot_cli.reasoning.language.words.lexicon import ORDINALS, SIZES, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 COMPARED = word(lambda given, text: text in SIZES and text.endswith(("er", "est")))

@@ -34,11 +34,7 @@ from etot_cli.reasoning.language.grammar.phrases.descriptions import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import manner, nouns
-from etot_cli.reasoning.language.words.lexicon import (
-    COMMON_NOUNS,
-    LEVELS,
-    is_descriptive,
-)
+from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, is_descriptive
 from etot_cli.reasoning.language.words.places import Prep
 
 LEFT = optional(manner.IS_LEFT)

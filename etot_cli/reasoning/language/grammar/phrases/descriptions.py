@@ -16,11 +16,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
     word,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    EXACTLY,
-    LIST,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import EXACTLY, LIST, noun_phrase
 from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
 from etot_cli.reasoning.language.grammar.phrases.contents import CONTENTS
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated

@@ -35,13 +35,7 @@ from etot_cli.reasoning.language.grammar.phrases.beside import (
 from etot_cli.reasoning.language.grammar.phrases.colors import ONE_OF_A_COLOR
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated, with_noun_of
 from etot_cli.reasoning.language.grammar.phrases.levels import AT_AN_END, AT_LEVEL, NEXT_LEVEL
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
-    BE_IT,
-    EITHER_SIDE,
-    one_out_of,
-    one_so,
-    tells_which,
-)
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ONE_TOLD_BEHIND, tells_which
 from etot_cli.reasoning.language.grammar.phrases.steads import (
     INSTEAD_OF_IT,
     STEAD,
@@ -75,13 +69,7 @@ def _any_target(nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | 
 
 TARGETS = either(
     sequence(alternatives(noun_phrase, 5), build=_any_target),
-    # "In one of the cups, be it the red or the blue one"
-    sequence(
-        noun_phrase,
-        EITHER_SIDE,
-        build=lambda np, sides: None if (one := one_so(np, sides)) is None else one.phrases,
-    ),
-    sequence(noun_phrase, COMMA, BE_IT, alternatives(noun_phrase, 3), build=one_out_of),
+    valued(ONE_TOLD_BEHIND, lambda one: one.phrases),
 )
 _HOMES = frozenset(spellings(places.HOME))
 
@@ -168,13 +156,10 @@ def _and_beside(surface: Parser) -> Parser:
 
 
 _on_beside = _and_beside(_ON_OR_IN)
-_WHERE_IT_IS = either(WITH, STEAD)
 _place = either(
-    INTO,
-    ONTO,
+    _ON_OR_IN,
     _AT_END,
     OVER,
-    _to,
     _in_front,
     _free,
     _top_of,
@@ -241,7 +226,7 @@ destination = Rule(
             _place,
             sequence(
                 places.UP_OR_DOWN,
-                either(INTO, ONTO, _to, _beside_something, _on_beside, _WHERE_IT_IS),
+                either(_ON_OR_IN, _beside_something, _on_beside, WITH, STEAD),
             ),
             sequence("directly, straight", either(INTO, ONTO)),
         ),

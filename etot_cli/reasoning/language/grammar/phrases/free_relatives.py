@@ -16,12 +16,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     sequence,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    COMMA,
-    WORDS,
-    exceptions,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, WORDS, exceptions, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE, WHERE_THAT_IS
 from etot_cli.reasoning.language.grammar.phrases.contrasts import LEAVING_OUT, without_such
 from etot_cli.reasoning.language.grammar.phrases.descriptions import (
@@ -33,9 +28,7 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import fillers, nouns
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import (
-    singular,
-)
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 

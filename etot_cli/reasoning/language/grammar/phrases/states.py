@@ -18,17 +18,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    LIST,
-    OPTIONAL_COMMA,
-    noun_phrase,
-)
-from etot_cli.reasoning.language.grammar.phrases.being_so import (
-    NONE,
-    PREDICATE,
-    ensured,
-    state_of,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.being_so import NONE, PREDICATE, ensured, state_of
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.staying import KEPT_THERE, STAYS, staying

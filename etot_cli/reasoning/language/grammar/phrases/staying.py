@@ -14,11 +14,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    COMMA,
-    OPTIONAL_COMMA,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.being_so import (
     ALWAYS,
     NONE,
@@ -28,9 +24,7 @@ from etot_cli.reasoning.language.grammar.phrases.being_so import (
     ensured,
     state_of,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    DESTINATIONS,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (

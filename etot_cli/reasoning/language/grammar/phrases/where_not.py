@@ -16,25 +16,15 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     separated,
     sequence,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    OPTIONAL_COMMA,
-    after,
-    not_ahead,
-)
-from etot_cli.reasoning.language.grammar.phrases.beside import (
-    side_of,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, after, not_ahead
+from etot_cli.reasoning.language.grammar.phrases.beside import side_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
     DESTINATIONS,
     TARGETS,
     THE_DESK,
     destination,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Destination,
-    NounPhrase,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.words import nouns, places, predicates
 
 

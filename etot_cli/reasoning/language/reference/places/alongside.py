@@ -10,11 +10,7 @@ from msgspec.structs import replace
 from etot_cli.reasoning.builtin.goal import Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Beside,
-    Modifier,
-    NounPhrase,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Beside, Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.choosing.modified import names_of_things
 from etot_cli.reasoning.language.reference.geometry.rows import is_column
 from etot_cli.reasoning.language.reference.geometry.space import OPPOSITE, is_flat

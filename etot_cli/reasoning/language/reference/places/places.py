@@ -41,19 +41,11 @@ from etot_cli.reasoning.language.reference.places.spoken_places import (
 )
 from etot_cli.reasoning.language.reference.places.spots import Spots
 from etot_cli.reasoning.language.reference.places.surroundings import Surroundings
-from etot_cli.reasoning.language.reference.pronouns.coreference import (
-    antecedents,
-    meant_by_it,
-)
+from etot_cli.reasoning.language.reference.pronouns.coreference import antecedents, meant_by_it
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.words.categories import has_no_top
 from etot_cli.reasoning.language.words.known import REASONS
-from etot_cli.reasoning.language.words.lexicon import (
-    JOINT_NOUNS,
-    SIDES,
-    matches_any,
-    singular,
-)
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, SIDES, matches_any, singular
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import AT_END, OVER, THEREIN, Prep

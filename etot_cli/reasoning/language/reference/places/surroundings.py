@@ -10,11 +10,7 @@ from msgspec.structs import replace
 from etot_cli.reasoning.builtin.goal import Near, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Beside,
-    Destination,
-    NounPhrase,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Beside, Destination, NounPhrase
 from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.geometry.areas import side_across
 from etot_cli.reasoning.language.reference.geometry.space import OPPOSITE

@@ -23,9 +23,7 @@ from etot_cli.reasoning.language.reference.memory.by_now import (
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
-from etot_cli.reasoning.language.reference.naming.usual_form import (
-    usual_form,
-)
+from etot_cli.reasoning.language.reference.naming.usual_form import usual_form
 from etot_cli.reasoning.language.reference.pronouns.meanings import Meanings
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
