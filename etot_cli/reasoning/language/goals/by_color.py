@@ -24,7 +24,7 @@ def is_matching(phrase: NounPhrase) -> bool:
     return any(item.prep is Prep.MATCHING for item in phrase.modifiers)
 
 
-def unmatched(phrase: NounPhrase) -> NounPhrase:
+def _unmatched(phrase: NounPhrase) -> NounPhrase:
     """A phrase that asks for no colour, whatever its number."""
     kept = tuple(item for item in phrase.modifiers if item.prep is not Prep.MATCHING)
     return replace(phrase, modifiers=kept)
@@ -56,7 +56,7 @@ def to_that_one(group: PutGroup) -> PutGroup:
 def add_by_color(context: Context, group: PutGroup) -> None:
     """Adds a step for each thing, to the places of its colour."""
     phrases, text = group.things.phrases, group.things.text
-    toward, targets = all_places(context, group.going_to(unmatched), text)
+    toward, targets = all_places(context, group.going_to(_unmatched), text)
     if _is_of_another_color(group):
         (theme, *more) = context.phrases.things(group.things, Role.THEME)
         (thing, *further) = context.only(theme, "say which ones")
@@ -67,7 +67,7 @@ def add_by_color(context: Context, group: PutGroup) -> None:
         return
     if any(map(is_matching, phrases)):
         # "The matching lid on the pot": the pot is known, its lid is sought.
-        plain = [context.phrases.meaning(unmatched(phrase), Role.THEME) for phrase in phrases]
+        plain = [context.phrases.meaning(_unmatched(phrase), Role.THEME) for phrase in phrases]
         fitting = [thing for item in plain for thing in things_in(item.options)]
         themes = [_of_color(context, target, fitting, text) for target in targets]
         if any(len(found) != 1 for found in themes):

@@ -83,7 +83,7 @@ def in_turn(
             if (
                 one.final
                 and sweeping
-                and part not in filled_parts(steps[at:then], referents, scene)
+                and part not in _filled_parts(steps[at:then], referents, scene)
             ):
                 raise _both(part, other, referents)
             steps[at] = replace(one, final=False)
@@ -107,7 +107,7 @@ def _both(part: str, step: Step, referents: Sequence[Referent]) -> ReferenceProb
     return ReferenceProblem(referents[step.what].text, why, 4)
 
 
-def filled_parts(
+def _filled_parts(
     steps: Sequence[Step], referents: Sequence[Referent], scene: SceneState
 ) -> Iterator[str]:
     """The parts that steps put something into."""
@@ -150,7 +150,7 @@ def _keep_as_it_is(
     if not every:
         context.discourse.as_it_stands(index, holds, called, word)
     # Behind what goes in one of them, "leave all drawers shut" says how they are to be in the end.
-    filled = {*filled_parts(context.done, context.discourse.referents, context.scene)}
+    filled = {*_filled_parts(context.done, context.discourse.referents, context.scene)}
     for thing in context.discourse.things(index):
         for part in parts_of(context.scene, thing):
             name = f"{part.owner}.{part.name}"

@@ -53,8 +53,8 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 from etot_cli.reasoning.language.words.places import Prep
 
-PRONOUN = phrase("it, them, they, this, that, these, those, its, he, him, she, her")
-ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
+_PRONOUN = phrase("it, them, they, this, that, these, those, its, he, him, she, her")
+_ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
 _NEAREST = word_set("nearest closest farthest furthest")
 
 
@@ -208,7 +208,7 @@ NAMED = spanned(
             WORDS,
             build=lambda words: NounPhrase("the", words, (Modifier(Prep.MATCHING),)),
         ),
-        sequence(OPTIONAL_DETERMINER, ROBOT, build=lambda det, text: NounPhrase(det, (text,))),
+        sequence(OPTIONAL_DETERMINER, _ROBOT, build=lambda det, text: NounPhrase(det, (text,))),
         sequence(OPTIONAL_DETERMINER, "non", NOUN_WORD, WORDS, MODIFIERS, build=_negative),
         sequence(DETERMINER, "not", NOUN_WORD, WORDS, MODIFIERS, build=_negative),
         sequence(
@@ -272,7 +272,7 @@ NAMED = spanned(
                 "the", part[0], part[1], owner=NounPhrase(det, owner, text=" ".join(owner))
             ),
         ),
-        sequence(PRONOUN, MODIFIERS, build=_pronoun),
+        sequence(_PRONOUN, MODIFIERS, build=_pronoun),
         sequence(
             phrase("them, they, these, those"),
             phrase("all, both"),
@@ -280,7 +280,7 @@ NAMED = spanned(
         ),
         sequence(
             DETERMINER,
-            PRONOUN,
+            _PRONOUN,
             build=lambda det, pronoun: (
                 None if det in nouns.THE_WORDS else NounPhrase(det, pronoun=pronoun)
             ),
