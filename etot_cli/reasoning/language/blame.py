@@ -17,11 +17,7 @@ from etot_cli.reasoning.language.grammar.sentences.reader import (
 from etot_cli.reasoning.language.grammar.text.splitting import COLON, COMMA, QUESTION, spaced
 from etot_cli.reasoning.language.words import known
 from etot_cli.reasoning.language.words.categories import is_category
-from etot_cli.reasoning.language.words.lexicon import (
-    is_descriptive,
-    is_in_lexicon,
-    matches_any,
-)
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, is_in_lexicon, matches_any
 from etot_cli.reasoning.language.words.nouns import BODY_NOUNS, THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import INTO, NEARBY, ONTO, OVER, TO

@@ -7,22 +7,13 @@ from dataclasses import replace
 
 from msgspec import structs
 
-from etot_cli.reasoning.builtin.goal import (
-    Grouping,
-    Near,
-    Place,
-    Relation,
-    Thing,
-)
+from etot_cli.reasoning.builtin.goal import Grouping, Near, Place, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
-from etot_cli.reasoning.language.grammar.phrases.abreast import EACH_OTHER
+from etot_cli.reasoning.language.grammar.phrases.beside import EACH_OTHER
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    NounPhrase,
-    Things,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.reference.geometry.space import OPPOSITE
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.world.spatial import Nearby

@@ -9,9 +9,9 @@ from msgspec import structs
 
 from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Relation, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.by_color import is_matching
 from etot_cli.reasoning.language.goals.closer import certain
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.pairing import is_matching
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes

@@ -6,13 +6,7 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Grouping,
-    Place,
-    Put,
-    Relation,
-    Thing,
-)
+from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put

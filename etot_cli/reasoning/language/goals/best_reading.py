@@ -6,15 +6,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from etot_cli.errors import InstructionError
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Goal,
-    Keep,
-    Open,
-    Pick,
-    Put,
-    Referent,
-)
+from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.goals.plausibility import (

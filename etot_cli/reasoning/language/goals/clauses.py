@@ -46,11 +46,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     SwapClause,
     TowerClause,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    NounPhrase,
-    Things,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.by_now import note_placed, note_turned
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved

@@ -11,14 +11,10 @@ from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
-from etot_cli.reasoning.language.grammar.phrases.destinations import AS_SAID
 from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
-from etot_cli.reasoning.language.grammar.syntax.clauses import (
-    EnsureClause,
-    PutClause,
-    PutGroup,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    AS_SAID,
     Destination,
     State,
     Things,

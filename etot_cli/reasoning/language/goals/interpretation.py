@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.builtin.goal import (
-    Goal,
-    Put,
-    things_in,
-)
+from etot_cli.reasoning.builtin.goal import Goal, Put, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
 from etot_cli.reasoning.language.goals.best_reading import best_reading

@@ -7,14 +7,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Grouping,
-    Place,
-    Put,
-    Relation,
-    Thing,
-    things_in,
-)
+from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -25,6 +18,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
+from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK
@@ -229,3 +223,33 @@ def _covered(context: Context, phrase: NounPhrase, lids: Sequence[int]) -> tuple
         with suppress(ReferenceProblem):
             return context.phrases.refer(phrase, Role.CONTAINER, lids)
     return context.phrases.refer(phrase, Role.PLACE, lids)
+
+
+_ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE, Toward.TO: Role.PLACE}
+
+
+def add_to(
+    context: Context,
+    themes: Sequence[int],
+    toward: Toward,
+    resolved: Resolved,
+    text: str,
+    grouping: Grouping,
+) -> None:
+    """Adds the step that puts things into or onto what has been resolved."""
+    where = context.discourse.add(resolved, text, _ROLES[toward])
+    places = tuple(in_or_on(context.discourse, toward, where, themes))
+    context.discourse.put |= {*themes}
+    context.steps.append(Put(tuple(themes), places, grouping))
+    context.discourse.last_places = places
+
+
+def all_places(context: Context, group: PutGroup, text: str) -> tuple[Toward, list[Thing]]:
+    """The relation, and all things that the group's one destination may mean."""
+    destination = group.destinations[0]
+    toward = destination.toward
+    if len(group.destinations) > 1 or destination.beside or toward not in _ROLES:
+        raise ReferenceProblem(text, "say into or onto which things of the same colour", 2)
+    resolved = [context.phrases.meaning(target, _ROLES[toward]) for target in destination.targets]
+    found = [thing for item in resolved for thing in things_in(item.options)]
+    return toward, list(dict.fromkeys(found))

@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.goals.choosing import leave_among
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.knocked_over import keep_it_standing
 from etot_cli.reasoning.language.goals.ruled_out import is_not_chosen, rule_out_things
-from etot_cli.reasoning.language.goals.turned import filled_parts, leave_among_turned
+from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
@@ -364,50 +364,3 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
     )
     if others:
         context.constraints.append(Constraint(_KEEPS[clause.avoid], others))
-
-
-def keep_as_it_is(
-    context: Context,
-    index: int,
-    word: str,
-    *,
-    every: bool,
-    always: bool = False,
-    called: str = "",
-) -> None:
-    """What is open or closed by now, and is to stay so, must not be moved in between; what is
-    closed ``always`` must not be opened at all.
-
-    Of a chest of drawers that was spoken of as "the drawer" or "the drawers", only what is so by
-    now is meant, and noted where it is ``called`` one; ``every``: all are.
-    """
-    keep = Keep.OPEN if word == "open" else Keep.CLOSED
-    if is_not_chosen(context, index):  # "open one of the drawers and keep the other one closed"
-        context.constraints.append(Constraint(keep, (), referent=index))
-        return
-    holds = is_open if word == "open" else is_closed
-    if not every:
-        context.discourse.as_it_stands(index, holds, called, word)
-    # Behind what goes in one of them, "leave all drawers shut" says how they are to be in the end.
-    filled = {*filled_parts(context.done, context.discourse.referents, context.scene)}
-    for thing in context.discourse.things(index):
-        for part in parts_of(context.scene, thing):
-            name = f"{part.owner}.{part.name}"
-            if every and not always and name in filled:
-                continue
-            if holds(context.scene, part) or (always and word == "closed"):
-                context.constraints.append(Constraint(keep, (name,)))
-
-
-def leave_out(context: Context, index: int, word: str) -> None:
-    """Of several that "the drawer" may mean, what is open or closed anyway is not spoken of."""
-    so = is_open if word == "open" else is_closed
-    referent = context.discourse.referents[index]
-    options = tuple(
-        option
-        for option in referent.options
-        if not all(
-            so(context.scene, part) for thing in option for part in parts_of(context.scene, thing)
-        )
-    )
-    context.discourse.referents[index] = replace(referent, options=options or referent.options)

@@ -2,42 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import suppress
-
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Grouping,
-    Open,
-    Pick,
-    Place,
-    Put,
-    Thing,
-    things_in,
-)
-from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side, told_sides
-from etot_cli.reasoning.language.goals.alone import check_alone, check_counted, so_many_turned
+from etot_cli.reasoning.language.goals.alone import check_alone, check_counted
+from etot_cli.reasoning.language.goals.bystanders import place_bystanders
 from etot_cli.reasoning.language.goals.choosing import (
-    check_contrasted,
-    check_describes,
     check_may_stay,
-    check_not_there,
-    check_poured,
-    check_swept,
-    check_taken,
     choose_by_place,
     leave_there,
     tell_apart,
     tell_not_there,
     without_riders,
 )
+from etot_cli.reasoning.language.goals.clashes import (
+    check_contrasted,
+    check_not_there,
+    check_poured,
+    check_swept,
+    check_taken,
+)
 from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.counting import counted
+from etot_cli.reasoning.language.goals.counting import check_enough, count_of_places, counted
 from etot_cli.reasoning.language.goals.described import note_described
 from etot_cli.reasoning.language.goals.homes import (
     in_stead,
@@ -46,28 +35,23 @@ from etot_cli.reasoning.language.goals.homes import (
     replaced_by,
     where_is,
 )
-from etot_cli.reasoning.language.goals.pairing import (
-    add_pairs,
-    check_enough,
-    count_of_places,
-    distributed,
-    elsewhere,
-    is_different,
-)
+from etot_cli.reasoning.language.goals.pairing import add_pairs
 from etot_cli.reasoning.language.goals.placing import add_put, add_puts, check_no_side, spread
-from etot_cli.reasoning.language.goals.prohibitions import avoid, keep_as_it_is, leave_out
+from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.ruled_out import not_beside, rule_out
 from etot_cli.reasoning.language.goals.sharing import (
-    bystanders,
     check_stance,
+    distributed,
+    elsewhere,
+    is_different,
     is_left,
     rest_there,
     shared,
 )
 from etot_cli.reasoning.language.goals.so_in_the_end import rest_all_along
 from etot_cli.reasoning.language.goals.stance import with_stance
-from etot_cli.reasoning.language.goals.turned import leave_among_turned
+from etot_cli.reasoning.language.goals.turned import ensure_turned
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_emptying
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -79,24 +63,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Turns,
     put_to,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Destination,
-    NounPhrase,
-    State,
-    Things,
-    Toward,
-    stance_in,
-)
-from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, State, Things, Toward
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
-from etot_cli.reasoning.language.reference.naming.determiners import is_distributive, quantity_of
-from etot_cli.reasoning.language.reference.naming.states import state_holds
+from etot_cli.reasoning.language.reference.naming.determiners import is_distributive
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, LIDS, matches_any, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.manner import HELD
-from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.state import DESK
 
 _HOLDS_SOME = Expression(
     r"\b(?:that|which) (?:has|have|holds?|contains?) (?:an?|the|some|one|two|its) \w+(?: \w+)?$"
@@ -238,7 +211,10 @@ def put(
         places_of = dict.fromkeys(themes, places)
         shut = [item for item in clause.conditions if item.word == "closed"]  # in the end
         for condition in (item for item in clause.conditions if item not in shut):
-            _condition(context, condition, themes, places_of)
+            if condition.word or condition.denied:
+                ensure(context, condition)
+            else:
+                place_bystanders(context, condition, themes, places_of)
         if abreast:
             put_side_by_side(context, places_of, told)
         else:
@@ -269,46 +245,7 @@ def ensure(context: Context, state: State) -> None:
             context.discourse.lifted |= {index}
         return
     if state.word:
-        for phrase in state.subjects:
-            opens = state.word == "open"
-            so, others = so_many_turned(context, phrase, opens=opens)
-            for thing in (*so, *others):
-                part = context.single(thing, thing.part or thing.name)
-                context.steps.append(_made(part, opens=opens == (thing in so)))
-            if so:
-                if state.denied or state.kept or state.allowed:
-                    raise ReferenceProblem(phrase.text, "say which", 3)
-                continue
-            if phrase.determiner in ("a", "an"):
-                phrase = replace(phrase, determiner="one")  # of the drawers, not the whole chest
-            for index in context.phrases.refer(phrase, Role.PART):
-                if state.allowed:
-                    context.discourse.notes.append(f"{phrase.text!r} may be {state.word}, or not")
-                    continue
-                if state.denied:
-                    leave_out(context, index, state.word)
-                if state.kept:
-                    one = phrase.determiner == "the" and phrase.head == singular(phrase.head)
-                    one &= all(
-                        phrase.head != context.scene.infos[thing.name].label.split()[-1]
-                        for thing in context.discourse.things(index)
-                    )
-                    keep_as_it_is(
-                        context,
-                        index,
-                        state.word,
-                        every=quantity_of(phrase.determiner).every,
-                        always=state.always,
-                        called=phrase.text if one else "",
-                    )
-                leave_among_turned(context, index, opens=state.word == "open")
-                context.steps.append(_made(index, opens=state.word == "open"))
-                _not_instead(context, phrase, index, opens=state.word == "open")
-            if is_only(phrase.determiner):
-                for thing in context.all_called(phrase, Role.PART):
-                    if thing not in context.discourse.things(index):
-                        other = context.single(thing, thing.part or thing.name)
-                        context.steps.append(_made(other, opens=state.word != "open"))
+        ensure_turned(context, state)
         return
     if state.denied:
         out, where = Things(state.subjects), state.destinations
@@ -339,89 +276,3 @@ def ensure(context: Context, state: State) -> None:
             text = context.discourse.referents[min(again)].text
             why = "say where it goes in one: 'on the tray, next to the cup'"
             raise ReferenceProblem(text, why, 3)
-
-
-def _not_instead(context: Context, phrase: NounPhrase, index: int, *, opens: bool) -> None:
-    """What another thing is to be open instead of is to be closed, and the other way round."""
-    contrasted = any(item.prep is Prep.CONTRAST for item in phrase.modifiers)
-    for thing in context.discourse.left_out.get(index, ()) if contrasted else ():
-        if state_holds("open" if opens else "closed", thing, context.scene):
-            other = context.single(thing, thing.part or thing.name)
-            context.steps.append(_made(other, opens=not opens))
-
-
-def _made(index: int, *, opens: bool) -> Open | Close:
-    return Open(index, final=True) if opens else Close(index, final=True)
-
-
-def _condition(
-    context: Context,
-    condition: State,
-    themes: Sequence[int],
-    places_of: dict[int, tuple[Place, ...]],
-) -> None:
-    """Gives some of the things a place of their own ("… with the plum inside the mug")."""
-    if condition.word or condition.denied:
-        ensure(context, condition)
-        return
-    for phrase in condition.subjects:
-        if phrase.words == ("everything",):
-            why = "name what is to be there; what is there already comes along"
-            raise ReferenceProblem(phrase.text, why, 3)
-    subjects = bystanders(context, condition)
-    check_describes(context, condition, subjects, places_of)
-    if not set(subjects) & set(themes):
-        # "It" is rather what the bystander is in or on.
-        places: tuple[Place, ...] = ()
-        with suppress(AmbiguousReference):
-            places = context.places.of(condition.destinations, subjects)
-        along = {index for place in places for index in place.referents()} & set(themes)
-        elsewhere = not along and _goes_elsewhere(context, condition, subjects, places, places_of)
-        crowd = subjects[1:] and any(place.beside for place in places)
-        if crowd or not (along or elsewhere):
-            text = " and ".join(phrase.text for phrase in condition.subjects)
-            raise ReferenceProblem(text, "it is not put anywhere here", 1)
-    else:
-        places = context.places.of(condition.destinations, subjects)
-    if condition.kept:
-        for subject in subjects:
-            choose_by_place(context, subject, places, stays=True)
-    if stance := stance_in(condition.destinations):
-        places = with_stance(context, subjects, places, stance)
-    for subject in subjects:
-        places_of[subject] = places
-
-
-def _goes_elsewhere(
-    context: Context,
-    condition: State,
-    subjects: Sequence[int],
-    places: Sequence[Place],
-    places_of: dict[int, tuple[Place, ...]],
-) -> bool:
-    """Whether "with the plum on the desk" says where a bystander is to be, not where it is: it is
-    not there, nor does it tell one bowl from others, nor is it a lid of that.
-
-    Raises:
-        AmbiguousReference: it may as well tell which "a bowl" is.
-    """
-    scene, discourse = context.scene, context.discourse
-    named = [place.where for place in places if place.where is not None and not place.beside]
-    pronoun = any(np.pronoun for item in condition.destinations for np in item.targets)
-    if not named or len(named) < len(places) or pronoun:
-        return False
-    things = discourse.things(*subjects)
-    if any(touches(thing, at, scene) for thing in things for at in discourse.things(*named)):
-        return False
-    below: set[str] = set()
-    for index in (p.where for found in places_of.values() for p in found if p.where is not None):
-        referent = discourse.referents[index]
-        names = {thing.name for thing in things_in(referent.options)} - {DESK}
-        if len(referent.options) > 1 and any(bearers(scene, t.name) & names for t in things):
-            if referent.text.split()[0] in ("the", "this", "that"):
-                return False
-            text, why = condition.subjects[0].text, "it may tell which one is meant:"
-            raise AmbiguousReference(text, sorted(names), why)
-        below |= names
-    lids = any(matches_any(np.head, LIDS) for np in condition.subjects)
-    return not (lids and any(bearers(scene, thing.name) & below for thing in things))

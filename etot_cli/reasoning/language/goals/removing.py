@@ -6,10 +6,7 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Grouping,
-    things_in,
-)
+from etot_cli.reasoning.builtin.goal import Grouping, things_in
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.choosing import (

@@ -1,28 +1,25 @@
-"""Which things share a place, or are left in it."""
+"""Which things share a place, have one each, or are left in it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import (
-    Grouping,
-    Place,
-)
+from etot_cli.reasoning.builtin.goal import Grouping, Place
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
     Modifier,
     NounPhrase,
-    State,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -90,22 +87,49 @@ def shared(
     return replace(group, destinations=tuple(destinations)), grouping
 
 
-def bystanders(context: Context, condition: State) -> list[int]:
-    """What some place is said of; of several pens, "with the pen in it" is about the one there."""
+_DIFFERENT = frozenset({"different", "separate", "distinct"})
 
-    def options(np: NounPhrase) -> list[int]:
-        """How many things each of those is that a phrase may mean."""
-        with suppress(ReferenceProblem):
-            return [len(option) for option in context.phrases.meaning(np, Role.THEME).options]
-        return []
 
-    (where, *more) = condition.destinations
-    prep = {Toward.INSIDE: Prep.IN, Toward.ON: Prep.ON}.get(where.toward)
-    phrases: list[NounPhrase] = []
-    for np in condition.subjects:
-        there = np
-        if prep and where.targets and not more and np.determiner == "the":
-            there = np.told_by(Modifier(prep, where.targets))
-        narrowed = options(there) == [1] and len(options(np)) > 1
-        phrases.append(there if narrowed else np)
-    return context.phrases.things(Things(tuple(phrases)), Role.THEME)
+def is_different(group: PutGroup) -> bool:
+    """Whether a place is to be "a different one", of several things or from where it is now."""
+    targets = [target for item in group.destinations for target in item.targets]
+    return any(target.words[:1] == ("different",) for target in targets)
+
+
+def elsewhere(group: PutGroup) -> PutGroup:
+    """Of one thing "a different shelf" is another one than that on which it stands."""
+    return group.going_to(
+        lambda np: (
+            replace(np, determiner="another", words=np.words[1:])
+            if np.words[:1] == ("different",)
+            else np
+        )
+    )
+
+
+def distributed(group: PutGroup, grouping: Grouping) -> tuple[tuple[Destination, ...], Grouping]:
+    """The destinations without such words, and what they say.
+
+    Args:
+        group: things and destinations.
+        grouping: what the rest of the sentence says; such words overrule it.
+    """
+    destinations = []
+    for destination in group.destinations:
+        targets = []
+        for target in destination.targets:
+            plain, said = _target(target)
+            grouping = said or grouping
+            targets.append(plain)
+        destinations.append(replace(destination, targets=tuple(targets)))
+    return tuple(destinations), grouping
+
+
+def _target(phrase: NounPhrase) -> tuple[NounPhrase, Grouping | None]:
+    words = phrase.words
+    if words[:1] == ("own",) and phrase.determiner in ("its", "their"):
+        return replace(phrase, determiner="one", words=words[1:]), Grouping.SEPARATELY
+    if words and words[0] in _DIFFERENT:
+        determiner = "one" if singular(words[-1]) == words[-1] else ""
+        return replace(phrase, determiner=determiner, words=words[1:]), Grouping.SEPARATELY
+    return phrase, None

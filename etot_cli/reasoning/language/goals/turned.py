@@ -10,6 +10,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from msgspec import structs
+
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Constraint,
@@ -21,10 +23,17 @@ from etot_cli.reasoning.builtin.goal import (
     Thing,
     things_in,
 )
-from etot_cli.reasoning.builtin.relations import parts_of
-from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.alone import so_many_turned
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.ruled_out import is_not_chosen
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
+from etot_cli.reasoning.language.reference.naming.states import state_holds
+from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.nouns import is_only
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import SceneState
 
 _WAYS = {Keep.OPEN: Open, Keep.CLOSED: Close}
@@ -74,7 +83,7 @@ def in_turn(
             if (
                 one.final
                 and sweeping
-                and part not in filled_parts(steps[at:then], referents, scene)
+                and part not in _filled_parts(steps[at:then], referents, scene)
             ):
                 raise _both(part, other, referents)
             steps[at] = replace(one, final=False)
@@ -98,7 +107,7 @@ def _both(part: str, step: Step, referents: Sequence[Referent]) -> ReferenceProb
     return ReferenceProblem(referents[step.what].text, why, 4)
 
 
-def filled_parts(
+def _filled_parts(
     steps: Sequence[Step], referents: Sequence[Referent], scene: SceneState
 ) -> Iterator[str]:
     """The parts that steps put something into."""
@@ -116,3 +125,108 @@ def _parts(step: Step, referents: Sequence[Referent], scene: SceneState) -> Iter
         parts = parts_of(scene, thing)
         if len(parts) == 1 or isinstance(step, Close):
             yield from (f"{part.owner}.{part.name}" for part in parts)
+
+
+def _keep_as_it_is(
+    context: Context,
+    index: int,
+    word: str,
+    *,
+    every: bool,
+    always: bool = False,
+    called: str = "",
+) -> None:
+    """What is open or closed by now, and is to stay so, must not be moved in between; what is
+    closed ``always`` must not be opened at all.
+
+    Of a chest of drawers that was spoken of as "the drawer" or "the drawers", only what is so by
+    now is meant, and noted where it is ``called`` one; ``every``: all are.
+    """
+    keep = Keep.OPEN if word == "open" else Keep.CLOSED
+    if is_not_chosen(context, index):  # "open one of the drawers and keep the other one closed"
+        context.constraints.append(Constraint(keep, (), referent=index))
+        return
+    holds = is_open if word == "open" else is_closed
+    if not every:
+        context.discourse.as_it_stands(index, holds, called, word)
+    # Behind what goes in one of them, "leave all drawers shut" says how they are to be in the end.
+    filled = {*_filled_parts(context.done, context.discourse.referents, context.scene)}
+    for thing in context.discourse.things(index):
+        for part in parts_of(context.scene, thing):
+            name = f"{part.owner}.{part.name}"
+            if every and not always and name in filled:
+                continue
+            if holds(context.scene, part) or (always and word == "closed"):
+                context.constraints.append(Constraint(keep, (name,)))
+
+
+def _leave_out(context: Context, index: int, word: str) -> None:
+    """Of several that "the drawer" may mean, what is open or closed anyway is not spoken of."""
+    so = is_open if word == "open" else is_closed
+    referent = context.discourse.referents[index]
+    options = tuple(
+        option
+        for option in referent.options
+        if not all(
+            so(context.scene, part) for thing in option for part in parts_of(context.scene, thing)
+        )
+    )
+    context.discourse.referents[index] = replace(referent, options=options or referent.options)
+
+
+def ensure_turned(context: Context, state: State) -> None:
+    """Adds the steps after which something is open, or closed, as it is said to be."""
+    opens = state.word == "open"
+    for phrase in state.subjects:
+        so, others = so_many_turned(context, phrase, opens=opens)
+        for thing in (*so, *others):
+            part = context.single(thing, thing.part or thing.name)
+            context.steps.append(_made(part, opens=opens == (thing in so)))
+        if so:
+            if state.denied or state.kept or state.allowed:
+                raise ReferenceProblem(phrase.text, "say which", 3)
+            continue
+        if phrase.determiner in ("a", "an"):
+            # Of the drawers, not the whole chest
+            phrase = structs.replace(phrase, determiner="one")
+        for index in context.phrases.refer(phrase, Role.PART):
+            if state.allowed:
+                context.discourse.notes.append(f"{phrase.text!r} may be {state.word}, or not")
+                continue
+            if state.denied:
+                _leave_out(context, index, state.word)
+            if state.kept:
+                one = phrase.determiner == "the" and phrase.head == singular(phrase.head)
+                one &= all(
+                    phrase.head != context.scene.infos[thing.name].label.split()[-1]
+                    for thing in context.discourse.things(index)
+                )
+                _keep_as_it_is(
+                    context,
+                    index,
+                    state.word,
+                    every=quantity_of(phrase.determiner).every,
+                    always=state.always,
+                    called=phrase.text if one else "",
+                )
+            leave_among_turned(context, index, opens=opens)
+            context.steps.append(_made(index, opens=opens))
+            _not_instead(context, phrase, index, opens=opens)
+        if is_only(phrase.determiner):
+            for thing in context.all_called(phrase, Role.PART):
+                if thing not in context.discourse.things(index):
+                    other = context.single(thing, thing.part or thing.name)
+                    context.steps.append(_made(other, opens=not opens))
+
+
+def _not_instead(context: Context, phrase: NounPhrase, index: int, *, opens: bool) -> None:
+    """What another thing is to be open instead of is to be closed, and the other way round."""
+    contrasted = any(item.prep is Prep.CONTRAST for item in phrase.modifiers)
+    for thing in context.discourse.left_out.get(index, ()) if contrasted else ():
+        if state_holds("open" if opens else "closed", thing, context.scene):
+            other = context.single(thing, thing.part or thing.name)
+            context.steps.append(_made(other, opens=not opens))
+
+
+def _made(index: int, *, opens: bool) -> Open | Close:
+    return Open(index, final=True) if opens else Close(index, final=True)

@@ -14,19 +14,9 @@ from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.choosing.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.geometry import space
-from etot_cli.reasoning.language.reference.memory.antecedents import (
-    AmbiguousReference,
-    NothingThere,
-)
-from etot_cli.reasoning.language.reference.memory.by_now import (
-    is_empty_by_now,
-    open_by_now,
-    there_by_now,
-)
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.memory.spoken_of import openable
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
-from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.reference.naming.usual_form import (
     GENERAL,
     around_itself,
@@ -36,10 +26,10 @@ from etot_cli.reasoning.language.reference.naming.usual_form import (
     usual_form,
 )
 from etot_cli.reasoning.language.reference.pronouns.coreference import antecedents
-from etot_cli.reasoning.language.reference.pronouns.meanings import Meanings
+from etot_cli.reasoning.language.reference.pronouns.meanings_by_now import MeaningsByNow
 from etot_cli.reasoning.language.reference.pronouns.narrowing import part_around
 from etot_cli.reasoning.language.reference.pronouns.plural_pronouns import the_two_named
-from etot_cli.reasoning.language.words.lexicon import STATES, singular
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 _BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my two",
@@ -47,7 +37,7 @@ _BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my t
 """Of two things of a sort; where there are more, of those that were spoken of."""
 
 
-class Referents(Meanings):
+class Referents(MeaningsByNow):
     """Turns phrases into referents of a discourse, which grows."""
 
     def refer(
@@ -100,7 +90,7 @@ class Referents(Meanings):
             self.discourse.mention_again(holder, role)
             return (holder,)
         try:
-            resolved = self._by_now(phrase, role)
+            resolved = self.by_now(phrase, role)
         except ReferenceProblem:
             found = self._two_spoken_of(phrase, role, excluded)
             if not found:
@@ -130,115 +120,6 @@ class Referents(Meanings):
                 self.meaning(told, role)
                 return told
         return phrase
-
-    def _by_now(self, phrase: NounPhrase, role: Role) -> Resolved:
-        """What a phrase means; all that is somewhere is what is there by now.
-
-        Raises:
-            NothingThere: it has all been moved away.
-        """
-        plain = usual_form(phrase)
-        if (changed := self._empty_by_now(plain, role)) is not None:
-            return changed
-        if (changed := self._open_by_now(plain, role)) is not None:
-            return changed
-        held = [m for m in plain.modifiers if m.prep in (Prep.ON, Prep.IN, Prep.FROM)]
-        item = held[0] if len(held) == 1 else None
-        now = item is not None and not item.denied and HERE_BEFORE not in item.words
-        if item is None or not now or not self.discourse.placed:
-            return self.meaning(phrase, role)
-        fitting: Resolved | None = None
-        with suppress(ReferenceProblem):
-            fitting = self.meaning(plain.without_modifier(item), role)
-        if fitting is None:
-            return self.meaning(phrase, role)  # "both tubes from the rack" of three
-        resolved = fitting
-        with suppress(ReferenceProblem):
-            resolved = self.meaning(phrase, role)
-        if not fitting.every or len(fitting.options) != 1:
-            return self.meaning(phrase, role)
-        there = resolved.options[0] if resolved is not fitting else ()
-        np = item.phrases[0]
-        ways = self.pronoun_things(np) if np.pronoun else self.meaning(np, Role.ANY).options
-        found: set[tuple[Thing, ...]] = set()
-        for marks in ways:
-            here = [
-                t for t in there for m in marks if space.holds_at(item.prep, t, [m], self.scene)
-            ]
-            before = there if here else ()
-            found.add(
-                there_by_now(
-                    before, fitting.options[0], item.prep, marks, phrase.text, self.discourse
-                )
-            )
-        found -= {()}
-        if len(found) > 1:
-            names = [thing.name for things in found for thing in things]
-            raise AmbiguousReference(phrase.text, list(dict.fromkeys(names)))
-        if not found and there:
-            raise NothingThere(phrase.text, "it has been moved away by then", 2)
-        return replace(resolved, options=tuple(found)) if found else self.meaning(phrase, role)
-
-    def _empty_by_now(self, phrase: NounPhrase, role: Role) -> Resolved | None:
-        """What is empty or full, where that is no more what it was at the start; else None.
-
-        Raises:
-            AmbiguousReference: several are, or none is.
-        """
-        said = [word for word in phrase.words if STATES.get(word) in ("empty", "full")]
-        if not said or not self.discourse.placed:
-            return None
-        rest = tuple(word for word in phrase.words if word not in said)
-        noun = self.discourse.last_noun(role) or "object"
-        rest = (noun,) if rest in ((), ("one",), ("ones",)) else rest
-        called: Resolved | None = None
-        with suppress(ReferenceProblem):
-            called = self.meaning(replace(phrase, words=rest, determiner="all"), role)
-        things = [t for t in things_in(called.options) if t == Thing(t.name)] if called else []
-        empty = [thing for thing in things if is_empty_by_now(thing, self.discourse)]
-        if called is None or {*empty} == {
-            thing for thing in things if state_holds("empty", thing, self.scene)
-        }:
-            return None
-        wanted = STATES[said[0]] == "empty"
-        fitting = [thing for thing in things if (thing in empty) == wanted]
-        if len(fitting) != 1:
-            raise AmbiguousReference(phrase.text, [thing.address for thing in things])
-        note = f"{phrase.text!r}: {fitting[0].address} by then"
-        return Resolved(((fitting[0],),), definite=True, noun=called.noun, notes=(note,))
-
-    def _open_by_now(self, phrase: NounPhrase, role: Role) -> Resolved | None:
-        """All that is open, where that is no more what it was at the start; else None.
-
-        Raises:
-            ReferenceProblem: there are more of them, or fewer.
-            AmbiguousReference: what is closed by now may be meant, or what was so at the start.
-        """
-        states = [m for m in phrase.modifiers if m.prep is Prep.QUALITY and not m.denied]
-        words = (*phrase.words, *(word for m in states for word in m.words))
-        said = {STATES.get(word, "") for word in words} & {"open", "closed"}
-        quantity = quantity_of(phrase.determiner)
-        plural = quantity.every or singular(phrase.head) != phrase.head
-        if len(said) != 1 or not (plural and self.discourse.turned and role is Role.PART):
-            return None
-        rest = tuple(word for word in phrase.words if STATES.get(word) not in said)
-        told = tuple(m for m in phrase.modifiers if m not in states)
-        called: Resolved | None = None
-        with suppress(ReferenceProblem):
-            every = replace(phrase, words=rest, modifiers=told, determiner="all")
-            called = self.meaning(every, role)
-        things = things_in(called.options) if called else ()
-        wanted = said == {"open"}
-        now = tuple(thing for thing in things if open_by_now(thing, self.discourse) == wanted)
-        if called is None or {*now} == {
-            thing for thing in things if state_holds("open", thing, self.scene) == wanted
-        }:
-            return None
-        if not wanted:
-            raise AmbiguousReference(phrase.text, [thing.address for thing in things])
-        if quantity.count not in (None, len(now)) or not now:
-            raise ReferenceProblem(phrase.text, f"{len(now)} are so by then", 2)
-        return replace(called, options=(now,))
 
     def _as_before(self, resolved: Resolved) -> Resolved:
         """After "take the pen from the mug" "the pen" is that one, even where another one is

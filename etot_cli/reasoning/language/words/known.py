@@ -5,7 +5,17 @@ from __future__ import annotations
 from functools import cache
 from types import ModuleType
 
-from etot_cli.reasoning.language.words import forbidden, manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import (
+    fillers,
+    forbidden,
+    frames,
+    manner,
+    nouns,
+    places,
+    predicates,
+    small_words,
+    verbs,
+)
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import openings_of, words_of
 
@@ -163,11 +173,16 @@ def _patterns(module: ModuleType) -> list[str]:
 @cache
 def all_words() -> frozenset[str]:
     """Every word that the grammar knows, worked out where something is not understood."""
-    modules = (manner, nouns, places, small_words, verbs)
+    modules = (fillers, frames, manner, nouns, places, predicates, small_words, verbs)
     return GRAMMAR_WORDS.union(*(words_of(_patterns(module)) for module in modules))
 
 
 @cache
 def opening_words() -> frozenset[str]:
     """Words that a sentence may begin with that is not about a thing of the scene."""
-    return GRAMMAR_WORDS.union(*(openings_of(_patterns(item)) for item in (small_words, verbs)))
+    return GRAMMAR_WORDS.union(
+        *(
+            openings_of(_patterns(item))
+            for item in (fillers, frames, predicates, small_words, verbs)
+        )
+    )

@@ -18,15 +18,11 @@ from etot_cli.reasoning.language.grammar.asides.people import ON_ARRIVAL, PEOPLE
 from etot_cli.reasoning.language.grammar.asides.where_needed import done_where_needed
 from etot_cli.reasoning.language.grammar.text.splitting import COMMA
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.fillers import ANY_ONE, WITHOUT_MEANING
+from etot_cli.reasoning.language.words.frames import ANNOUNCED, TIDYING
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import Begun
-from etot_cli.reasoning.language.words.small_words import (
-    ANNOUNCED,
-    ANY_ONE,
-    TIDYING,
-    WITHOUT_MEANING,
-)
 
 _DOING = "|".join(sorted(VERB_WORDS | {"open", "close", "shut"}))
 _WITHIN = Expression(

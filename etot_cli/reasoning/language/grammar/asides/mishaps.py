@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.small_words import TURNED
+from etot_cli.reasoning.language.words.fillers import TURNED
 
 _DOES = (
     "melt|spoil|rot|perish|leak|spill|fall|roll|tip|topple|wilt|burn|cool|warm|dry|dries|break|"

@@ -17,8 +17,8 @@ from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, is_of_peop
 from etot_cli.reasoning.language.grammar.asides.remarks import is_remark
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_idle, told_of_thing
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.fillers import TURNED
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS
-from etot_cli.reasoning.language.words.small_words import TURNED
 
 _GONE_WRONG = Expression(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
 _THING = r"(?:the|my|our) (?:\w+ )?\w+"

@@ -14,8 +14,9 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     IsName,
 )
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import predicates, verbs
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.fillers import TURNED
 from etot_cli.reasoning.language.words.known import VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
@@ -27,7 +28,6 @@ from etot_cli.reasoning.language.words.lexicon import (
     word_set,
 )
 from etot_cli.reasoning.language.words.patterns import words_of
-from etot_cli.reasoning.language.words.small_words import TURNED
 
 _IN_PASSING = Expression(
     r"(?:(?:it|they) (?:is|are) "
@@ -108,7 +108,9 @@ def is_in_passing(said: str) -> bool:
     found = _IN_PASSING.fullmatch(said)
     done = (found and found["done"]) or ""
     stems = {done, done[:-1], done[:-2], done[:-3], f"{done[:-3]}y"}
-    return found is not None and not stems & (_DONE_TO_THINGS | words_of((verbs.BROUGHT,)) | WORK)
+    return found is not None and not stems & (
+        _DONE_TO_THINGS | words_of((predicates.BROUGHT,)) | WORK
+    )
 
 
 def is_not_to_stay(said: str) -> bool:

@@ -20,47 +20,44 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     some,
     valued,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    LIST,
-    OPTIONAL_COMMA,
-    noun_phrase,
+from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.being_so import (
+    ALWAYS,
+    IS_OPEN_OR_CLOSED,
+    NONE,
+    OPEN_OR_CLOSED,
+    PREDICATE,
+    ensured,
+    not_left,
+    opposite,
+    state_of,
+    there_is_none,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import disagrees, said_of_all
-from etot_cli.reasoning.language.grammar.phrases.destinations import AS_SAID, DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_PLACES, respective
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import (
     ALL_SO,
-    ALWAYS,
     EACH_SHOULD,
     IN_OR_ON_IT,
-    IS_OPEN_OR_CLOSED,
-    KEPT_THERE,
-    NONE,
-    OPEN_OR_CLOSED,
-    PREDICATE,
-    STAYS,
     being,
     containing,
     each_so,
-    ensured,
     holding,
     holding_only,
-    kept_so,
-    not_left,
-    opposite,
-    state_of,
     states,
-    there_is_none,
 )
+from etot_cli.reasoning.language.grammar.phrases.staying import KEPT_THERE, STAYS, kept_so
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    AS_SAID,
     Destination,
     NounPhrase,
     State,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, word_set
 from etot_cli.reasoning.language.words.nouns import is_only
 
@@ -122,7 +119,7 @@ def _so_wanted(cost: int, nps: tuple[NounPhrase, ...], said: Any) -> EnsureClaus
 _ALL = phrase("both, all")
 
 
-_BE_TOGETHER = silent(phrase(verbs.TO_BE_THERE))
+_BE_TOGETHER = silent(phrase(predicates.TO_BE_THERE))
 
 
 _TOGETHER = either(
@@ -215,11 +212,15 @@ ENSURE = either(
     sequence(
         # "The cup and the pen belong on the tray and in the box, respectively"
         either(
-            sequence(NP_LIST, phrase(verbs.MODAL)),
+            sequence(NP_LIST, phrase(predicates.MODAL)),
             sequence(NP_LIST, phrase("go")),
-            sequence(verbs.ENSURE, NP_LIST, phrase(f"{verbs.BE}, {verbs.LIES}, go[es], belong[s]")),
-            sequence(verbs.WANTED, NP_LIST, optional(phrase(verbs.TO_BE_THERE), "")),
-            sequence(verbs.CAN, NP_LIST, phrase(verbs.BE_PUT)),
+            sequence(
+                verbs.ENSURE,
+                NP_LIST,
+                phrase(f"{predicates.BE}, {predicates.LIES}, go[es], belong[s]"),
+            ),
+            sequence(predicates.WANTED, NP_LIST, optional(phrase(predicates.TO_BE_THERE), "")),
+            sequence(predicates.CAN, NP_LIST, phrase(predicates.BE_PUT)),
         ),
         RESPECTIVE_PLACES,
         build=_respectively,
@@ -245,14 +246,14 @@ ENSURE = either(
         # "Leave the oven with its door open"
         either(
             sequence(verbs.KEEP, noun_phrase, "with"),
-            sequence(noun_phrase, f"{verbs.MODAL}, stay[s], remain[s]", "with"),
+            sequence(noun_phrase, f"{predicates.MODAL}, stay[s], remain[s]", "with"),
             sequence(noun_phrase, "(should|must) have"),
         ),
         "(its|the) door[s]",
         OPEN_OR_CLOSED,
         build=lambda np, state: EnsureClause((State((np,), word=state),)),
     ),
-    sequence(NP_LIST, verbs.MODAL, OPEN_OR_CLOSED, small_words.ALL_ALONG, build=kept_so),
+    sequence(NP_LIST, predicates.MODAL, OPEN_OR_CLOSED, small_words.ALL_ALONG, build=kept_so),
     sequence(
         # "The drawer gets closed", "the drawer ends closed"
         NP_LIST,
@@ -296,7 +297,7 @@ ENSURE = either(
     sequence(
         "(i|we) do not want",
         sequence(noun_phrase, build=there_is_none),
-        optional(verbs.TO_BE_THERE),
+        optional(predicates.TO_BE_THERE),
         DESTINATIONS,
         optional(small_words.ANY_MORE),
         build=lambda nps, so: ensured(state_of(nps, so)),
@@ -304,7 +305,7 @@ ENSURE = either(
     quiet(
         sequence(
             either(
-                sequence(NP_LIST, verbs.NOT_BE),
+                sequence(NP_LIST, predicates.NOT_BE),
                 sequence(
                     "(i|we) do not want",
                     either(
@@ -314,13 +315,13 @@ ENSURE = either(
                             build=lambda nps: nps if nps[1:] else None,
                         ),
                     ),
-                    optional(verbs.TO_BE_THERE),
+                    optional(predicates.TO_BE_THERE),
                     optional("left, lying, standing, sitting"),
                 ),
                 sequence(
                     "neither",
                     separated(noun_phrase, "nor"),
-                    f"{verbs.MODAL}, {verbs.STAY}",
+                    f"{predicates.MODAL}, {predicates.STAY}",
                     build=lambda nps: nps if nps[1:] else None,
                 ),
             ),
@@ -339,16 +340,16 @@ ENSURE = either(
     ),
     sequence(
         # "The tray should have the cup in it and the box the plate"
-        containing(verbs.CONTAIN),
+        containing(predicates.CONTAIN),
         some(sequence(LIST, noun_phrase, noun_phrase, build=_held), least=1, most=4),
         build=lambda first, more: EnsureClause((first, *more)),
     ),
     sequence(
-        verbs.WANTED,
+        predicates.WANTED,
         either(
             containing("to (contain|hold|have)"),
             containing("to (carry|bear|support)", Toward.ON),
-            holding_only(verbs.HOLDING),
+            holding_only(predicates.HOLDING),
         ),
         build=lambda state: EnsureClause((state,)),
     ),
@@ -356,10 +357,10 @@ ENSURE = either(
         either(
             sequence(optional("let"), STAYS),
             KEPT_THERE,
-            being(f"(end[s]|wind[s]|finish[es]) up [{verbs.BEING}]"),
-            containing(verbs.CONTAIN),
-            containing(verbs.TO_CARRY, Toward.ON),
-            sequence(noun_phrase, verbs.END_WITH, NP_LIST, IN_OR_ON_IT, build=holding),
+            being(f"(end[s]|wind[s]|finish[es]) up [{predicates.BEING}]"),
+            containing(predicates.CONTAIN),
+            containing(predicates.TO_CARRY, Toward.ON),
+            sequence(noun_phrase, predicates.END_WITH, NP_LIST, IN_OR_ON_IT, build=holding),
         ),
         lambda state: EnsureClause((state,)),
     ),
@@ -373,19 +374,19 @@ ENSURE = either(
     ),
     sequence(
         NP_LIST,
-        phrase(verbs.MODAL),
+        phrase(predicates.MODAL),
         ALL_SO,
         build=lambda nps, verb, said: _going(verb, ensured(*said(nps))),
     ),
     *(
         sequence(*said, ALL_SO, build=partial(_so_wanted, cost))
         for cost, said in (
-            (0, (verbs.WANTED, _TOGETHER)),
-            (1, (verbs.WANTED, NP_LIST)),
-            (0, (verbs.CAN, NP_LIST, verbs.BE_PUT)),
-            (0, (verbs.THERE_BE, NP_LIST, silent(optional(verbs.BEING)))),
-            (0, (verbs.ENSURE, verbs.THERE_IS, NP_LIST)),
-            (0, (sequence(verbs.THERE_NOT_BE, noun_phrase, build=there_is_none),)),
+            (0, (predicates.WANTED, _TOGETHER)),
+            (1, (predicates.WANTED, NP_LIST)),
+            (0, (predicates.CAN, NP_LIST, predicates.BE_PUT)),
+            (0, (predicates.THERE_BE, NP_LIST, silent(optional(predicates.BEING)))),
+            (0, (verbs.ENSURE, predicates.THERE_IS, NP_LIST)),
+            (0, (sequence(predicates.THERE_NOT_BE, noun_phrase, build=there_is_none),)),
         )
     ),
 )

@@ -5,15 +5,11 @@ from __future__ import annotations
 from functools import partial
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import either, one_of, phrase, sequence
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
+from etot_cli.reasoning.language.grammar.parsers.common import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
-from etot_cli.reasoning.language.grammar.syntax.clauses import (
-    Avoid,
-    AvoidClause,
-    ReorientClause,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import forbidden, verbs
+from etot_cli.reasoning.language.words import forbidden, predicates
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
 from etot_cli.world.spatial import Nearby
 
@@ -55,7 +51,7 @@ _TOPPLE = forbidden.TOPPLE.replace(",", "|")
 NOTHING_HARMED = AvoidClause(Avoid.HARM, None)
 _DESK = "|".join(sorted(DESK_NOUNS))
 _WILL_NOT = "(does|do|will|can|may|should|must|shall) not"
-OFF_THE_DESK = f"({verbs.FALL}) (off [of]|from|over the edge of) the [edge of the] ({_DESK})"
+OFF_THE_DESK = f"({predicates.FALL}) (off [of]|from|over the edge of) the [edge of the] ({_DESK})"
 
 LEAVE_THE_DESK = f"""
     {OFF_THE_DESK}|leave the ({_DESK})|be (taken|removed|moved|lifted) (off [of]|from) the ({_DESK})
@@ -91,7 +87,7 @@ UNHARMED = either(
     ),
     sequence(
         THINGS,
-        f"({verbs.NOT_LEAVE}) the ({_DESK}), ({verbs.NOT_BE_TAKEN}) (off [of]|from) the ({_DESK})",
+        f"(({predicates.NOT_LEAVE})|({predicates.NOT_BE_TAKEN}) (off [of]|from)) the ({_DESK})",
         build=unharmed,
     ),
     sequence(
@@ -114,7 +110,7 @@ UNHARMED = either(
         f"({forbidden.NOTHING}) ({forbidden.MUST}) [ever] ({LEAVE_THE_DESK}), "
         f"({forbidden.NOTHING}) leaves the ({_DESK}), "
         f"({forbidden.NOTHING}) ((is|gets)|({forbidden.MUST}) (be|get)) ({forbidden.HARMED}), "
-        f"{forbidden.EVERYTHING} ({verbs.STAY}) on the ({_DESK})",
+        f"{forbidden.EVERYTHING} ({predicates.STAY}) on the ({_DESK})",
         NOTHING_HARMED,
     ),
 )

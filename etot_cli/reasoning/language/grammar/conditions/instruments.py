@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.language.grammar.parsers.combinators import (
-    either,
-    optional,
-    sequence,
-)
+from etot_cli.reasoning.language.grammar.parsers.combinators import either, optional, sequence
 from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause

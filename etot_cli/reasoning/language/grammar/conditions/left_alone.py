@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import partial, reduce
 
-from etot_cli.reasoning.language.grammar.conditions.prohibitions import left_where_it_is
+from msgspec.structs import replace
+
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     optional,
@@ -18,49 +19,35 @@ from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, n
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIER
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.emptying import stays_empty
-from etot_cli.reasoning.language.grammar.syntax.clauses import (
-    Avoid,
-    AvoidClause,
-)
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    NounPhrase,
-    Things,
-)
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
+from etot_cli.reasoning.language.words import manner, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def _left_where_it_is(things: Things, at: tuple[Modifier, ...]) -> AvoidClause | None:
+    """What stays where it is, with where that is ("leave the cup where it is on the tray")."""
+    if len(things.phrases) > 1 or any(item.prep not in (Prep.ON, Prep.IN) for item in at):
+        return None
+    np = reduce(NounPhrase.told_by, at, things.phrases[0])
+    return None if np.pronoun else AvoidClause(Avoid.MOVE, replace(things, phrases=(np,)))
+
 
 _AWAY_FROM = "[well|far] (away from|clear of)"
-
-
 _ON_THE_WAY = f"""
     [~comma] (while|when|as) (doing (it|so|that|this)|you do (it|so|that|this)), {manner.ON_THE_WAY}
 """
-
-
 _EVERYTHING_ELSE = "everything else, anything else, all else, the rest [of it|of them]"
-
-
 _OTHERS = "the others [of them]"
-
-
 _THERE = "[up|down|over] (there|here)"
-
-
 _STAYS = either(
-    sequence(verbs.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
-    phrase(verbs.KEEP_ITS_PLACE),
+    sequence(predicates.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
+    phrase(predicates.KEEP_ITS_PLACE),
 )
-
-
 _THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
-
-
 _THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))
-
-
 _ALL_ELSE = either(phrase(_EVERYTHING_ELSE, _THE_REST), phrase(_OTHERS, _THE_OTHERS))
-
-
 OTHERS_STILL = sequence(
     either(
         sequence(_ALL_ELSE, _STAYS),
@@ -75,28 +62,22 @@ OTHERS_STILL = sequence(
             OPTIONAL_COMMA,
             either(
                 sequence("leav(e|ing) everything, keep[ing] everything", manner.AS_IT_IS),
-                sequence("everything", verbs.LEFT_THERE, optional(manner.AS_IT_IS)),
+                sequence("everything", predicates.LEFT_THERE, optional(manner.AS_IT_IS)),
             ),
             build=lambda: _THE_REST,
         ),
     ),
     build=partial(AvoidClause, Avoid.MOVE),
 )
-
-
 UNTOUCHED = either(
     sequence(_ALL_ELSE, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
     phrase("nothing else (moved|touched|changed)", AvoidClause(Avoid.MOVE, _THE_REST)),
     sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
 )
 """The same without a verb ("bolts untouched")."""
-
-
 _FINE = (
     "(is|are) [just] (fine|good|ok|okay|alright) (there|as (it is|they are)|where (it is|they are))"
 )
-
-
 _OF_ONE = word_set("stays remains keeps retains")
 
 
@@ -108,11 +89,9 @@ def _in_number(text: str, clause: AvoidClause) -> AvoidClause | None:
 
 
 _STAYS_EMPTY = either(
-    sequence(noun_phrase, verbs.LEFT_THERE, "empty"),
+    sequence(noun_phrase, predicates.LEFT_THERE, "empty"),
     sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
 )
-
-
 KEEP_STILL = either(
     sequence(_STAYS_EMPTY, build=stays_empty),
     sequence(
@@ -134,11 +113,11 @@ KEEP_STILL = either(
     sequence(
         either(
             sequence("leav(e|ing), keep[ing]", THINGS),
-            sequence(optional("let"), THINGS, verbs.LEFT_THERE),
+            sequence(optional("let"), THINGS, predicates.LEFT_THERE),
         ),
         manner.WHERE_IT_IS,
         some(MODIFIER, least=1, most=2),
-        build=left_where_it_is,
+        build=_left_where_it_is,
     ),
     sequence(
         # After "the cups" rather one of them that is left out.

@@ -6,10 +6,10 @@ from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import either, sequence
 from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
-from etot_cli.reasoning.language.grammar.phrases.modifiers import DESCRIBED
-from etot_cli.reasoning.language.grammar.phrases.naming import ALREADY_THERE
+from etot_cli.reasoning.language.grammar.phrases.descriptions import DESCRIBED
+from etot_cli.reasoning.language.grammar.phrases.free_relatives import ALREADY_THERE
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import predicates
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -47,7 +47,9 @@ ALREADY = either(
         either(DESCRIBED, ALREADY_THERE),
         build=lambda np, said: Things((np.told_by(said),)),
     ),
-    sequence(noun_phrase, f"{verbs.TAKEN_BY}, {verbs.HOLDS}", noun_phrase, build=_holding),
+    sequence(
+        noun_phrase, f"{predicates.TAKEN_BY}, {predicates.HOLDS}", noun_phrase, build=_holding
+    ),
     sequence(
         noun_phrase,
         "[already] (has|holds) [already|still|now]",
@@ -57,7 +59,7 @@ ALREADY = either(
     ),
     sequence(
         noun_phrase,
-        verbs.TAKEN_ALREADY,
+        predicates.TAKEN_ALREADY,
         build=lambda vessel: _holding(vessel, NounPhrase("an", ("object",), text="anything")),
     ),
     sequence(

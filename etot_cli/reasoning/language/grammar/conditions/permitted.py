@@ -4,25 +4,11 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.language.grammar.parsers.combinators import (
-    either,
-    one_of,
-    sequence,
-)
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    OPTIONAL_COMMA,
-    exceptions,
-)
+from etot_cli.reasoning.language.grammar.parsers.combinators import either, one_of, sequence
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, exceptions
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.syntax.clauses import (
-    Avoid,
-    AvoidClause,
-)
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Modifier,
-    NounPhrase,
-    Things,
-)
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import forbidden, nouns
 from etot_cli.reasoning.language.words.places import Prep
 

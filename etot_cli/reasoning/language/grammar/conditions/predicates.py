@@ -17,13 +17,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED, PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import (
-    OPEN_OR_CLOSED,
-    PREDICATE,
-    STATE,
-    state_of,
-)
+from etot_cli.reasoning.language.grammar.phrases.states import STATE
 from etot_cli.reasoning.language.grammar.requests.emptying import contents_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -33,7 +29,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import frames, manner, predicates, verbs
 from etot_cli.reasoning.language.words.places import Prep
 
 _EMPTY = "empty"
@@ -108,7 +104,7 @@ _HAS = sequence(
     optional(phrase("in it, inside, on it"), ""),
     build=lambda held, where: ("has", held, where),
 )
-_IS = sequence(f"{verbs.BE}, stay[s], remain[s]", _SO)
+_IS = sequence(f"{predicates.BE}, stay[s], remain[s]", _SO)
 _MORE = some(sequence(LIST, optional("to"), either(_IS, _HAS, _SO)), most=3)
 _WITH_IT = optional(
     sequence(
@@ -126,8 +122,8 @@ _WITH_IT = optional(
     (),
 )
 _SUBJECT = either(
-    sequence(NP_LIST, verbs.MODAL),
-    sequence(verbs.WANTED, NP_LIST, optional("to be")),
+    sequence(NP_LIST, predicates.MODAL),
+    sequence(predicates.WANTED, NP_LIST, optional("to be")),
     sequence(f"{verbs.KEEP}, mak(e|ing)", NP_LIST),
 )
 BOTH_ARE = sequence(NP_LIST, _IS, _MORE, _WITH_IT, build=_all_of_it)
@@ -135,7 +131,7 @@ _IS_SO = either(
     sequence(STATE, build=lambda state: EnsureClause((state,))),
     sequence(
         NP_LIST,
-        verbs.BE,
+        predicates.BE,
         manner.EMPTIED,
         build=lambda nps: EnsureClause(tuple(_empty(nps))),
     ),
@@ -153,7 +149,7 @@ def _in_that_state(word: str, np: NounPhrase) -> EnsureClause | None:
 
 BOTH_SO = either(
     sequence(
-        f"{small_words.GOAL_IS}, {small_words.TASK}",
+        f"{frames.GOAL_IS}, {frames.TASK}",
         "a, an, the",
         OPEN_OR_CLOSED,
         noun_phrase,

@@ -12,26 +12,23 @@ from etot_cli.reasoning.language.grammar.paraphrasing.corners import CORNERS_AND
 from etot_cli.reasoning.language.grammar.paraphrasing.end_states import END_STATES
 from etot_cli.reasoning.language.grammar.paraphrasing.forbidding import FORBIDDING
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED, LISTINGS
+from etot_cli.reasoning.language.grammar.paraphrasing.names_and_signs import NAMES_AND_SIGNS
 from etot_cli.reasoning.language.grammar.paraphrasing.obstacles import OBSTACLES
 from etot_cli.reasoning.language.grammar.paraphrasing.placements import PLACEMENTS
 from etot_cli.reasoning.language.grammar.paraphrasing.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.paraphrasing.said_again import SAID_AGAIN
 from etot_cli.reasoning.language.grammar.paraphrasing.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.grammar.text.contractions import CONTRACTIONS
-from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 from etot_cli.reasoning.language.words.verbs import PAST
 
-HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _MAY_GO = Expression(
     r"(^|[.!?;]\s*)(?:could|can|may|might) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)"
     r"(?: please)? (go|come|move|return|end up|wind up|live)\b"
 )
 """A request in the words of a question."""
-_SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
 _ALL_DONE = Expression(
     r"(?<=\w[.,;!? ])((?: |\b)(?:once|when|after|as soon as)) (?:everything|all)"
     r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
@@ -40,19 +37,6 @@ _ALL_DONE = Expression(
 _BESIDE = (
     r"(?:next to|beside|near|behind|in front of|between|(?:to the )?(?:left|right) of|on|in)\b"
 )
-_LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
-_ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
-_NO_MORE_SAID = (
-    rf"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b| {WHERE}|$)"
-)
-_PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
-
-_ARROW = r"(?:[-=]+>|\N{RIGHTWARDS ARROW})"
-_STEP = (
-    r"(?:put|place|take|move|pick up|grab|close|shut|open (?=the|my))\b"
-    r"|(?!fully|completely|wide|all)\w+ (?:\w+ )?(?:open|closed|shut) ?(?:[-=]+>|[.,;\n]|$)"
-)
-_COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
 
 
 _NO_NOUN = (
@@ -160,11 +144,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         rf"\bmake ({NAMED} [^.,;]*?) (?:stand|sit|lie|rest) (?={_BESIDE}|to\b)",
         r"put \1 ",
     ),
-    (
-        rf"\b(the|that) ({'|'.join(NUMBERS)})[{HYPHENS} ](\w+)[{HYPHENS} ](stack|tower|pile)\b"
-        r"(?! of\b)",
-        r"\1 \4 of \2 \3s",
-    ),
     (r"\bthe other way round\b", "the other way around"),
     (r"\bwhat (i|we) (?:am|are) after is\b", r"what \1 want is"),
     # What is so the other way around is so no more where it is as it is said
@@ -172,16 +151,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r",? (?:and |but )?(?:not|rather than|instead of)"
         r" (?:the other way around|vice versa|the reverse)(?=[.,;:!?]|$)",
         "",
-    ),
-    (
-        r"\b((?:need|want|have|like|love|is|are) (?:[^.,;]* )?)out "
-        rf"(?=on(?:to)? (?:the|my) {TABLE})",
-        r"\1",
-    ),
-    (
-        r"\b((?:what|whatever|everything|all)(?: that)? is (?:in|on)) there "
-        r"(?=(?:on|in|into|onto|goes|to)\b)",
-        r"\1 it ",
     ),
     (rf"^({ASKED}(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
     # To a thing, not to somebody
@@ -207,8 +176,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     *CORNERS_AND_SIDES,
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
-    (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
-    (r"\b(come|go) (?:out|over|up) here (?=(?:on|in) (?:the|my)\b)", r"\1 "),
     (r"(?:,? |^)from now on\b,?", ""),
     (r"(?<=\w) at all(?=[.;,!?]|$)", ""),
     # Whose it is, before what is to be done with it
@@ -229,17 +196,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"([^.,;]*?) (in|inside)(?=,? (?:and )?(?:close|shut)\b)",
         r"\1, put \2 \3",
     ),
-    (
-        rf"\bthe ((?:{_COMPARED}) (?:{'|'.join(CATEGORIES)}))\b(?! (?:ones|things)\b)",
-        r"the 1 \1",
-    ),
     (r"(\b(?:no|nothing|neither) [^.;,]*?) any ?(?:more|longer)\b", r"\1"),
-    (r"\band/or\b", "or"),
-    (rf"\b(left|right|top|bottom|front|back|upper|lower)[{HYPHENS} ]most\b", r"\1most"),
-    (rf"\b(left|right)(?:[{HYPHENS}]hand(?:ed)?\b| hand(?= corner\b))", r"\1"),
-    (r"(?:\b(?:number|no\.|nr\.?)\s*|#)(?=\d)", ""),
-    (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
-    (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),
     (
         r"\bnothing (?:but|except(?: for)?|other than|besides|(?:apart|aside) from"
         r"|with the exception of)\b(?=(?: \w+){1,5})",
@@ -261,15 +218,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (r"(?<=\w),? (?:please|pls|plz)(?= ?:)", ""),
     (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe) (?:please|pls|plz)(?=, |[.!;?]|$)", ""),
     (r"(?<! of )(?<!between )\bthe two of (?=(?:them|these|those)\b)", "both of "),
-    (rf"\bwhichever (?!of\b)([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"whichever \1 that is "),
-    (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
-    (
-        rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {WHERE}|[,.;!?]|$)",
-        r"\1 in it",
-    ),
-    (r"\bback (?=(?:(?:in|on) )?there\b)", ""),
-    (r"\bhidden (?=(?:in|inside|behind) )", ""),
-    (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
     # What "should first be taken out", and put elsewhere then
     (
         r"^((?:the|my|our|both|all)\b[^.;!?,]*? (?:should|must|has to|have to|needs? to|"
@@ -277,44 +225,10 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"first, \1 ",
     ),
     (
-        r"\b((?:next to|beside|behind|in front of|on top of) (?:it|them)) there"
-        r"(?=[.,;!?]| and\b| then\b|$)",
-        r"\1",
-    ),
-    (
-        r"\b((?:that|which) (?:is|are) (?:still |already |just )?)(?:lying |standing |sitting )?"
-        rf"out (?:here|there)\b(?! on (?:the|my) {TABLE}\b)",
-        r"\1outside",
-    ),
-    (
-        r"(^|[.;] )(?:since|because|as) ((?:the|my|one) (?:\w+ ){1,3}?(?:is|are) (?:already )?"
-        r"(?:taken|occupied|in use|used)(?: by (?:the|a|my) [^.,;]*)?), ",
-        r"\1\2, so ",
-    ),
-    (
-        r"\b(that|which) (?:is (?:not (?:currently |yet |already )?(?:being )?"
-        r"(?:used|in use|taken|occupied)|unused|free|vacant|unoccupied|still free)"
-        rf"|(?:nobody|no one) (?:uses|is using)){_NO_MORE_SAID}",
-        r"\1 is empty",
-    ),
-    (r"(?<=\w )up (?=with\b)", ""),
-    (
         r"(^|[.;,] |\b(?:and|but) )only (?:then|afterwards?|thereafter|after (?:that|this)),? "
         r"(?=\w)(?!(?:should|may|can|could|must|shall|will|is|are|has|have|does|do)\b)",
         r"\1then ",
     ),
-    (r"\b(mrs?|ms|dr)\. ", r"\1 "),
-    (
-        r"\b(?:(?:my|our|the) )?(?:gran(?:ny|dma|dpa|d)?|grand(?:mother|father)|mum|mom|dad|sister|"
-        r"brother|mother|father|wife|husband|teacher|nurse|guest|boss) 's (?=\w+)",
-        "my ",
-    ),
-    (
-        r"\b(?:everything|anything|all things|the things) (?:(?:that )?(?:you|one|i|we) can "
-        r"write with|(?:that|which) writes|(?:that is )?for writing)\b",
-        "all the writing utensils",
-    ),
-    (r"(\bthe|\bits|\btheir|'s) content\b(?! with)", r"\1 contents"),
     # A chest's top is where things stand on it
     (r"\b(on|onto|to) the top surface of (?!(?:the|my) (?:desk|table)\b)", r"\1 the top of "),
     (
@@ -324,16 +238,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         "",
     ),
     (r", (?:you choose|i do not (?:care|mind)|it does not matter) which(?: one)?(?=[,.;!?]|$)", ""),
-    (rf"\bthe (?:piece|item) of (?=(?:{'|'.join(CATEGORIES)})\b)", "the 1 "),
-    (r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", ""),
-    (r"\bback down (?=(?:on|onto)\b)", "down "),
-    (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
-    # "Open the drawer, but not with the cup inside": it is not in there by then
-    (
-        r",? (?:but )?not with ((?:the|my|our) (?:\w+ ){0,2}?\w+) "
-        r"(?:still |left )*(?:inside(?: it)?|in there|in it)(?=[.,;!?]|$)",
-        r", but first make sure \1 is not in it",
-    ),
     (
         r"(?<=\w)(?<!together)(?<!apart)(?<!separately), "
         r"(?=either (?:in|on|into|onto|inside|next to|beside|at) )",
@@ -360,25 +264,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"(?=[.,;!?]|$)",
         r"\1 that is empty",
     ),
-    (r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", ""),
-    (rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose"),
-    # What should not be lying about somewhere should not be there.
-    (rf"\bbe {_ABOUT}(?= (?:in|on|inside)\b)", "be"),
-    (
-        r"(?<!is )(?<!are )(?<!is just )(?<!are just )(?<!be )(?<!business )"
-        rf"\b{_ABOUT}",
-        "that are loose",
-    ),
     (_ALL_DONE, r"\1 all of that \2 \3"),
     (r", (?:all|everything) (?:but|except(?: for)?) ", ", except "),
-    (r"\b(it|them) out of there\b", r"\1 out"),
-    (r"\b(out of|from|off) there\b", r"\1 it"),
-    (
-        r"\bstill (?=(?:needs?|has|have|ought) to "
-        r"(?!stay\b|remain\b|be (?!\w+ed\b|put\b|shut\b|taken\b))|must go\b|should go\b)",
-        "",
-    ),
-    (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
     (
         r"(?:^|(?<=[.!?;]\s))(?:(?:(?:do|can) you )?see|(?:have you|has any(?:one|body)) seen) "
         r"(?=the |that |those )([^.!?;]*?)"
@@ -395,17 +282,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1\2just ",
     ),
     (r",\s*(?:please\s*,|right (?=at\b))", ", "),
-    (rf"\b({'|'.join(CATEGORIES)}) (?:items|things|products|articles)\b", r"\1"),
-    # "A piece of fruit" is one, "the pieces of fruit" are all; "the piece" would be one of them.
-    (rf"\b{_PIECES} (?=(?:{'|'.join(CATEGORIES)})\b)", ""),
-    (rf"\b([a-z])[{HYPHENS}](?=[a-z]{{3}})", r"\1"),  # "t-shirt", "x-ray"
-    (rf"(?:(?<=\w)[{HYPHENS}]|/)(?=\w)", " "),
-    (r"&", " and "),
-    # Steps ("open the drawer -> pen to drawer -> drawer closed"), else places ("pen -> drawer")
-    (rf"\b(open|closed|shut) ?{_ARROW}", r"\1, then "),
-    (rf" ?{_ARROW} ?(?={_STEP})", ", then "),
-    (_ARROW, " to "),
-    (r"\s*=\s*(?=\w)", ": "),
+    *NAMES_AND_SIGNS,
 )
 
 

@@ -5,8 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
+from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
+_SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
+_LYING = r"(?:lying|sitting|standing|left)(?: (?:around|about|there|here|out))+"
+_ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! (?:the|my|your|of))"
+_NO_MORE_SAID = (
+    rf"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b| {WHERE}|$)"
+)
 _TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
 _ROOM = r"there is (?:still |enough |some |plenty of )?(?:room|space)"
 _AT = rf"(?:on|in|next to|beside|behind|in front of|to the (?:left|right) of) {NAMED}"
@@ -100,5 +107,74 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"|(?:to )?the (?:left|right) of|on|in) (?:{NAMED}|it\b|them\b))",
         " ",
     ),
+    (
+        r"\b((?:need|want|have|like|love|is|are) (?:[^.,;]* )?)out "
+        rf"(?=on(?:to)? (?:the|my) {TABLE})",
+        r"\1",
+    ),
+    (
+        r"\b((?:what|whatever|everything|all)(?: that)? is (?:in|on)) there "
+        r"(?=(?:on|in|into|onto|goes|to)\b)",
+        r"\1 it ",
+    ),
+    (r"\bdown here (?=(?:on|in) (?:the|my)\b)", ""),
+    (r"\b(come|go) (?:out|over|up) here (?=(?:on|in) (?:the|my)\b)", r"\1 "),
+    (rf"\bwhichever (?!of\b)([\w ]+?) is (?={_SO_NOW}|(?:free|empty)\b)", r"whichever \1 that is "),
+    (rf"\bwhichever ([\w ]+?) are (?={_SO_NOW})", r"all the \1 that are "),
+    (
+        rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {WHERE}|[,.;!?]|$)",
+        r"\1 in it",
+    ),
+    (r"\bback (?=(?:(?:in|on) )?there\b)", ""),
+    (r"\bhidden (?=(?:in|inside|behind) )", ""),
+    (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
+    (
+        r"\b((?:next to|beside|behind|in front of|on top of) (?:it|them)) there"
+        r"(?=[.,;!?]| and\b| then\b|$)",
+        r"\1",
+    ),
+    (
+        r"\b((?:that|which) (?:is|are) (?:still |already |just )?)(?:lying |standing |sitting )?"
+        rf"out (?:here|there)\b(?! on (?:the|my) {TABLE}\b)",
+        r"\1outside",
+    ),
+    (
+        r"(^|[.;] )(?:since|because|as) ((?:the|my|one) (?:\w+ ){1,3}?(?:is|are) (?:already )?"
+        r"(?:taken|occupied|in use|used)(?: by (?:the|a|my) [^.,;]*)?), ",
+        r"\1\2, so ",
+    ),
+    (
+        r"\b(that|which) (?:is (?:not (?:currently |yet |already )?(?:being )?"
+        r"(?:used|in use|taken|occupied)|unused|free|vacant|unoccupied|still free)"
+        rf"|(?:nobody|no one) (?:uses|is using)){_NO_MORE_SAID}",
+        r"\1 is empty",
+    ),
+    (r"(?<=\w )up (?=with\b)", ""),
+    (r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", ""),
+    (r"\bback down (?=(?:on|onto)\b)", "down "),
+    (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
+    # "Open the drawer, but not with the cup inside": it is not in there by then
+    (
+        r",? (?:but )?not with ((?:the|my|our) (?:\w+ ){0,2}?\w+) "
+        r"(?:still |left )*(?:inside(?: it)?|in there|in it)(?=[.,;!?]|$)",
+        r", but first make sure \1 is not in it",
+    ),
+    (r"(?<=\w) yet(?= (?:in|on|to|into|onto|and|go|goes)\b|[,.;]|$)", ""),
+    (rf"\b((?:that|which) (?:is|are) ){_ABOUT}", r"\1loose"),
+    # What should not be lying about somewhere should not be there.
+    (rf"\bbe {_ABOUT}(?= (?:in|on|inside)\b)", "be"),
+    (
+        r"(?<!is )(?<!are )(?<!is just )(?<!are just )(?<!be )(?<!business )"
+        rf"\b{_ABOUT}",
+        "that are loose",
+    ),
+    (r"\b(it|them) out of there\b", r"\1 out"),
+    (r"\b(out of|from|off) there\b", r"\1 it"),
+    (
+        r"\bstill (?=(?:needs?|has|have|ought) to "
+        r"(?!stay\b|remain\b|be (?!\w+ed\b|put\b|shut\b|taken\b))|must go\b|should go\b)",
+        "",
+    ),
+    (r"\b(is|are) (in|on|at) the wrong (?!(?:one|place|spot|side)\b)", r"\1 \2 the "),
 )
 """What they are put into, in order (see ``paraphrases``)."""

@@ -18,16 +18,16 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.input import Input
 from etot_cli.reasoning.language.grammar.text import splitting as text
-from etot_cli.reasoning.language.words import known, manner, small_words
+from etot_cli.reasoning.language.words import fillers, known, manner, nouns, small_words
 from etot_cli.reasoning.language.words.categories import is_category
-from etot_cli.reasoning.language.words.lexicon import PURPOSES
+from etot_cli.reasoning.language.words.lexicon import PURPOSES, is_descriptive
 
 noun_phrase = Rule()
 exceptions = Rule()
 """Defined in ``noun_phrases``; what those contain contains them."""
 COMMA = text.COMMA
 COLON = text.COLON
-EMPTY_WORDS = Rule(silent(some(phrase(small_words.WITHOUT_MEANING))))
+EMPTY_WORDS = Rule(silent(some(phrase(fillers.WITHOUT_MEANING))))
 LIST_COMMA = silent(word(lambda _, text: text == COMMA))
 """No colon stands between things of one list."""
 
@@ -70,6 +70,21 @@ def _is_noun(given: Input, said: str) -> bool:
 
 
 NOUN_WORD = word(_is_noun)
+WORDS = some(NOUN_WORD, least=1, most=6)
+DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
+_NUMBER = sequence(
+    word(lambda given, text: text.isdigit() and len(text) < 3), optional("of [the|these|those]")
+)
+DETERMINER = either(
+    phrase(nouns.DETERMINERS),
+    _NUMBER,
+    sequence(
+        phrase("the, these, those, all, all the, all of the"),
+        _NUMBER,
+        build=lambda *words: " ".join(words),
+    ),
+)
+OPTIONAL_DETERMINER = optional(DETERMINER, "")
 OPTIONAL_COMMA = optional(COMMA)
 
 

@@ -8,10 +8,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     quiet,
     sequence,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, WORDS, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -19,7 +18,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     Things,
 )
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 
 
@@ -45,7 +44,7 @@ AS_MANY = quiet(
         sequence(
             either(
                 sequence(verbs.SET_DOWN, _SO_MANY, WORDS, MODIFIERS, _AS),
-                sequence(_SO_MANY, WORDS, MODIFIERS, _AS, optional(verbs.MODAL, ())),
+                sequence(_SO_MANY, WORDS, MODIFIERS, _AS, optional(predicates.MODAL, ())),
             ),
             DESTINATIONS,
             build=lambda said, where: _as_many(said[0], said[1], where, said[2]),

@@ -1,10 +1,11 @@
-"""Rules for one of some things that are named, told by comparing them with each other."""
+"""Rules for things that are told by comparing them with others, or by which is the nearest."""
 
 from __future__ import annotations
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     at_end,
     either,
+    one_of,
     optional,
     separated,
     sequence,
@@ -13,11 +14,13 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     LIST,
+    OPTIONAL_DETERMINER,
+    WORDS,
     alternatives,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
-from etot_cli.reasoning.language.words.lexicon import SIZES
+from etot_cli.reasoning.language.words.lexicon import ORDINALS, SIZES, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 COMPARED = word(lambda given, text: text in SIZES and text.endswith(("er", "est")))
@@ -51,4 +54,32 @@ ONE_COMPARED = either(
         separated(noun_phrase, LIST, most=3),
         build=the_more,
     ),
+)
+
+
+def _nearest_to(
+    determiner: str, ordinal: str, prep: Prep, words: tuple[str, ...], mark: tuple[Prep, NounPhrase]
+) -> NounPhrase | None:
+    """With the landmark of "the closest cup to the plate"; of "the second closest cup to you" the
+    robot, from which they are counted anyway.
+    """
+    side = "closest" if prep is Prep.NEAREST else "farthest"
+    if mark[0] is not prep or singular(words[-1]) != words[-1]:
+        return None
+    if mark[1].words in (("you",), ("robot",)):
+        return NounPhrase(determiner, (*filter(None, (ordinal,)), side, *words))
+    return None if ordinal else NounPhrase(determiner, words, (Modifier(prep, (mark[1],)),))
+
+
+NEAREST_TO = sequence(
+    # "The closest cup to the plate"
+    OPTIONAL_DETERMINER,
+    optional(word(lambda given, text: text in ORDINALS), ""),
+    one_of({Prep.NEAREST: "closest, nearest", Prep.FARTHEST: "farthest, furthest"}),
+    WORDS,
+    either(
+        sequence("to", noun_phrase, build=lambda np: (Prep.NEAREST, np)),
+        sequence("[away] from", noun_phrase, build=lambda np: (Prep.FARTHEST, np)),
+    ),
+    build=_nearest_to,
 )

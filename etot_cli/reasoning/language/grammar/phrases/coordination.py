@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.reasoning.language.words.verbs import OF_SEVERAL
+from etot_cli.reasoning.language.words.predicates import OF_SEVERAL
 
 
 def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:

@@ -6,9 +6,7 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    excepting,
-)
+from etot_cli.reasoning.language.grammar.phrases.contrasts import excepting
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,

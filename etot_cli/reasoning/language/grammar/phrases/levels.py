@@ -12,7 +12,6 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     word,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
-from etot_cli.reasoning.language.grammar.phrases.naming import LEVEL
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Modifier,
@@ -20,9 +19,15 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import places
-from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS, STATES
+from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS, LEVELS, STATES
 from etot_cli.reasoning.language.words.places import Prep
 
+LEVEL = sequence(
+    word(lambda given, text: text in LEVELS),
+    word(lambda given, text: text in (*BOARD_NOUNS, "drawer")),
+    build=lambda *words: (words, ()),
+)
+"""Of furniture: "top shelf", and nothing behind it."""
 THAT = NounPhrase(pronoun="it", text="where it is")
 """What is to go to another level, which is counted from where it is."""
 _LEVEL_NOUNS = (*BOARD_NOUNS, "drawer")

@@ -21,9 +21,11 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
+    DESCRIPTIVE,
     LIST,
     LIST_COMMA,
     OPTIONAL_COMMA,
+    WORDS,
     alternatives,
     exceptions,
     noun_phrase,
@@ -35,16 +37,11 @@ from etot_cli.reasoning.language.grammar.phrases.coordination import (
     of_each,
     told_together,
 )
-from etot_cli.reasoning.language.grammar.phrases.naming import DESCRIPTIVE, WORDS
+from etot_cli.reasoning.language.grammar.phrases.naming import NAMED
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
-from etot_cli.reasoning.language.words.lexicon import (
-    NUMBERS,
-    is_descriptive,
-    same_noun,
-    singular,
-)
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, same_noun, singular
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import openings_of
 
@@ -129,7 +126,7 @@ _PARTS = sequence(
     either(COMMA, at_end),
     build=_parts,
 )
-_MODAL = openings_of((verbs.MODAL,))
+_MODAL = openings_of((predicates.MODAL,))
 _BEFORE_VERB = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] in _MODAL else [])
 _TOO = optional(sequence("too, as well", OPTIONAL_COMMA, _BEFORE_VERB))
 """Behind the last of several things of which something is said next."""
@@ -155,7 +152,7 @@ def _out_of(nps: tuple[NounPhrase, ...]) -> bool:
     return bool(nps[1:]) and of == "of" and single and number in (*NUMBERS, "either")
 
 
-def _one_out_of(nps: tuple[NounPhrase, ...]) -> Things | None:
+def _one_among(nps: tuple[NounPhrase, ...]) -> Things | None:
     """One of several things that are named one by one."""
     (number, _, *the), text = nps[0].determiner.split(), nps[0].text.split(maxsplit=2)
     first = replace(nps[0], determiner=" ".join(the), text=text[-1])
@@ -164,6 +161,7 @@ def _one_out_of(nps: tuple[NounPhrase, ...]) -> Things | None:
 
 _COORDINATION = sequence(_LIST, build=lambda nps: None if _out_of(nps) else nps)
 _NEITHER = sequence(alternatives(noun_phrase, 3), build=lambda nps: nps if nps[1:] else None)
+noun_phrase.define(NAMED)
 exceptions.define(either(_COORDINATION, ONES_OF_A_COLOR, _NEITHER))
 NP_LIST = Rule(
     either(
@@ -207,23 +205,26 @@ def tells_which(one: NounPhrase, *nps: NounPhrase) -> bool:
     )
 
 
-def one_out_of(np: NounPhrase, nps: tuple[NounPhrase, ...] | None) -> tuple[NounPhrase, ...] | None:
+def _one_out_of(np: NounPhrase, nps: tuple[NounPhrase, ...] | None) -> Things | None:
     """One of some things, which are named behind that ("a vessel, be it the cup or the bowl")."""
     one = np.determiner.split()[:1] in _ANY_ONE and not np.modifiers
     named = nps and nps[1:] and all(item.words and not item.is_elliptic for item in nps)
-    return nps if one and named else None
+    return Things(nps, either=True) if nps and one and named else None
 
 
-BE_IT = "be it, whether [it is]"
+_BE_IT = "be it, whether [it is]"
 EITHER_SIDE = sequence(
     COMMA,
-    optional(f"either, {BE_IT}"),
+    optional(f"either, {_BE_IT}"),
     sequence(_PART, "or [be it]", _PART, build=lambda *sides: sides),
     either(COMMA, at_end),
 )
 """Behind one of some things: which they are."""
-
-
+ONE_TOLD_BEHIND = either(
+    sequence(noun_phrase, EITHER_SIDE, build=one_so),
+    sequence(noun_phrase, COMMA, _BE_IT, alternatives(noun_phrase, 3), build=_one_out_of),
+)
+"""One of some things, and behind it which they are ("one of the cups, be it the red or …")."""
 COMPARED_CHOICE = sequence(
     alternatives(noun_phrase, 3),
     COMMA,
@@ -239,17 +240,8 @@ CHOICE = Rule(
     either(
         COMPARED_CHOICE,
         sequence(alternatives(noun_phrase, 5), build=_one_of),
-        sequence(_LIST, build=lambda nps: _one_out_of(nps) if _out_of(nps) else None),
-        sequence(noun_phrase, EITHER_SIDE, build=one_so),
-        sequence(
-            noun_phrase,
-            COMMA,
-            BE_IT,
-            alternatives(noun_phrase, 3),
-            build=lambda np, nps: (
-                None if (one := one_out_of(np, nps)) is None else Things(one, either=True)
-            ),
-        ),
+        sequence(_LIST, build=lambda nps: _one_among(nps) if _out_of(nps) else None),
+        ONE_TOLD_BEHIND,
         sequence(
             alternatives(noun_phrase, 1),
             "~comma [but] not both ~comma",

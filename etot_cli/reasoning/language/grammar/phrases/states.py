@@ -18,174 +18,22 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    COMMA,
-    IN_HAND,
-    LIST,
-    OPTIONAL_COMMA,
-    noun_phrase,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.being_so import NONE, PREDICATE, ensured, state_of
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    DESTINATIONS,
-    WHERE,
-    destination,
-    of_one_noun,
-)
-from etot_cli.reasoning.language.grammar.phrases.gapping import other_sides
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, PutGroup
+from etot_cli.reasoning.language.grammar.phrases.staying import KEPT_THERE, STAYS, staying
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
-    Modifier,
     NounPhrase,
     State,
-    Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, manner, nouns, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, THING_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words import predicates, small_words
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
-NONE = {"no": "all", "none of the": "all the", "neither": "both", "neither of the": "both"}
-"""Denials before a noun, and of which things what is denied is said."""
-
-
-SHUT = phrase(manner.CLOSED_STATE, "closed")
-
-
-OPEN_OR_CLOSED = either(phrase(manner.OPEN_STATE, "open"), SHUT)
-
-
-IS_OPEN_OR_CLOSED = either(phrase(manner.IS_OPEN, "open"), SHUT)
-"""Behind "not"; what is not to be opened may be open already."""
-_NOT_SO = sequence(
-    "(not|no longer) [left|kept]",
-    either(IS_OPEN_OR_CLOSED, DESTINATIONS),
-    silent(optional("anymore, any more, any longer")),
-    build=lambda found: ("not", found),
-)
-_NEITHER_THERE = sequence(
-    "neither",
-    either(
-        sequence(
-            separated(destination, "nor", most=3),
-            build=lambda found: of_one_noun(found) if found[1:] else None,
-        ),
-        # Nothing ever goes there.
-        sequence(DESTINATIONS, "nor on the (floor|ground)"),
-    ),
-    build=lambda found: ("not", found),
-)
-
-
-_STILL_SO = sequence("still", WHERE, build=lambda where: ("still", where))
-"""Where things are to stay."""
-
-
-SO = either(OPEN_OR_CLOSED, IN_HAND, _NOT_SO, DESTINATIONS)
-"""How things are."""
-
-
-_OPENED = "opened"
-"""Of "none" that says what is not to be done, not how it is to be."""
-PREDICATE = either(
-    phrase("opened [up]", _OPENED),
-    IS_OPEN_OR_CLOSED,
-    IN_HAND,
-    _NOT_SO,
-    _NEITHER_THERE,
-    sequence(optional(sequence("out of the way", OPTIONAL_COMMA)), WHERE),
-    _STILL_SO,
-)
-"""How things are to be."""
-
-
-def state_of(subjects: tuple[NounPhrase, ...], predicate: Any) -> State | None:
-    """What is to be so: a word for a state, or where things are to be."""
-    if "still" in predicate:
-        denied = any(np.determiner in NONE for np in subjects)
-        return None if denied else State(subjects, predicate[1], kept=True)
-    if predicate == _OPENED:
-        predicate = "open"
-        if any(np.determiner in NONE for np in subjects):
-            return None
-    if all(np.determiner in NONE for np in subjects) and "not" not in predicate:
-        every = tuple(replace(np, determiner=NONE[np.determiner]) for np in subjects)
-        return _opposite(every, predicate)
-    if isinstance(predicate, str):
-        return State(subjects, word=predicate)
-    return opposite(subjects, predicate[1]) if "not" in predicate else State(subjects, predicate)
-
-
-def opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...]) -> State | None:
-    """What is not to be so is to be the opposite; "not all are open" may leave some that are."""
-    if any({"off", "out"} & {*np.text.split()} and _is_taken(np) for np in subjects):
-        return None  # nobody wants "the cup off the tray" to be nowhere else
-    several = any(quantity not in nouns.THE_WORDS for np in subjects if (quantity := np.determiner))
-    left = ([item.words for item in np.modifiers] in ([], [("left",)]) for np in subjects)
-    bare = all(left) and subjects[0].words == ("anything",)  # then it is to be empty
-    emptied = bare and not any(isinstance(item, Destination) and item.beside for item in so)
-    return None if several or emptied else _opposite(subjects, so)
-
-
-def _is_taken(np: NounPhrase) -> bool:
-    """Whether a phrase says from where something is to go."""
-    return any(item.prep is Prep.FROM for item in np.modifiers)
-
-
-def not_left(subjects: tuple[NounPhrase, ...], word: str) -> EnsureClause | None:
-    """What is not to be left so; "any drawer" is all of them."""
-    if all(np.determiner in ("a", "an", "any") for np in subjects):
-        subjects = tuple(replace(np, determiner="all") for np in subjects)
-        return EnsureClause((_opposite(subjects, word),))
-    return ensured(opposite(subjects, word))
-
-
-def there_is_none(np: NounPhrase) -> tuple[NounPhrase, ...] | None:
-    """What there should not be ("a cup", "any cups", "cups"): no such thing."""
-    one = np.determiner in ("a", "an", "any", "") and not {*np.words} & {"", *THING_NOUNS}
-    return (replace(np, determiner="no"),) if one and np.words else None
-
-
-def _opposite(subjects: tuple[NounPhrase, ...], so: str | tuple[Destination, ...]) -> State:
-    if not isinstance(so, str):
-        return State(subjects, so, denied=True)
-    return State(subjects, word="closed" if so == "open" else "open", denied=True)
-
-
-ALWAYS = optional(phrase(small_words.ALL_ALONG, True), False)
-
-
-def _is_no_demand(state: State) -> bool:
-    """Whether it says of everything alike that it is to be on the desk, in whatever is there."""
-    (np, *more), where = state.subjects, state.destinations
-    general = not (more or np.modifiers or np.without) and matches_any(
-        np.head, (*THING_NOUNS, "everything")
-    )
-    on_desk = [
-        at.toward is Toward.ON and not at.beside and [t.head in DESK_NOUNS for t in at.targets]
-        for at in where
-    ]
-    return general and len(np.words) == 1 and on_desk == [[True]] and not state.denied
-
-
-def _staying(nps: tuple[NounPhrase, ...], said: str, predicate: Any, always: bool) -> State | None:
-    """What stays so; of what "may" do so nothing is asked."""
-    state = state_of(nps, predicate)
-    if state is not None and _is_no_demand(state):
-        return None  # nothing is to leave the desk
-    none = all(np.determiner in NONE for np in nps)
-    allowed = bool({"can", "may"} & {*said.split()}) and not none
-    return None if state is None else replace(state, kept=True, always=always, allowed=allowed)
-
-
-STAYS = sequence(NP_LIST, phrase(verbs.STAY), PREDICATE, ALWAYS, build=_staying)
-
-
 IN_OR_ON_IT = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
-
-
 _AS_WELL = sequence(OPTIONAL_COMMA, "and, as well as, together with, along with", NP_LIST)
 
 
@@ -264,10 +112,10 @@ EACH_SHOULD = either(
         # "Must both be put", "are both to go"
         "should, must, shall, can, could, may, are, are to, have [to], need [to]",
         _EACH,
-        f"[[meant|supposed] to] (be|go|stand|lie|sit|end up|(be|get) ({verbs.DONE}))",
+        f"[[meant|supposed] to] (be|go|stand|lie|sit|end up|(be|get) ({predicates.DONE}))",
     ),
-    sequence(_EACH, verbs.MODAL),
-    sequence(verbs.MODAL, OPTIONAL_COMMA, _EACH),
+    sequence(_EACH, predicates.MODAL),
+    sequence(predicates.MODAL, OPTIONAL_COMMA, _EACH),
 )
 """What several things are to be, and whether all or both of them."""
 
@@ -284,49 +132,6 @@ def being(verb: str) -> Parser:
     )
 
 
-def _kept_there(nps: tuple[NounPhrase, ...], toward: Toward, np: NounPhrase) -> State | None:
-    """What stays where it is rather than fall, or be taken away; what leaves the desk, on which
-    nothing is said to stay by that, comes to harm.
-    """
-    lost = toward is not Toward.INSIDE and np.head in DESK_NOUNS
-    none = all(n.determiner in NONE for n in nps)
-    if none:  # none of those that are there now
-        there = Modifier(Prep.FROM, (np,))
-        nps = tuple(replace(n, determiner=NONE[n.determiner]).told_by(there) for n in nps)
-    return None if lost else State(nps, (Destination(toward, (np,)),), kept=True)
-
-
-_NONE_OF_THEM = sequence(
-    NP_LIST, build=lambda nps: nps if {np.determiner for np in nps} <= {*NONE} else None
-)
-_AWAY_FROM = one_of({Toward.ON: "off [of]", Toward.INSIDE: "out of", Toward.TO: "from"})
-KEPT_THERE = either(
-    sequence(
-        either(
-            sequence(NP_LIST, verbs.NOT_FALL),
-            sequence(forbidden.DO_NOT, "let", NP_LIST, verbs.FALL),
-        ),
-        one_of({Toward.ON: "off [of], from", Toward.INSIDE: "out of"}),
-        noun_phrase,
-        build=_kept_there,
-    ),
-    sequence(
-        # "The mug must not be taken off the shelf"
-        NP_LIST,
-        either(
-            phrase(verbs.NOT_LEAVE, Toward.TO),
-            sequence(verbs.NOT_BE_TAKEN, _AWAY_FROM),
-        ),
-        noun_phrase,
-        build=_kept_there,
-    ),
-    sequence(
-        _NONE_OF_THEM,
-        either(phrase(verbs.LEAVE, Toward.TO), sequence(verbs.BE_TAKEN, _AWAY_FROM)),
-        noun_phrase,
-        build=_kept_there,
-    ),
-)
 _NONE_MAY_BE = sequence(
     NP_LIST,
     "(may|can|could|will|shall|is to|are to) (be [left|found|standing]|stand|lie)",
@@ -334,15 +139,13 @@ _NONE_MAY_BE = sequence(
     build=lambda nps, so: state_of(nps, so) if {np.determiner for np in nps} <= {*NONE} else None,
 )
 STATE = either(
-    being(f"{verbs.BE}, {verbs.LIES}"),
+    being(f"{predicates.BE}, {predicates.LIES}"),
     _NONE_MAY_BE,
     STAYS,
     KEPT_THERE,
     containing("contains, holds, has, have"),
-    containing(verbs.CARRIES, Toward.ON),
+    containing(predicates.CARRIES, Toward.ON),
 )
-
-
 _BY_THEN = silent(optional(small_words.BY_THE_END))
 states = Rule(
     sequence(
@@ -350,27 +153,13 @@ states = Rule(
         separated(STATE, sequence(_BY_THEN, LIST, optional("that")), most=6),
     )
 )
-
-
-def ensured(*said_states: State | None) -> EnsureClause | None:
-    """How things are to be in the end; None where one of the states is none."""
-    said = tuple(state for state in said_states if state is not None)
-    if len(said) < len(said_states):
-        return None
-    if len(said) > 1 and all(state.destinations for state in said):
-        groups = tuple(PutGroup(Things(state.subjects), state.destinations) for state in said)
-        there = [group.destinations for group in other_sides(groups)]
-        said = tuple(replace(s, destinations=w) for s, w in zip(said, there, strict=True))
-    return EnsureClause(said)
-
-
-_TO_BE_SO = optional(f"[to] (be|end up|go|stand|sit|lie|stay), {verbs.DONE}, {verbs.BE_PUT}")
+_TO_BE_SO = optional(
+    f"[to] (be|end up|go|stand|sit|lie|stay), {predicates.DONE}, {predicates.BE_PUT}"
+)
 
 
 # "…, the ball in the cup": the verb is left out.
 _AND_SO = sequence(LIST, NP_LIST, _TO_BE_SO, PREDICATE, build=state_of)
-
-
 ALL_SO = sequence(
     PREDICATE,
     _WITH_OTHERS,
@@ -380,58 +169,6 @@ ALL_SO = sequence(
     ),
     build=lambda predicate, others, more: lambda nps: (each_so(nps, "", predicate, others), *more),
 )
-
-
-_KEPT_SO = "kept, left, staying, remaining"
-
-
-def kept_so(nps: tuple[NounPhrase, ...], word: str, always: bool = True) -> EnsureClause:
-    """What is to be open or closed all along."""
-    return EnsureClause((State(nps, word=word, kept=True, always=always),))
-
-
-WITH_KEPT_SO = sequence(
-    "with",
-    NP_LIST,
-    either(
-        sequence(_KEPT_SO, OPEN_OR_CLOSED, ALWAYS),
-        sequence(OPEN_OR_CLOSED, phrase(small_words.ALL_ALONG, True)),
-    ),
-    build=lambda nps, said: kept_so(nps, *said),
-)
-"""What is to be open or closed all along ("with the drawer kept shut")."""
-MEANWHILE_SO = either(
-    sequence("while", STAYS, build=ensured),
-    WITH_KEPT_SO,
-    sequence(
-        # "…, the drawer staying shut", "… while keeping the drawer shut"
-        either(
-            sequence(COMMA, NP_LIST, _KEPT_SO),
-            sequence(OPTIONAL_COMMA, "while keeping", NP_LIST),
-        ),
-        OPEN_OR_CLOSED,
-        ALWAYS,
-        build=kept_so,
-    ),
-    sequence(
-        either(
-            sequence(COMMA, NP_LIST, "staying, remaining"),
-            sequence(OPTIONAL_COMMA, "[while] keeping", NP_LIST),
-        ),
-        DESTINATIONS,
-        small_words.ALL_ALONG,
-        build=lambda nps, where: ensured(_staying(nps, "", where, True)),
-    ),
-    # "…, the pen not in the cup"
-    sequence(
-        COMMA,
-        silent(optional("but")),
-        NP_LIST,
-        _NOT_SO,
-        build=lambda nps, so: ensured(state_of(nps, so)),
-    ),
-)
-"""What stays as it is while something else is done, which no comma has to set apart."""
 BESIDES_SO = either(
     sequence(
         # "…: the cup, containing the pen"; who is "holding the pen" may be the hand
@@ -446,7 +183,7 @@ BESIDES_SO = either(
         NP_LIST,
         silent(
             optional(
-                f"[still|left] (lying|standing|sitting|resting), safely, staying, {verbs.DONE}"
+                f"[still|left] (lying|standing|sitting|resting), safely, staying, {predicates.DONE}"
             )
         ),
         ALL_SO,
@@ -459,7 +196,7 @@ BESIDES_SO = either(
         "staying, remaining, (kept|left) [standing|lying|sitting]",
         PREDICATE,
         small_words.ALL_ALONG,
-        build=lambda nps, said: ensured(_staying(nps, "", said, True)),
+        build=lambda nps, said: ensured(staying(nps, "", said, True)),
     ),
 )
 """What is said of other things behind what is asked for (", with the cup on the desk")."""

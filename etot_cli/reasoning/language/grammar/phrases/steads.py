@@ -10,12 +10,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     spanned,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import (
-    noun_phrase,
-)
-from etot_cli.reasoning.language.grammar.phrases.contents import (
-    HERE_BEFORE,
-)
+from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Modifier,

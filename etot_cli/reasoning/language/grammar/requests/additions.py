@@ -19,14 +19,11 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     some,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, NOUN_WORD, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.being_so import SO, state_of
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
+from etot_cli.reasoning.language.grammar.phrases.descriptions import PLAIN_MODIFIER, quality_alone
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    PLAIN_MODIFIER,
-    quality_alone,
-)
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, with_all
-from etot_cli.reasoning.language.grammar.phrases.states import SO, state_of
 from etot_cli.reasoning.language.grammar.phrases.turns import ONE_BEFORE_ANOTHER, TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup

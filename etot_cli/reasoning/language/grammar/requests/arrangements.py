@@ -35,7 +35,15 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, manner, places, small_words, verbs
+from etot_cli.reasoning.language.words import (
+    forbidden,
+    frames,
+    manner,
+    places,
+    predicates,
+    small_words,
+    verbs,
+)
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
@@ -192,11 +200,11 @@ REORIENT = either(
     sequence(verbs.TURNING_OF, THINGS, build=ReorientClause),
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.TO_BE_DONE),
-            sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+            sequence(ALL_THINGS, predicates.TO_BE_DONE),
+            sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
             sequence("have, having, get, getting", ALL_THINGS),
-            sequence(verbs.CAN, ALL_THINGS, "[please] be"),
-            sequence(small_words.WISH_IF, ALL_THINGS, verbs.WERE_DONE),
+            sequence(predicates.CAN, ALL_THINGS, "[please] be"),
+            sequence(frames.WISH_IF, ALL_THINGS, predicates.WERE_DONE),
         ),
         TURNED,
         build=turned,
@@ -221,8 +229,8 @@ REORIENT = either(
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.STAY),
-            sequence(verbs.ENSURE, ALL_THINGS, verbs.STAY),
+            sequence(ALL_THINGS, predicates.STAY),
+            sequence(verbs.ENSURE, ALL_THINGS, predicates.STAY),
         ),
         either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
         silent(optional(manner.ON_THE_WAY)),
@@ -230,9 +238,11 @@ REORIENT = either(
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.MODAL),
-            sequence(verbs.ENSURE, ALL_THINGS, f"{verbs.BE}, {verbs.LIES}"),
-            sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to (be|stand), {verbs.DONE}"))),
+            sequence(ALL_THINGS, predicates.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, f"{predicates.BE}, {predicates.LIES}"),
+            sequence(
+                predicates.WANTED, ALL_THINGS, silent(optional(f"to (be|stand), {predicates.DONE}"))
+            ),
         ),
         either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
         silent(optional(manner.ON_THE_WAY)),
@@ -240,7 +250,7 @@ REORIENT = either(
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.MODAL, "[still] standing [up]"),
+            sequence(ALL_THINGS, predicates.MODAL, "[still] standing [up]"),
             sequence(verbs.ENSURE, ALL_THINGS, "(is|are) standing [up], stands, stand"),
         ),
         silent(optional("there")),
@@ -265,10 +275,14 @@ _STILL_ERECT = sequence(
     silent(optional(f"{small_words.BY_THE_END}, {small_words.ALL_ALONG}")),
 )
 STANDING_BESIDES = sequence(optional("with"), ALL_THINGS, _STILL_ERECT, build=_standing)
-STAYING_UPRIGHT = sequence(ALL_THINGS, f"{verbs.BE}, {verbs.STAY}", _STILL_ERECT, build=_standing)
+STAYING_UPRIGHT = sequence(
+    ALL_THINGS, f"{predicates.BE}, {predicates.STAY}", _STILL_ERECT, build=_standing
+)
 """Which others stand upright, behind what is asked for (", with the cup upright")."""
 STANDS_UP = either(
-    sequence(ALL_THINGS, optional(f"{verbs.BE}, {verbs.LIES}"), manner.ERECT, build=_stood_up),
+    sequence(
+        ALL_THINGS, optional(f"{predicates.BE}, {predicates.LIES}"), manner.ERECT, build=_stood_up
+    ),
     sequence(ALL_THINGS, optional("is, are, (has|have) been"), TURNED, build=turned),
 )
 HAVING_TURNED = either(
@@ -328,14 +342,14 @@ SWAP = either(
         build=_swapped,
     ),
     sequence(
-        verbs.WANTED,
+        predicates.WANTED,
         "the (positions|places) of",
         THINGS,
         "[to be] (exchanged|swapped|switched)",
         build=_swapped,
     ),
     sequence(
-        optional(f"have, let, make, can, could, may, {verbs.WANT}"),
+        optional(f"have, let, make, can, could, may, {predicates.WANT}"),
         THINGS,
         verbs.CHANGE_PLACES,
         build=_swapped,

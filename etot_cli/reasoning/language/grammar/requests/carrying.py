@@ -20,29 +20,26 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST,
     LIST_COMMA,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.beside import BESIDE
 from etot_cli.reasoning.language.grammar.phrases.coordination import coordinated
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    BESIDE,
-    DESTINATIONS,
-    DIRECTED,
-    ONWARD,
-)
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUP
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    ONWARD,
     Beside,
     Destination,
     NounPhrase,
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
@@ -82,7 +79,7 @@ def _rather_there(text: str, clause: PutClause) -> PutClause:
 
 
 OUT_AND_INTO = sequence(
-    SOURCE, either(DIRECTED, sequence(LIST, optional(f"go[es], {verbs.LIES}"), DESTINATIONS))
+    SOURCE, either(DIRECTED, sequence(LIST, optional(f"go[es], {predicates.LIES}"), DESTINATIONS))
 )
 """From one place to another ("out of the box and on the desk")."""
 _FROM_BESIDE = ("from ", "away from the front", "away from in front")
@@ -93,8 +90,10 @@ _COMES_AND_GOES = """
 CARRIED = either(
     sequence(
         either(
-            sequence(ALL_THINGS, f"{verbs.MODAL}, {verbs.COME_AWAY}"),
-            sequence(verbs.WANTED, ALL_THINGS, optional(f"{verbs.DONE}, to (come|get|go)")),
+            sequence(ALL_THINGS, f"{predicates.MODAL}, {predicates.COME_AWAY}"),
+            sequence(
+                predicates.WANTED, ALL_THINGS, optional(f"{predicates.DONE}, to (come|get|go)")
+            ),
         ),
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
@@ -114,7 +113,7 @@ CARRIED = either(
     sequence(phrase(f"{verbs.TAKE}, {verbs.REMOVE}"), THINGS, BESIDE, build=_taken_away),
     sequence(
         ALL_THINGS,
-        verbs.COME_AWAY,
+        predicates.COME_AWAY,
         optional("[back|right] (out|off|down|over)"),
         DIRECTED,
         build=put_to,

@@ -14,11 +14,11 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COLON, COMMA, LIST, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import LEVELS, SIDES, is_descriptive, singular
 
 _ITS = "(the|its|their|an|a)"
@@ -66,8 +66,8 @@ SET_TO_STATE = quiet(
         *(
             sequence(NP_LIST, *said, build=lambda nps, word: EnsureClause((State(nps, word=word),)))
             for said in (
-                (verbs.TO_BE_DONE, f"[then] ({verbs.SET_TO_BE})", _TO_STATE),
-                (verbs.MODAL, f"in {_ITS}", _IN_STATE),
+                (predicates.TO_BE_DONE, f"[then] ({verbs.SET_TO_BE})", _TO_STATE),
+                (predicates.MODAL, f"in {_ITS}", _IN_STATE),
             )
         ),
         sequence(

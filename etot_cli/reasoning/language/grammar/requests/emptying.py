@@ -19,10 +19,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    DESTINATIONS,
-    DIRECTED,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE
@@ -44,7 +41,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     KIND_NOUNS,
     OPEN_SURFACES,
@@ -182,9 +179,9 @@ TO_BE_EMPTY = either(
     variants(
         sequence(
             either(
-                sequence(ALL_THINGS, verbs.MODAL),
-                sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
-                sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+                sequence(ALL_THINGS, predicates.MODAL),
+                sequence(verbs.ENSURE, ALL_THINGS, predicates.BE),
+                sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
                 sequence("let, have", ALL_THINGS, "be"),
             ),
             optional(phrase("both, all"), ""),
@@ -196,7 +193,7 @@ TO_BE_EMPTY = either(
     ),
     variants(
         sequence(
-            verbs.CAN,
+            predicates.CAN,
             ALL_THINGS,
             "[please] be (cleared|emptied) [out]",
             silent(optional(_OF_ALL_ON_IT)),
@@ -205,17 +202,19 @@ TO_BE_EMPTY = either(
     ),
     variants(
         either(
-            _nothing_there(verbs.NOTHING_IS),
+            _nothing_there(predicates.NOTHING_IS),
             _has_nothing(
                 ALL_THINGS, "(must|should|shall|has to|have to|is to|are to) have nothing"
             ),
             _has_nothing(
-                either(verbs.ENSURE, verbs.WANTED), ALL_THINGS, "(has|have|with|to have) nothing"
+                either(verbs.ENSURE, predicates.WANTED),
+                ALL_THINGS,
+                "(has|have|with|to have) nothing",
             ),
         ),
         _to_be_bare,
     ),
-    variants(_nothing_there(verbs.NOTHING_MAY_BE), partial(_to_be_bare, negated=True)),
+    variants(_nothing_there(predicates.NOTHING_MAY_BE), partial(_to_be_bare, negated=True)),
 )
 """What is said of how things are to be, rather than of what is to be done."""
 
@@ -259,9 +258,9 @@ EMPTY = either(
     sequence(
         either(
             sequence(verbs.CLEAR, _TOP_OF),
-            sequence(_TOP_OF, verbs.MODAL, manner.EMPTIED),
-            sequence(verbs.ENSURE, _TOP_OF, verbs.BE, manner.EMPTIED),
-            sequence(verbs.WANTED, _TOP_OF, optional("to be"), manner.EMPTIED),
+            sequence(_TOP_OF, predicates.MODAL, manner.EMPTIED),
+            sequence(verbs.ENSURE, _TOP_OF, predicates.BE, manner.EMPTIED),
+            sequence(predicates.WANTED, _TOP_OF, optional("to be"), manner.EMPTIED),
         ),
         optional(DESTINATIONS, None),
         build=partial(emptied, held=Prep.ON, part=_TOP),
@@ -291,7 +290,7 @@ IS_EMPTY = variants(
     sequence(
         ALL_THINGS,
         either(
-            sequence(verbs.BE, silent(optional("then, all")), manner.EMPTIED),
+            sequence(predicates.BE, silent(optional("then, all")), manner.EMPTIED),
             _HOLDS_NOTHING,
         ),
     ),
@@ -299,7 +298,7 @@ IS_EMPTY = variants(
 )
 """What something is done for ("so that the box is empty")."""
 _NOTHING_IS_THERE = either(
-    _nothing_there(verbs.NOTHING_IS_SO), _has_nothing(ALL_THINGS, "(has|have) nothing")
+    _nothing_there(predicates.NOTHING_IS_SO), _has_nothing(ALL_THINGS, "(has|have) nothing")
 )
 NOTHING_THERE = variants(_NOTHING_IS_THERE, _to_be_bare)
 """The same, said of the place; it stays so where it is so already."""

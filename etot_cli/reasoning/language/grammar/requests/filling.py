@@ -19,7 +19,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import FILLED, RECEIVER, TARGETS
+from etot_cli.reasoning.language.grammar.phrases.destinations import TARGETS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN
 from etot_cli.reasoning.language.grammar.requests.additions import put_of
@@ -31,12 +31,14 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    FILLED,
+    RECEIVER,
     Destination,
     NounPhrase,
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words import places, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import matches_any, singular
 from etot_cli.reasoning.language.words.nouns import BODY_NOUNS
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
@@ -199,7 +201,7 @@ def _suiting(said: tuple[NounPhrase, Things]) -> tuple[PutClause, ...]:
 RECEIVED = either(
     variants(sequence(noun_phrase, "(will|would) do for", ALL_THINGS), _suiting),
     sequence(
-        either(sequence(noun_phrase, verbs.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
+        either(sequence(noun_phrase, predicates.RECEIVE), sequence("giv(e|ing)", noun_phrase)),
         ALL_THINGS,
         optional(phrase("each"), ""),
         build=lambda np, things, said: put_to(
@@ -208,7 +210,7 @@ RECEIVED = either(
     ),
     sequence(
         # "Box A gets the cup and box B the plate"
-        sequence(noun_phrase, verbs.RECEIVE, noun_phrase, build=_received),
+        sequence(noun_phrase, predicates.RECEIVE, noun_phrase, build=_received),
         some(sequence(LIST, noun_phrase, noun_phrase, build=_received), least=1, most=4),
         build=lambda first, more: PutClause((first, *more)),
     ),

@@ -17,12 +17,13 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, WHERE
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.requests.laying import DOWN
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import Beside, Destination, Things, Toward
-from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words import places, predicates, verbs
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -76,9 +77,11 @@ PLACE_FOUND = either(
         # With what is opened next it is rather out of the way of that.
         either(
             sequence(f"{verbs.PUT}, {verbs.FETCH}", THINGS),
-            sequence(ALL_THINGS, verbs.MODAL),
-            sequence(verbs.WANTED, ALL_THINGS, silent(optional(f"to be, {verbs.TO_BE_THERE}"))),
-            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+            sequence(ALL_THINGS, predicates.MODAL),
+            sequence(
+                predicates.WANTED, ALL_THINGS, silent(optional(f"to be, {predicates.TO_BE_THERE}"))
+            ),
+            sequence(verbs.ENSURE, ALL_THINGS, predicates.BE),
         ),
         either(
             phrase("aside, to one side", False),

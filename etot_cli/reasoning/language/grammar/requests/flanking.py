@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words import places, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
@@ -92,8 +92,8 @@ def _to_others(things: Things, said: str, others: tuple[NounPhrase, ...]) -> Put
 
 
 _GOING = either(
-    sequence(ALL_THINGS, verbs.MODAL),
-    sequence(verbs.WANTED, ALL_THINGS, f"{verbs.DONE}, to (go|be)"),
+    sequence(ALL_THINGS, predicates.MODAL),
+    sequence(predicates.WANTED, ALL_THINGS, f"{predicates.DONE}, to (go|be)"),
 )
 
 

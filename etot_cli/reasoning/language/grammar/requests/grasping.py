@@ -32,7 +32,7 @@ from etot_cli.reasoning.language.grammar.requests.poses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import GraspClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import forbidden, small_words, verbs
+from etot_cli.reasoning.language.words import fillers, forbidden, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.skills.action import GraspPose
 
@@ -168,13 +168,13 @@ GRASP = quiet(
                 optional("(grasping|gripping|holding|grabbing|taking|lifting) (it|them)"),
                 _told(ONE_OR_BOTH),
                 optional("[~comma] (either|any|both) [one|of them|way|grasp|grasps]"),
-                small_words.ANY_WILL_DO,
+                fillers.ANY_WILL_DO,
                 build=_so,
             ),
             sequence(
                 # "A side grip is fine, so is one from above"
                 _told(ONE_WAY),
-                small_words.ANY_WILL_DO,
+                fillers.ANY_WILL_DO,
                 OPTIONAL_COMMA,
                 either(
                     sequence("[and] so (is|would be|will|does) [one]", ONE_WAY, optional("one")),
@@ -183,7 +183,7 @@ GRASP = quiet(
                 build=lambda one, other: None if one is other else _so((one, other)),
             ),
             sequence(_NAMED_GRASP, build=_so),
-            sequence(_told(ONE_OR_BOTH), "~comma", small_words.DOES_NOT_MATTER, build=_so),
+            sequence(_told(ONE_OR_BOTH), "~comma", fillers.DOES_NOT_MATTER, build=_so),
             sequence(
                 "the (grasp|grip)", "(should|must|may|can|has to|needs to) be", POSES, build=_so
             ),
@@ -197,7 +197,7 @@ GRASP = quiet(
             sequence(
                 ALL_THINGS,
                 forbidden.NOT_TO_BE,
-                f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
+                f"{_BY_THE_HAND}, {predicates.TAKEN_UP}, lifted",
                 ONE_WAY,
                 build=_not_so,
             ),
@@ -230,21 +230,21 @@ GRASP = quiet(
             ),
             sequence(
                 either(
-                    sequence(ALL_THINGS, verbs.TO_BE_DONE),
-                    sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+                    sequence(ALL_THINGS, predicates.TO_BE_DONE),
+                    sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
                     sequence(ALL_THINGS, OPTIONAL_COMMA, EMPTY_WORDS, OPTIONAL_COMMA),
                 ),
-                f"{_BY_THE_HAND}, {verbs.TAKEN_UP}, lifted",
+                f"{_BY_THE_HAND}, {predicates.TAKEN_UP}, lifted",
                 OPTIONAL_COMMA,
                 POSES,
                 build=_asked,
             ),
             sequence(
-                f"[i] do not (care|mind), {small_words.DOES_NOT_MATTER}, no matter",
+                f"[i] do not (care|mind), {fillers.DOES_NOT_MATTER}, no matter",
                 either(_HOW, _WHETHER),
                 build=_anyhow,
             ),
-            sequence(either(_HOW, _WHETHER), small_words.DOES_NOT_MATTER, build=_anyhow),
+            sequence(either(_HOW, _WHETHER), fillers.DOES_NOT_MATTER, build=_anyhow),
             # "Whether you come at it from above or from the side, …"
             sequence(_WHETHER, build=lambda things: _so((), things)),
         ),

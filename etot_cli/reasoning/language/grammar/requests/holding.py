@@ -19,14 +19,14 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import EITHER_SIDE
 from etot_cli.reasoning.language.grammar.requests.poses import GRASPED, HELD_SO, KEPT_SO
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PickClause
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words, verbs
 
 HOLD = either(
     sequence(
         either(
-            sequence(optional(verbs.ENSURE), THE_HAND, verbs.HOLDS_IT),
+            sequence(optional(verbs.ENSURE), THE_HAND, predicates.HOLDS_IT),
             sequence(verbs.LET, THE_HAND, "have, hold, [be|end up] (holding|gripping|grasping)"),
-            sequence(verbs.WANTED, THE_HAND, "to (hold|have|be (holding|gripping|grasping))"),
+            sequence(predicates.WANTED, THE_HAND, "to (hold|have|be (holding|gripping|grasping))"),
         ),
         THINGS,
         silent(optional(either(IN_HAND, "in it"), "")),

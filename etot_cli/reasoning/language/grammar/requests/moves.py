@@ -21,9 +21,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.doors import SET_TO_STATE
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, MoveClause, Turns
@@ -34,7 +34,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 
 
@@ -167,7 +167,7 @@ MOVE = either(
     sequence(
         # "Both drawers should be open, the lower one first"
         THINGS,
-        f"{verbs.MODAL}, {verbs.TO_BE_DONE}",
+        f"{predicates.MODAL}, {predicates.TO_BE_DONE}",
         OPEN_OR_CLOSED,
         OPTIONAL_COMMA,
         valued(TURN, lambda turn: turns_of((turn,))),
@@ -200,7 +200,7 @@ _IF_SO = either(
     sequence(
         _IF,
         NP_LIST,
-        f"({verbs.BE.replace(',', '|')}|'s) [{_SO_FAR}], (should|happen[s] to) [{_SO_FAR}] be",
+        f"({predicates.BE.replace(',', '|')}|'s) [{_SO_FAR}], (should|happen[s] to) [{_SO_FAR}] be",
         OPEN_OR_CLOSED,
     ),
     sequence("should", NP_LIST, f"[happen to] [{_SO_FAR}] be [{_SO_FAR}]", OPEN_OR_CLOSED),

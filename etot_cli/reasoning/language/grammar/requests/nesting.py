@@ -8,7 +8,7 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATION
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, TowerClause, put_to
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 
 
@@ -40,8 +40,8 @@ NESTED = either(
         # "Put the bowls on the plate, stacked in one another"
         either(
             sequence(verbs.PUT, THINGS),
-            sequence(THINGS, verbs.MODAL),
-            sequence(verbs.WANTED, THINGS, optional(verbs.TO_BE_THERE)),
+            sequence(THINGS, predicates.MODAL),
+            sequence(predicates.WANTED, THINGS, optional(predicates.TO_BE_THERE)),
         ),
         DESTINATIONS,
         OPTIONAL_COMMA,
@@ -51,8 +51,8 @@ NESTED = either(
     sequence(
         # "The bowls should be nested on the plate"
         either(
-            sequence(THINGS, verbs.MODAL),
-            sequence(verbs.WANTED, THINGS, optional(verbs.TO_BE_THERE)),
+            sequence(THINGS, predicates.MODAL),
+            sequence(predicates.WANTED, THINGS, optional(predicates.TO_BE_THERE)),
         ),
         manner.NESTED,
         optional(DESTINATIONS, ()),

@@ -28,7 +28,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, places, verbs
+from etot_cli.reasoning.language.words import manner, places, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     SIZES,
     basic_color,
@@ -140,7 +140,7 @@ PAIR_BY_PAIR = sequence(
     separated(
         sequence(
             COLOR,
-            silent(optional(verbs.MODAL)),
+            silent(optional(predicates.MODAL)),
             f"{places.ONTO}, above, over",
             COLOR,
             build=lambda *pair: pair,

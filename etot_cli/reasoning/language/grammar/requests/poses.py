@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, alternatives
 from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
-from etot_cli.reasoning.language.words import forbidden, manner, small_words
+from etot_cli.reasoning.language.words import fillers, forbidden, manner
 from etot_cli.reasoning.language.words.patterns import words_of
 from etot_cli.skills.action import GraspPose
 
@@ -169,7 +169,7 @@ GRASPED = sequence(
         sequence(
             "[no matter] whether, no matter if",
             POSES,
-            optional(f"[that] ({small_words.DOES_NOT_MATTER})"),
+            optional(f"[that] ({fillers.DOES_NOT_MATTER})"),
         ),
         sequence(
             "[while|by] (keeping|holding)",

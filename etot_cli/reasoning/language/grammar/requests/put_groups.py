@@ -22,22 +22,20 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     LIST,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.beside import BESIDE
+from etot_cli.reasoning.language.grammar.phrases.contrasts import NONE_OF_THEM
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    ACROSS,
-    BESIDE,
-    FILLED,
-    STANCE,
-    WHERE,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import STANCE
 from etot_cli.reasoning.language.grammar.phrases.gapping import lending_nouns
-from etot_cli.reasoning.language.grammar.phrases.modifiers import NONE_OF_THEM
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    ACROSS,
+    FILLED,
     Beside,
     Destination,
     Modifier,
@@ -46,18 +44,18 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
     in_a_stance,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import fillers, manner, predicates, small_words
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.spatial import Nearby
 
-_MANNER = silent(some(phrase(small_words.WITHOUT_MEANING), least=1, most=2))
+_MANNER = silent(some(phrase(fillers.WITHOUT_MEANING), least=1, most=2))
 _ASIDE = silent(either(OPTIONAL_COMMA, sequence(OPTIONAL_COMMA, _MANNER, OPTIONAL_COMMA)))
 
 
 _SO_THAT_IT_IS = sequence(
     OPTIONAL_COMMA,
     f"{small_words.SO_THAT}, until, till",
-    either(sequence("it, they", verbs.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
+    either(sequence("it, they", predicates.BE), "it (stands|sits|lies), they (stand|sit|lie)"),
 )
 _PARTICLE = f"""
     down, up, away, back, over, out, inside, out of the way, together, {manner.ONE_BY_ONE}

@@ -27,12 +27,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID
 from etot_cli.reasoning.language.grammar.phrases.as_many import AS_MANY
 from etot_cli.reasoning.language.grammar.phrases.coordination import said_of_all
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    DESTINATIONS,
-    INSTEAD,
-    INTO,
-    ONTO,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, INTO, ONTO
 from etot_cli.reasoning.language.grammar.phrases.gapping import RESPECTIVE_GROUPS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
     ALL_THINGS,
@@ -47,6 +42,7 @@ from etot_cli.reasoning.language.grammar.phrases.successions import (
     FROM_FIRST_TO_LAST,
     put_in_turn,
 )
+from etot_cli.reasoning.language.grammar.phrases.where_not import INSTEAD
 from etot_cli.reasoning.language.grammar.requests.additions import (
     CONDITION,
     EXTRA,
@@ -80,7 +76,15 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import (
+    forbidden,
+    manner,
+    nouns,
+    places,
+    predicates,
+    small_words,
+    verbs,
+)
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.patterns import spellings
 
@@ -127,23 +131,25 @@ PUT = either(
     RECEIVED,
     sequence(
         either(
-            sequence(CHOICE, verbs.MODAL),
-            sequence(verbs.WANTED, CHOICE, optional("to be")),
-            sequence(verbs.ENSURE, CHOICE, verbs.BE),
+            sequence(CHOICE, predicates.MODAL),
+            sequence(predicates.WANTED, CHOICE, optional("to be")),
+            sequence(verbs.ENSURE, CHOICE, predicates.BE),
         ),
         DESTINATIONS,
         some(
-            sequence(LIST, phrase("the other [one]"), silent(optional(verbs.BE)), DESTINATIONS),
+            sequence(
+                LIST, phrase("the other [one]"), silent(optional(predicates.BE)), DESTINATIONS
+            ),
             most=1,
         ),
         build=_one_and_the_other,
     ),
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.MODAL),
+            sequence(ALL_THINGS, predicates.MODAL),
             valued(sequence(NP_LIST, EACH_SHOULD, build=said_of_all), Things),
-            sequence(verbs.WANTED, ALL_THINGS, optional(verbs.TO_BE_THERE)),
-            sequence(verbs.CAN, ALL_THINGS, verbs.BE_PUT),
+            sequence(predicates.WANTED, ALL_THINGS, optional(predicates.TO_BE_THERE)),
+            sequence(predicates.CAN, ALL_THINGS, predicates.BE_PUT),
         ),
         DESTINATIONS,
         some(EXTRA, least=1, most=2),
@@ -167,12 +173,12 @@ PUT = either(
     sequence(
         either(FIRST_THEN, FROM_FIRST_TO_LAST),
         either(
-            verbs.MODAL,
+            predicates.MODAL,
             sequence(
                 COMMA,
                 either(
                     sequence(verbs.PUT, "them [both|all], both [of them], all of them"),
-                    sequence("both [of them], all of them, they [both|all]", verbs.MODAL),
+                    sequence("both [of them], all of them, they [both|all]", predicates.MODAL),
                     "both [of them], all [of them]",
                 ),
             ),
@@ -198,7 +204,7 @@ PUT = either(
             silent(sequence(verbs.ARRANGE, "things, everything, it", small_words.SO_THAT)),
         ),
         ALL_THINGS,
-        f"{verbs.BE}, {verbs.LIES}",
+        f"{predicates.BE}, {predicates.LIES}",
         DESTINATIONS,
         CONDITION,
         build=lambda things, where, so: replace(put_to(things, where), conditions=(so,)),

@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     ReorientClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words import fillers, small_words
 
 
 def _taken_there(there: NounPhrase, clause: Clause) -> Clause | None:
@@ -56,7 +56,7 @@ REACHED = Rule(
             phrase("in, inside", NounPhrase(pronoun="it", text="it")),
         ),
         "and, and then, then, ~comma, ~comma and, to, ~comma then",
-        optional(small_words.WITHOUT_MEANING),
+        optional(fillers.WITHOUT_MEANING),
         either(PICK, REMOVE, PUT),
         build=_taken_there,
     )

@@ -23,7 +23,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words import places, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import BINS
 
 
@@ -82,7 +82,7 @@ THROWN = quiet(
         sequence(verbs.THROW, _GROUPS, build=_into_bins),
         sequence(
             ALL_THINGS,
-            verbs.TO_BE_THROWN,
+            predicates.TO_BE_THROWN,
             INTO,
             build=lambda things, into: _into_bins((PutGroup(things, (into,)),)),
         ),

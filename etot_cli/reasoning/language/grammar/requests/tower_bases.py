@@ -19,9 +19,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST,
     LIST_COMMA,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -30,7 +30,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words import manner, places, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
 
 _Based = tuple[NounPhrase, tuple[int, tuple[str, ...]]]
@@ -157,7 +157,7 @@ def _placed(lowest: NounPhrase, layers: tuple[PutGroup, ...]) -> TowerClause | N
     return TowerClause(Things(tuple(below)), placed=PutClause(tuple(groups)))
 
 
-_GOES = optional(f"{verbs.BE}, {verbs.LIES}, go[es]")
+_GOES = optional(f"{predicates.BE}, {predicates.LIES}, go[es]")
 PLACED_LAYERS = quiet(
     sequence(
         sequence(noun_phrase, _GOES, manner.AT_BOTTOM),
@@ -189,7 +189,7 @@ SO = either(
 """Before what goes where in a tower."""
 _SO_MANY = sequence(one_of({n: said for said, n in NUMBERS.items()}), optional(WORDS, ()))
 A_TOWER = sequence(
-    f"{verbs.BUILD}, {verbs.WANT}",
+    f"{verbs.BUILD}, {predicates.WANT}",
     either(
         sequence(verbs.A_TOWER, optional(sequence("of [the]", _SO_MANY), (0, ()))),
         sequence("a", _SO_MANY, "tower, stack, pile"),

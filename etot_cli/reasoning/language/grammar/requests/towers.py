@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.requests.tower_bases import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
-from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words import manner, places, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
     is_descriptive,
@@ -51,10 +51,10 @@ _UPWARDS = ("bottom", "middle", "top")
 _STAYS = "stays"
 _ENDS = separated(
     either(
-        sequence(noun_phrase, optional(verbs.BE), _END, build=lambda np, end: (np, end)),
+        sequence(noun_phrase, optional(predicates.BE), _END, build=lambda np, end: (np, end)),
         sequence(
             noun_phrase,
-            f"({verbs.STAY}|staying|remaining|kept|left) ({manner.AS_IT_IS})",
+            f"({predicates.STAY}|staying|remaining|kept|left) ({manner.AS_IT_IS})",
             build=lambda np: (np, _STAYS),
         ),
     ),
@@ -161,7 +161,7 @@ _UPWARD = sequence(
 )
 _LAYER = sequence(
     noun_phrase,
-    optional(verbs.BE),
+    optional(predicates.BE),
     optional(either(_END, phrase(manner.UPON_THAT, "upon")), ""),
     build=lambda np, end: (np, end),
 )
@@ -235,7 +235,9 @@ _TOWER = either(
             sequence(verbs.STACK, THINGS, optional(f"{manner.UPON_EACH_OTHER}, up")),
             sequence(verbs.PUT, THINGS, manner.UPON_EACH_OTHER),
             sequence(verbs.TURN_INTO, THINGS, f"(in|into) {verbs.A_TOWER}"),
-            sequence(verbs.WANT, THINGS, "(stacked|piled) [up]", optional(manner.UPON_EACH_OTHER)),
+            sequence(
+                predicates.WANT, THINGS, "(stacked|piled) [up]", optional(manner.UPON_EACH_OTHER)
+            ),
         ),
         optional(_UPWARD, None),
         optional(DESTINATIONS, ()),
@@ -247,7 +249,7 @@ _TOWER = either(
     NESTED,
     sequence(
         # "Put the blocks on the tray, stacked", "the blocks go on the tray in a stack"
-        either(sequence(verbs.PUT, THINGS), sequence(THINGS, verbs.MODAL)),
+        either(sequence(verbs.PUT, THINGS), sequence(THINGS, predicates.MODAL)),
         DESTINATIONS,
         OPTIONAL_COMMA,
         either(f"(stacked|piled) [up] [{manner.UPON_EACH_OTHER}]", manner.UPON_EACH_OTHER),
@@ -257,7 +259,7 @@ _TOWER = either(
     sequence(
         # "The blocks should be stacked on the tray"
         THINGS,
-        verbs.MODAL,
+        predicates.MODAL,
         "(stacked|piled) [up]",
         optional(manner.UPON_EACH_OTHER),
         optional(DESTINATIONS, ()),
@@ -265,7 +267,7 @@ _TOWER = either(
         build=lambda things, base, ends: _tower(things, None, ends, base),
     ),
     sequence(
-        f"{verbs.BUILD}, {verbs.WANT}",
+        f"{verbs.BUILD}, {predicates.WANT}",
         optional(_UPWARD, None),
         verbs.OUT_OF,
         THINGS,
@@ -280,7 +282,7 @@ _TOWER = either(
     ),
     sequence(
         THINGS,
-        verbs.FORM_A_TOWER,
+        predicates.FORM_A_TOWER,
         optional(_UPWARD, None),
         optional(DESTINATIONS, ()),
         _TOWER_ENDS,
@@ -288,7 +290,7 @@ _TOWER = either(
     ),
     sequence(
         THINGS,
-        verbs.FORM_A_TOWER,
+        predicates.FORM_A_TOWER,
         SO,
         _LAYERS,
         build=lambda whole, nps: TowerClause(Things(nps), upward=True, whole=whole),

@@ -21,10 +21,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     LIST,
     OPTIONAL_COMMA,
+    WORDS,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, ONTO
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -40,7 +40,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
 )
 from etot_cli.reasoning.language.grammar.text.splitting import COLON
-from etot_cli.reasoning.language.words import manner, nouns, places, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, places, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
@@ -171,11 +171,13 @@ _END = one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": ma
 _PLAIN = sequence(noun_phrase, build=lambda np: np if np.words and not np.modifiers else None)
 _ENDS = either(
     separated(
-        sequence(_PLAIN, optional(verbs.BE), _END, build=lambda np, end: (np, end)), LIST, most=3
+        sequence(_PLAIN, optional(predicates.BE), _END, build=lambda np, end: (np, end)),
+        LIST,
+        most=3,
     ),
     sequence(
         _PLAIN,
-        optional(f"{verbs.BE}, {verbs.LIES}"),
+        optional(f"{predicates.BE}, {predicates.LIES}"),
         f"{places.ONTO}, above, over",
         _PLAIN,
         build=lambda upper, lower: ((upper, "top"), (lower, "bottom")),
@@ -224,7 +226,7 @@ REVERSED = quiet(
                 build=lambda things, base: (things, base),
             ),
             sequence(
-                f"{verbs.WANT}, {verbs.TURN}, {verbs.STACK}, {verbs.BUILD}, {verbs.REBUILD}",
+                f"{predicates.WANT}, {verbs.TURN}, {verbs.STACK}, {verbs.BUILD}, {verbs.REBUILD}",
                 THINGS,
                 optional(_ONTO_A_BASE, ()),
                 manner.TURNED_OVER,

@@ -22,12 +22,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     not_after,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import (
-    DESTINATIONS,
-    WHERE,
-)
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN
+from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.requests.additions import (
     BY_COLOR,
     CONDITION,
@@ -41,7 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, predicates, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
@@ -51,8 +49,8 @@ from etot_cli.reasoning.language.words.lexicon import (
 
 BROUGHT = either(
     sequence(f"{verbs.PUT}, get[ting], {verbs.GATHER}", THINGS),
-    sequence(verbs.WANTED, ALL_THINGS),
-    sequence(ALL_THINGS, verbs.MODAL),
+    sequence(predicates.WANTED, ALL_THINGS),
+    sequence(ALL_THINGS, predicates.MODAL),
 )
 """What is to go somewhere, in any mood."""
 SAID_AHEAD = sequence(
@@ -102,7 +100,7 @@ FRONTED = quiet(
     sequence(
         either(
             # "The pen is to be taken out and put in the cup" puts no cup in there.
-            sequence(not_after(*verbs.BEING_TAKEN), verbs.PUT, DESTINATIONS),
+            sequence(not_after(*predicates.BEING_TAKEN), verbs.PUT, DESTINATIONS),
             sequence(
                 DESTINATIONS,
                 OPTIONAL_COMMA,
@@ -122,8 +120,8 @@ IS_WHERE = quiet(
         OPTIONAL_COMMA,
         "is [exactly|just|precisely|also] where",
         either(
-            sequence(NP_LIST, verbs.MODAL),
-            sequence(verbs.WANTED, NP_LIST, optional(verbs.TO_BE_THERE)),
+            sequence(NP_LIST, predicates.MODAL),
+            sequence(predicates.WANTED, NP_LIST, optional(predicates.TO_BE_THERE)),
         ),
         build=_fronted,
     )
@@ -145,7 +143,7 @@ FOLLOWING = sequence(
     either(
         sequence(f"{verbs.PUT}, set up, arrange, lay out, have", _THESE, DESTINATIONS, COMMA),
         sequence(
-            either(sequence(_THESE, verbs.MODAL), "what (goes|belongs|should go|should be)"),
+            either(sequence(_THESE, predicates.MODAL), "what (goes|belongs|should go|should be)"),
             DESTINATIONS,
             COLON,
         ),
@@ -184,19 +182,19 @@ LISTED = quiet(
     sequence(
         either(
             sequence(verbs.PUT, noun_phrase, _LISTED),
-            sequence(noun_phrase, _LISTED, verbs.MODAL),
+            sequence(noun_phrase, _LISTED, predicates.MODAL),
             sequence(
                 # "Both fruits, apple and pear, must go in the bowl"
                 noun_phrase,
                 sequence(COMMA, NP_LIST, COMMA),
-                verbs.MODAL,
+                predicates.MODAL,
                 build=lambda whole, nps: (
                     (replace(whole, determiner=whole.determiner.split()[-1]), nps)
                     if _counted(whole, nps)
                     else None
                 ),
             ),
-            sequence(verbs.WANTED, noun_phrase, _LISTED, optional("to (go|be)")),
+            sequence(predicates.WANTED, noun_phrase, _LISTED, optional("to (go|be)")),
         ),
         DESTINATIONS,
         build=lambda found, where: _named_behind(found[0], where, found[1]),
@@ -207,8 +205,8 @@ NAMED_BEHIND = quiet(
     sequence(
         either(
             sequence(f"{verbs.PUT}, {verbs.TIDY}, {verbs.GATHER}", noun_phrase),
-            sequence(noun_phrase, verbs.MODAL),
-            sequence(verbs.WANTED, noun_phrase),
+            sequence(noun_phrase, predicates.MODAL),
+            sequence(predicates.WANTED, noun_phrase),
         ),
         DESTINATIONS,
         COMMA,
@@ -238,14 +236,16 @@ OUT_OF_THE_ROW = sequence(
     # "Move the red cube out of the row and set it down beside the box"
     either(
         sequence(f"{verbs.FETCH}, {verbs.PICK}, {verbs.TAKE}", THINGS),
-        sequence(ALL_THINGS, verbs.TO_BE_DONE, f"{verbs.TAKEN_FROM}, {verbs.TAKEN_UP}"),
+        sequence(
+            ALL_THINGS, predicates.TO_BE_DONE, f"{predicates.TAKEN_FROM}, {predicates.TAKEN_UP}"
+        ),
     ),
     "(out of|from) (the|its|their) (row|line)",
     optional(LIST),
     optional(
         either(
             sequence(optional("then"), verbs.SET_DOWN, "it, them"),
-            sequence(optional("then"), optional("be"), verbs.DONE_WITH_IT),
+            sequence(optional("then"), optional("be"), predicates.DONE_WITH_IT),
         )
     ),
     DESTINATIONS,

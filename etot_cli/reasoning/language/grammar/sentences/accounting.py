@@ -45,8 +45,10 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     has_choice,
     stance_in,
 )
-from etot_cli.reasoning.language.words import manner, verbs
+from etot_cli.reasoning.language.words import manner, predicates
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.fillers import SO_LONG, SOMEBODY_LEFT, WITHOUT_MEANING
+from etot_cli.reasoning.language.words.frames import FRAMES
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -63,13 +65,7 @@ from etot_cli.reasoning.language.words.places import (
     SOMEWHERE_FREE,
     Prep,
 )
-from etot_cli.reasoning.language.words.small_words import (
-    FRAMES,
-    SO_LONG,
-    SOMEBODY_COMES,
-    SOMEBODY_LEFT,
-    WITHOUT_MEANING,
-)
+from etot_cli.reasoning.language.words.small_words import SOMEBODY_COMES
 from etot_cli.skills.action import GraspPose
 from etot_cli.world.spatial import Nearby
 
@@ -133,11 +129,11 @@ _FIXED = f"""
 """
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
-    f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {verbs.OTHERS_WANT}, {_FIXED}"
+    f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {predicates.OTHERS_WANT}, {_FIXED}"
     f", {manner.NOT_STACKED}, {manner.STANDS_SINGLY}, {manner.ANYHOW}, {SO_LONG}"
     f", {manner.KEPT_UPRIGHT}"
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
-    f", {SAFELY}, {A_SAFE_PLACE}, {verbs.OUT_OF_THE_WAY}"
+    f", {SAFELY}, {A_SAFE_PLACE}, {predicates.OUT_OF_THE_WAY}"
 )
 _NOT_BOTH = Expression(r"\b(?:not|never)\b(?:(?!~comma|~colon|\bbut\b).)*\bboth\b")
 

@@ -20,15 +20,10 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.contrasts import CONTRASTED, OF_ALL, excepting
+from etot_cli.reasoning.language.grammar.phrases.descriptions import DESCRIBED, quality_alone
 from etot_cli.reasoning.language.grammar.phrases.exclusions import changed, excluding
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    CONTRASTED,
-    DESCRIBED,
-    OF_ALL,
-    ONE_SUCH,
-    excepting,
-    quality_alone,
-)
+from etot_cli.reasoning.language.grammar.phrases.modifiers import ONE_SUCH
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
 from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT
 from etot_cli.reasoning.language.grammar.sentences.spoken import Reading
@@ -48,7 +43,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     Things,
 )
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words import fillers
 from etot_cli.reasoning.language.words.lexicon import STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -233,14 +228,14 @@ def but_not(rest: Reading, out: Modifier) -> Reading | None:
     return None
 
 
-_BY_NOW = optional(small_words.BY_NOW)
+_BY_NOW = optional(fillers.BY_NOW)
 TOLD_BEHIND = either(
     variants(
         sequence(CHAIN, COMMA, _BY_NOW, phrase("it is, they are"), _BY_NOW, DESCRIBED, _BY_NOW),
         lambda found: told_behind(found[0], found[1].split()[0], found[2]),
     ),
     sequence(CHAIN, COMMA, AS_IT_IS, build=add),
-    sequence(CHAIN, COMMA, noun_phrase, small_words.ANY_WILL_DO, build=any_such),
+    sequence(CHAIN, COMMA, noun_phrase, fillers.ANY_WILL_DO, build=any_such),
     sequence(CHAIN, OPTIONAL_COMMA, either(LEFT_OUT, CONTRASTED), build=but_not),
     sequence(CHAIN, OF_ALL, build=partial(_so_of_things, each=True)),
     sequence(CHAIN, ONE_SUCH, build=partial(_so_of_things, each=False)),

@@ -13,8 +13,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA, noun_phrase
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, denied, rather
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.exclusions import changed, only_there
+from etot_cli.reasoning.language.grammar.phrases.where_not import denied, rather
 from etot_cli.reasoning.language.grammar.sentences.chains import CHAIN
 from etot_cli.reasoning.language.grammar.sentences.clauses import LEFT_OUT
 from etot_cli.reasoning.language.grammar.sentences.spoken import Reading
@@ -25,7 +26,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     NounPhrase,
     State,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words
 from etot_cli.reasoning.language.words.places import Prep
 
 _NOT_THIS = either(
@@ -91,7 +92,7 @@ def _for_each(np: NounPhrase, rest: Reading) -> Reading | None:
 
 
 _NOT_THERE = sequence(
-    small_words.NOT_THERE, optional(verbs.BEING), valued(DESTINATIONS, denied), OPTIONAL_COMMA
+    small_words.NOT_THERE, optional(predicates.BEING), valued(DESTINATIONS, denied), OPTIONAL_COMMA
 )
 NOT_SO = either(
     sequence(LEFT_OUT, COMMA, CHAIN, build=_without),

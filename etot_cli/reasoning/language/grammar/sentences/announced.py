@@ -14,9 +14,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import COLON, COMMA
+from etot_cli.reasoning.language.grammar.parsers.common import COLON, COMMA, WORDS
 from etot_cli.reasoning.language.grammar.phrases.gapping import beside_what, told_beside
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
 from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
 from etot_cli.reasoning.language.grammar.sentences.headlines import PLACED
@@ -35,7 +34,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     State,
     Things,
 )
-from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words import predicates, verbs
 from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
@@ -192,7 +191,7 @@ def _each_and_one(words: tuple[str, ...], places: tuple[str, ...]) -> Reading:
 
 _ONE_FOR_EACH = either(
     sequence(
-        silent(optional(f"{verbs.PUT}, {verbs.WANTED}, there should be")),
+        silent(optional(f"{verbs.PUT}, {predicates.WANTED}, there should be")),
         "one, a, an",
         WORDS,
         "(in|into|on|onto|to|for) (each|every), per",

@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, RECEIVER
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
 from etot_cli.reasoning.language.grammar.sentences.past import HAVING_DONE, SO_BY_THEN
@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    RECEIVER,
     Beside,
     Destination,
     NounPhrase,

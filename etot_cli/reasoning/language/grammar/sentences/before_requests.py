@@ -64,7 +64,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, places, small_words, verbs
+from etot_cli.reasoning.language.words import frames, manner, places, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 
 
@@ -110,7 +110,7 @@ _INVERTED = sequence(
             sequence(
                 "should, may, can, could, must, shall, will, is, are, has, have, does, do",
                 ALL_THINGS,
-                f"[to] (go|come|be ({verbs.DONE_WITH_IT}))",
+                f"[to] (go|come|be ({predicates.DONE_WITH_IT}))",
                 DESTINATIONS,
                 build=put_to,
             )
@@ -148,8 +148,8 @@ WITH_MORE_BEFORE_IT = either(
     sequence(
         either(
             sequence(f"{verbs.SET_DOWN}, {verbs.FETCH}", ALL_THINGS),
-            sequence(ALL_THINGS, verbs.MODAL),
-            sequence(verbs.ENSURE, ALL_THINGS, verbs.BE),
+            sequence(ALL_THINGS, predicates.MODAL),
+            sequence(verbs.ENSURE, ALL_THINGS, predicates.BE),
         ),
         places.NOT_IN_THE_WAY,
         either(COMMA, "and, and then, then"),
@@ -165,7 +165,7 @@ WITH_MORE_BEFORE_IT = either(
         build=add,
     ),
     sequence(
-        "if you (could|would)", CHAIN, COMMA, f"[then] ({small_words.WOULD_BE_NICE}), that would do"
+        "if you (could|would)", CHAIN, COMMA, f"[then] ({frames.WOULD_BE_NICE}), that would do"
     ),
     WITH_SO,
     NOT_SO,

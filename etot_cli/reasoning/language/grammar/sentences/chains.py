@@ -24,22 +24,15 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     after,
 )
 from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED, SHUT, ensured
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
     NP_LIST,
     THINGS,
     begins_like_a_verb,
 )
-from etot_cli.reasoning.language.grammar.phrases.states import (
-    BESIDES_SO,
-    MEANWHILE_SO,
-    OPEN_OR_CLOSED,
-    SHUT,
-    ensured,
-    holding_only,
-    kept_so,
-    states,
-)
+from etot_cli.reasoning.language.grammar.phrases.states import BESIDES_SO, holding_only, states
+from etot_cli.reasoning.language.grammar.phrases.staying import MEANWHILE_SO, kept_so
 from etot_cli.reasoning.language.grammar.requests.arrangements import (
     STANDING_BESIDES,
     STAYING_UPRIGHT,
@@ -87,7 +80,7 @@ from etot_cli.reasoning.language.grammar.sentences.which_clauses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import AgainClause, EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -149,7 +142,7 @@ WITH_MORE_SO = either(
         # "I want the box empty and the tray holding the pen only"
         "and",
         LIST,
-        plain(sequence(holding_only(verbs.HOLDING), build=ensured)),
+        plain(sequence(holding_only(predicates.HOLDING), build=ensured)),
     ),
 )
 """How other things are to be besides ("…, with the door closed")."""

@@ -27,14 +27,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     exceptions,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.exclusions import (
-    but_some,
-    excluding,
-    of_the_things,
-)
-from etot_cli.reasoning.language.grammar.phrases.modifiers import (
-    APPOSED,
+from etot_cli.reasoning.language.grammar.phrases.contrasts import (
     CONTRASTED,
     LEAVING_OUT,
     LEFT,
@@ -43,6 +36,13 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     excepting,
     without_such,
 )
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
+from etot_cli.reasoning.language.grammar.phrases.exclusions import (
+    but_some,
+    excluding,
+    of_the_things,
+)
+from etot_cli.reasoning.language.grammar.phrases.modifiers import APPOSED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.arrangements import REORIENT, SWAP
 from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY
@@ -68,7 +68,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutGroup,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Modifier, Things, Toward
-from etot_cli.reasoning.language.words import manner, nouns, small_words, verbs
+from etot_cli.reasoning.language.words import manner, nouns, predicates, small_words
 
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
@@ -112,7 +112,7 @@ LEFT_OUT = either(
 )
 
 
-_WHICH_GOES = sequence("~comma which", verbs.MODAL, DESTINATIONS)
+_WHICH_GOES = sequence("~comma which", predicates.MODAL, DESTINATIONS)
 
 
 _ELSEWHERE = sequence(

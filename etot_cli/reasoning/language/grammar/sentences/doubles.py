@@ -22,9 +22,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State, Things, Toward
-from etot_cli.reasoning.language.words import forbidden, manner, small_words, verbs
+from etot_cli.reasoning.language.words import forbidden, manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
 
 
@@ -113,7 +113,10 @@ def so_in_turn(subject: Parser) -> Parser:
             sequence(said, OPEN_OR_CLOSED),
             one_of({"open": f"{need}opening", "closed": f"{need}(closing|shutting)"}),
         )
-        for said, need in ((verbs.MODAL, "need[s] "), (optional(f"{verbs.MODAL}, be"), ""))
+        for said, need in (
+            (predicates.MODAL, "need[s] "),
+            (optional(f"{predicates.MODAL}, be"), ""),
+        )
     )
     return located(
         sequence(
@@ -146,7 +149,7 @@ IN_TURN = so_in_turn(NP_LIST)
 PARENTHETIC = located(
     sequence(
         # "Move the pen, without touching the book, to the tray"
-        either(sequence(verbs.SET_DOWN, THINGS), sequence(ALL_THINGS, verbs.MODAL)),
+        either(sequence(verbs.SET_DOWN, THINGS), sequence(ALL_THINGS, predicates.MODAL)),
         WITHOUT,
         COMMA,
         DESTINATIONS,

@@ -36,7 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     SwapClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import frames, predicates, small_words, verbs
 
 
 def _swapped(things: Things, rest: Reading) -> Reading | None:
@@ -95,7 +95,7 @@ END_STATES = either(
         either(
             sequence("(here|this|that) is how", NAMED, "(should|must|has to|is to) (look|be)"),
             sequence(NAMED, "(should|must|has to) (look|be) like this"),
-            sequence(small_words.LIKE_THIS, NAMED, "like this, as follows, this way"),
+            sequence(frames.LIKE_THIS, NAMED, "like this, as follows, this way"),
         ),
         COMMA,
         either(CHAIN, PLACED),
@@ -112,7 +112,7 @@ END_STATES = either(
     sequence(
         # "I want the cup off the tray and the plate there instead", "I want the box with the pen in
         # it and the tray empty"
-        verbs.WANTED,
+        predicates.WANTED,
         sequence(BARE_CHAIN, build=_all_wanted),
     ),
     sequence(
@@ -128,7 +128,7 @@ END_STATES = either(
         build=_swapped,
     ),
     sequence(
-        f"{small_words.TASK}, {small_words.END_STATE}",
+        f"{frames.TASK}, {small_words.END_STATE}",
         _IN_THE_END,
         some(either(joint("and", LIST, _IN_THE_END), WITH_MORE_SO), most=6),
         build=chained,

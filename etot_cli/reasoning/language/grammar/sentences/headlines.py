@@ -23,18 +23,17 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     after,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, INTO, ONTO
-from etot_cli.reasoning.language.grammar.phrases.exclusions import alone_there, of_the_things
-from etot_cli.reasoning.language.grammar.phrases.modifiers import CONTRASTED
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import (
-    IN_OR_ON_IT,
+from etot_cli.reasoning.language.grammar.phrases.being_so import (
     NONE,
     OPEN_OR_CLOSED,
     SHUT,
-    holding,
     state_of,
 )
+from etot_cli.reasoning.language.grammar.phrases.contrasts import CONTRASTED
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, INTO, ONTO
+from etot_cli.reasoning.language.grammar.phrases.exclusions import alone_there, of_the_things
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
+from etot_cli.reasoning.language.grammar.phrases.states import IN_OR_ON_IT, holding
 from etot_cli.reasoning.language.grammar.requests.doors import STATE_NAMED
 from etot_cli.reasoning.language.grammar.requests.emptying import emptied, to_be_empty
 from etot_cli.reasoning.language.grammar.requests.towers import STACKED

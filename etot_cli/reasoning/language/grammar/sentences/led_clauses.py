@@ -43,7 +43,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     PutClause,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import fillers, frames, small_words, verbs
 from etot_cli.reasoning.language.words.known import LINKS
 from etot_cli.reasoning.language.words.patterns import words_of
 
@@ -87,10 +87,10 @@ _BEFORE_A_VERB = Parser(
 LEAD = sequence(
     some(
         either(
-            small_words.FRAMES,
+            frames.FRAMES,
             sequence("do", _BEFORE_A_VERB),
-            sequence(small_words.I_THINK, _OPINION),
-            small_words.WITHOUT_MEANING,
+            sequence(frames.I_THINK, _OPINION),
+            fillers.WITHOUT_MEANING,
             sequence(either(ORDER_WORDS, INSTEAD), OPTIONAL_COMMA),
             COMMA,
         ),

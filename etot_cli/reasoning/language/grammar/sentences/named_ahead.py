@@ -50,7 +50,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import places, small_words, verbs
+from etot_cli.reasoning.language.words import fillers, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, is_descriptive, matches_any
 
 
@@ -175,14 +175,14 @@ NAMED_AHEAD = either(
     sequence(NAMED, COLON, BARE_CHAIN, build=_about),
     sequence(
         noun_phrase,
-        small_words.ANY_WILL_DO,
+        fillers.ANY_WILL_DO,
         either(COMMA, "so, ~comma so"),
         CHAIN,
         build=_any_of_them,
     ),
     sequence(
         noun_phrase,
-        f"({small_words.ANY_WILL_DO}) for",
+        f"({fillers.ANY_WILL_DO}) for",
         noun_phrase,
         either(COMMA, "so, ~comma so"),
         CHAIN,

@@ -31,7 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
-from etot_cli.reasoning.language.words import forbidden, verbs
+from etot_cli.reasoning.language.words import forbidden, predicates
 
 _UNTIL = "[but] [just] (before|until|till|as long as not)"
 _LEFT = ("leave", "keep", "let", "forget", "touch", "bother", "hesitate")
@@ -80,7 +80,7 @@ def _forbidden(word: str) -> Parser:
         either(
             sequence(
                 ALL_THINGS,
-                either(go, sequence(be, phrase(verbs.DONE_WITH_IT))),
+                either(go, sequence(be, phrase(predicates.DONE_WITH_IT))),
                 DESTINATIONS,
                 build=lambda things, *said: put_to(things, said[-1]),
             ),

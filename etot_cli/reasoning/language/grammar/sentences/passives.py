@@ -20,9 +20,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     after,
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID, pronouns
+from etot_cli.reasoning.language.grammar.phrases.being_so import NONE
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import NONE, STATE, being
+from etot_cli.reasoning.language.grammar.phrases.states import STATE, being
 from etot_cli.reasoning.language.grammar.requests.arrangements import TURNED, turned
 from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE
@@ -41,7 +42,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import frames, predicates, verbs
 from etot_cli.reasoning.language.words.patterns import words_of
 
 
@@ -51,9 +52,9 @@ def _lifted_off(verb: str, source: NounPhrase) -> tuple[bool, NounPhrase]:
 
 
 _TAKEN = either(
-    sequence(verbs.TAKEN_AWAY, optional(SOURCE, None), build=lambda source: (False, source)),
-    sequence(phrase(verbs.TAKEN_FROM), SOURCE, build=_lifted_off),
-    sequence(verbs.TAKEN_UP, optional(SOURCE, None), build=lambda source: (True, source)),
+    sequence(predicates.TAKEN_AWAY, optional(SOURCE, None), build=lambda source: (False, source)),
+    sequence(phrase(predicates.TAKEN_FROM), SOURCE, build=_lifted_off),
+    sequence(predicates.TAKEN_UP, optional(SOURCE, None), build=lambda source: (True, source)),
     phrase("lifted, grasped, gripped", (True, None)),
 )
 
@@ -67,18 +68,18 @@ def _taken(things: Things, said: tuple[bool, Any]) -> PickClause | RemoveClause 
 
 PASSIVE = sequence(
     either(
-        sequence(ALL_THINGS, verbs.TO_BE_DONE),
-        sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+        sequence(ALL_THINGS, predicates.TO_BE_DONE),
+        sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
         sequence("have, having, get, getting", ALL_THINGS),
-        sequence(verbs.CAN, ALL_THINGS, "[please] be"),
+        sequence(predicates.CAN, ALL_THINGS, "[please] be"),
         sequence(verbs.ENSURE, ALL_THINGS, "is, are, get[s], (has|have) been"),
-        sequence(small_words.WISH_IF, EMPTY_WORDS, ALL_THINGS, verbs.WERE_DONE),
+        sequence(frames.WISH_IF, EMPTY_WORDS, ALL_THINGS, predicates.WERE_DONE),
     ),
     _TAKEN,
     build=_taken,
 )
 """What is to be taken from somewhere."""
-_DONE_BEFORE = (verbs.TAKEN_AWAY, verbs.TAKEN_FROM, verbs.TAKEN_UP, verbs.REORIENTED)
+_DONE_BEFORE = (predicates.TAKEN_AWAY, predicates.TAKEN_FROM, predicates.TAKEN_UP, verbs.REORIENTED)
 _ON = sequence(
     after("be", "is", "were", *words_of(_DONE_BEFORE)),
     silent(either(LIST, sequence(optional(phrase("~comma")), THEN))),
@@ -86,7 +87,7 @@ _ON = sequence(
 """Behind what is to be taken, in the passive."""
 
 
-_LIES = words_of((verbs.LIES,))
+_LIES = words_of((predicates.LIES,))
 
 
 def _put_on(said: str, where: tuple[Destination, ...]) -> PutClause | None:
@@ -98,16 +99,16 @@ def _put_on(said: str, where: tuple[Destination, ...]) -> PutClause | None:
 
 THEN_PLACED = sequence(
     _ON,
-    optional(f"{verbs.TO_BE_DONE}, be, to be"),
+    optional(f"{predicates.TO_BE_DONE}, be, to be"),
     EMPTY_WORDS,
-    phrase(f"{verbs.BROUGHT}, {verbs.LIES}"),
+    phrase(f"{predicates.BROUGHT}, {predicates.LIES}"),
     DESTINATIONS,
     build=_put_on,
 )
 """Where what was taken goes then ("… and placed on the tray")."""
 THEN_TURNED = sequence(
     _ON,
-    optional(f"{verbs.TO_BE_DONE}, be, to be"),
+    optional(f"{predicates.TO_BE_DONE}, be, to be"),
     EMPTY_WORDS,
     TURNED,
     build=lambda how: turned(Things((NounPhrase(pronoun=UNSAID, text="it"),)), how),
@@ -115,10 +116,10 @@ THEN_TURNED = sequence(
 """How what was taken is turned before it goes anywhere ("picked up, turned and placed …")."""
 THEN_HELD = sequence(
     _ON,
-    optional(f"{verbs.TO_BE_DONE}, be, to be"),
+    optional(f"{predicates.TO_BE_DONE}, be, to be"),
     EMPTY_WORDS,
     either(
-        sequence(f"{verbs.TAKEN_UP}, lifted", optional(SOURCE, "")),
+        sequence(f"{predicates.TAKEN_UP}, lifted", optional(SOURCE, "")),
         phrase("held [up] [(in the (air|gripper|hand))]", ""),
     ),
     build=lambda source: PickClause(
@@ -127,17 +128,17 @@ THEN_HELD = sequence(
 )
 """What was taken is in the hand then ("grasped and lifted")."""
 BEFORE_PLACED = sequence(
-    OPTIONAL_COMMA, "before being", phrase(verbs.BROUGHT), DESTINATIONS, build=_put_on
+    OPTIONAL_COMMA, "before being", phrase(predicates.BROUGHT), DESTINATIONS, build=_put_on
 )
 ALSO_DONE = sequence(
     _ON,
     either(
         sequence(ALL_THINGS, _TAKEN, build=_taken),
-        sequence(ALL_THINGS, verbs.BROUGHT, DESTINATIONS, build=put_to),
+        sequence(ALL_THINGS, predicates.BROUGHT, DESTINATIONS, build=put_to),
         sequence(
             after("if"),
             optional("if, that"),
-            being(verbs.WERE),
+            being(predicates.WERE),
             build=lambda state: EnsureClause((state,)),
         ),
         sequence("that", STATE, build=lambda state: EnsureClause((state,))),
@@ -154,7 +155,7 @@ NARRATED = either(
         build=MoveClause,
     ),
     sequence(ALL_THINGS, "is, are", _TAKEN, build=_taken),
-    sequence(ALL_THINGS, "is, are", verbs.BROUGHT, DESTINATIONS, build=put_to),
+    sequence(ALL_THINGS, "is, are", predicates.BROUGHT, DESTINATIONS, build=put_to),
 )
 """What is done with something then ("… and finally the drawer is closed")."""
 

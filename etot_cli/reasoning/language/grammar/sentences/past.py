@@ -14,10 +14,10 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.coordination import said_of_all
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.arrangements import HAVING_TURNED, STANDS_UP
 from etot_cli.reasoning.language.grammar.requests.carrying import OUT_AND_INTO, brought
 from etot_cli.reasoning.language.grammar.requests.emptying import NOTHING_LEFT_THERE, emptied
@@ -39,22 +39,22 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, predicates, small_words
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
 SO = sequence(
     ALL_THINGS,
-    optional(f"{verbs.BE}, {verbs.LIES}, (has|have) been"),
+    optional(f"{predicates.BE}, {predicates.LIES}, (has|have) been"),
     OPEN_OR_CLOSED,
     build=lambda things, word: MoveClause(things, word == "open"),
 )
 _HAS_COME = "(has|have) (come|gone)|come[s]"
 _TAKEN_BY_THEN = (
-    f"{verbs.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted|gone),"
+    f"{predicates.BE}, (is|are|has been|have been) (taken|removed|moved|cleared|lifted|gone),"
     f" ({_HAS_COME})"
 )
-_TAKEN_AWAY = verbs.TAKEN_AWAY.replace(",", "|")
+_TAKEN_AWAY = predicates.TAKEN_AWAY.replace(",", "|")
 _NO_MORE = Parser(lambda given, at: [(at, NOTHING)] if given.ahead[at] != "and" else [])
 """Not before what has been done with it next ("taken out and put on the tray")."""
 
@@ -74,7 +74,7 @@ _ALL_OF_THEM = valued(
 _ALL_SO_BY_THEN = either(
     sequence(
         _ALL_OF_THEM,
-        optional(f"{verbs.BEING}, [been] ({verbs.DONE_WITH_IT}) [down|away|over]"),
+        optional(f"{predicates.BEING}, [been] ({predicates.DONE_WITH_IT}) [down|away|over]"),
         DESTINATIONS,
         build=put_to,
     ),
@@ -95,15 +95,15 @@ SO_BY_THEN = either(
     _ALL_SO_BY_THEN,
     sequence(
         ALL_THINGS,
-        f"{verbs.BE}, (is|are) {verbs.BEING}, {verbs.LIES}, {small_words.GONE},"
+        f"{predicates.BE}, (is|are) {predicates.BEING}, {predicates.LIES}, {small_words.GONE},"
         " (is|are) out [of the way], (is|are) (up|down|back|away),"
-        f" (is|are|gets|get|has been|have been) ({verbs.DONE_WITH_IT}) [down|away|over]",
+        f" (is|are|gets|get|has been|have been) ({predicates.DONE_WITH_IT}) [down|away|over]",
         DESTINATIONS,
         build=put_to,
     ),
     sequence(
         ALL_THINGS,
-        verbs.BE,
+        predicates.BE,
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
@@ -118,7 +118,7 @@ SO_BY_THEN = either(
     ),
     sequence(
         ALL_THINGS,
-        verbs.OUT_OF_THE_WAY,
+        predicates.OUT_OF_THE_WAY,
         _NO_MORE,
         build=lambda things: RemoveClause(things, aside=True),
     ),
@@ -127,16 +127,16 @@ SO_BY_THEN = either(
         _TAKEN_BY_THEN,
         silent(either("out, off, away, down", SOURCE)),
         "and [then] [been]",
-        verbs.DONE,
+        predicates.DONE,
         DESTINATIONS,
         build=put_to,
     ),
     STANDS_UP,
     SO,
-    sequence(ALL_THINGS, f"{verbs.BE}, (has|have) been", manner.EMPTIED, build=emptied),
+    sequence(ALL_THINGS, f"{predicates.BE}, (has|have) been", manner.EMPTIED, build=emptied),
     NOTHING_LEFT_THERE,
     sequence(
-        phrase(verbs.NOTHING_BLOCKS),
+        phrase(predicates.NOTHING_BLOCKS),
         noun_phrase,
         silent(optional(small_words.ANY_MORE)),
         build=_freed,
@@ -159,7 +159,7 @@ SO_BY_THEN = either(
 UNDER_WAY = either(
     sequence(
         ALL_THINGS,
-        f"(is|are|gets|get) [being] ({verbs.DONE_WITH_IT}) [down|away|over]",
+        f"(is|are|gets|get) [being] ({predicates.DONE_WITH_IT}) [down|away|over]",
         DESTINATIONS,
         build=put_to,
     ),
@@ -185,18 +185,18 @@ HAVING_DONE = either(
             ("pulled, pushed, slid", f"{manner.CLOSED_STATE}, in", False),
         )
     ),
-    sequence(f"{verbs.DONE}, {verbs.BROUGHT}", ALL_THINGS, DESTINATIONS, build=put_to),
+    sequence(f"{predicates.DONE}, {predicates.BROUGHT}", ALL_THINGS, DESTINATIONS, build=put_to),
     sequence(
         "left, kept",
         NP_LIST,
         OPEN_OR_CLOSED,
         build=lambda nps, word: EnsureClause((State(nps, word=word, kept=True),)),
     ),
-    sequence(verbs.PICKED_UP, THINGS, build=PickClause),
+    sequence(predicates.PICKED_UP, THINGS, build=PickClause),
     HAVING_TURNED,
     sequence("emptied [out], cleared [out], unloaded", THINGS, build=emptied),
     sequence(
-        f"{verbs.TAKEN_AWAY}, took (out|off|away), cleared away",
+        f"{predicates.TAKEN_AWAY}, took (out|off|away), cleared away",
         ALL_THINGS,
         optional(SOURCE, None),
         build=RemoveClause,

@@ -25,9 +25,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.parsers.input import Input
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.requests.emptying import TO_BE_EMPTY
 from etot_cli.reasoning.language.grammar.sentences.before_requests import WITH_MORE_BEFORE_IT
 from etot_cli.reasoning.language.grammar.sentences.chains import (
@@ -55,7 +55,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, State
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION
-from etot_cli.reasoning.language.words import manner, small_words
+from etot_cli.reasoning.language.words import fillers, frames, manner, small_words
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -155,7 +155,7 @@ def _aside(joined: tuple[str, Reading]) -> tuple[str, Reading]:
     return said, (replace(placed, far_fetched=1), *rest)
 
 
-_GREETING = silent(some(either(small_words.GREETINGS, small_words.WITHOUT_MEANING, COMMA), most=6))
+_GREETING = silent(some(either(frames.GREETINGS, fillers.WITHOUT_MEANING, COMMA), most=6))
 
 
 WHOLE = either(

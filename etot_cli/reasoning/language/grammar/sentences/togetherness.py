@@ -15,9 +15,9 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things
-from etot_cli.reasoning.language.words import manner, small_words, verbs
+from etot_cli.reasoning.language.words import manner, predicates, small_words, verbs
 
-_GO = f"{verbs.MODAL}, {verbs.STAY}"
+_GO = f"{predicates.MODAL}, {predicates.STAY}"
 
 
 def _several(things: Things) -> ReorientClause | None:
@@ -32,7 +32,7 @@ PARTED = sequence(
         ),
         sequence(verbs.SEPARATE, ALL_THINGS, optional("up"), build=_several),
         sequence(
-            verbs.WANTED, ALL_THINGS, optional(verbs.DONE), manner.PARTED, build=_several
+            predicates.WANTED, ALL_THINGS, optional(predicates.DONE), manner.PARTED, build=_several
         ),
         sequence(ALL_THINGS, _GO, manner.PARTED, build=_several),
     ),
@@ -64,13 +64,15 @@ IN_ONE_PLACE = either(
         build=_in_one_place,
     ),
     sequence(ALL_THINGS, _GO, _PLACES, build=_in_one_place),
-    sequence(verbs.WANTED, ALL_THINGS, optional(verbs.DONE), _PLACES, build=_in_one_place),
+    sequence(
+        predicates.WANTED, ALL_THINGS, optional(predicates.DONE), _PLACES, build=_in_one_place
+    ),
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.TO_BE_DONE),
-            sequence(verbs.WANTED, ALL_THINGS, optional("to be")),
+            sequence(ALL_THINGS, predicates.TO_BE_DONE),
+            sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
         ),
-        verbs.TIDIED, COMMA, DESTINATIONS,
+        predicates.TIDIED, COMMA, DESTINATIONS,
         build=put_to,
     ),
 )  # fmt: skip

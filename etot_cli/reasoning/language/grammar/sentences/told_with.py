@@ -21,9 +21,9 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import WITH_KEPT_SO
+from etot_cli.reasoning.language.grammar.phrases.staying import WITH_KEPT_SO
 from etot_cli.reasoning.language.grammar.requests.arrangements import STANDS_UP
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.sentences.before_and_after import once_done
@@ -38,13 +38,14 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    FILLED,
     Destination,
     NounPhrase,
     State,
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.words import places, predicates, verbs
 
 _TARGET = either(
     sequence("with, using, taking", noun_phrase, f"as [the|a|its|your] ({places.TARGET})"),
@@ -89,11 +90,11 @@ _SO_BY_THEN = plain(
         sequence(ALL_THINGS, build=taken_out),
         sequence(
             ALL_THINGS,
-            optional(f"{verbs.BE}, out of the way, staying, safely, {verbs.DONE}"),
+            optional(f"{predicates.BE}, out of the way, staying, safely, {predicates.DONE}"),
             DESTINATIONS,
             build=put_to,
         ),
-        sequence(ALL_THINGS, verbs.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
+        sequence(ALL_THINGS, predicates.TAKEN_AWAY, optional(SOURCE, None), build=RemoveClause),
         sequence(
             ALL_THINGS,
             "[safely] [moved|put] (out of the way|aside)",

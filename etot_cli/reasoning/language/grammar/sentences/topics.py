@@ -17,15 +17,15 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     spanned,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import noun_phrase
-from etot_cli.reasoning.language.grammar.phrases.modifiers import ADJECTIVES, DESCRIBED, MODIFIERS
-from etot_cli.reasoning.language.grammar.phrases.naming import WORDS
+from etot_cli.reasoning.language.grammar.parsers.common import WORDS, noun_phrase
+from etot_cli.reasoning.language.grammar.phrases.descriptions import ADJECTIVES, DESCRIBED
+from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
 from etot_cli.reasoning.language.grammar.sentences.hindrances import HINDRANCE, UNFIT
 from etot_cli.reasoning.language.grammar.sentences.spoken import plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import Clause, ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import fillers, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 
@@ -79,14 +79,14 @@ _STATED = either(
     sequence(
         optional("(i|we) (noticed|notice|see|saw|think|believe|guess|know) [that]"),
         noun_phrase,
-        small_words.FOUND,
+        fillers.FOUND,
         DESCRIBED,
-        silent(optional(f"{small_words.SO_LONG}, {small_words.BY_NOW}")),
+        silent(optional(f"{fillers.SO_LONG}, {fillers.BY_NOW}")),
         build=lambda np, said: Things((np.told_by(said),)),
     ),
     sequence(
         noun_phrase,
-        small_words.FELL,
+        fillers.FELL,
         one_of({Prep.IN: "in, into, inside", Prep.ON: "on, onto"}),
         noun_phrase,
         build=lambda np, prep, at: Things((np.told_by(Modifier(prep, (at,))),)),
@@ -101,7 +101,7 @@ _STATED = either(
         build=_identified,
     ),
     sequence(
-        small_words.SOMEBODY_LEFT,
+        fillers.SOMEBODY_LEFT,
         noun_phrase,
         optional(DESCRIBED, None),
         build=lambda np, said: (
@@ -110,11 +110,11 @@ _STATED = either(
     ),
     sequence(
         noun_phrase,
-        small_words.ANY_WILL_DO,
+        fillers.ANY_WILL_DO,
         build=all_of_any,
     ),
     sequence(
-        f"there is, there are, (i|you|we) [can] see, you have, {verbs.OTHERS_WANT}",
+        f"there is, there are, (i|you|we) [can] see, you have, {predicates.OTHERS_WANT}",
         ALL_THINGS,
         build=_the_some,
     ),
@@ -131,8 +131,8 @@ def _meant_for(things: Things, words: tuple[str, ...]) -> Things | None:
 _REMARK = either(
     sequence(ALL_THINGS, "(is|are|stands|lies) [right] in the way of", silent(noun_phrase)),
     sequence(ALL_THINGS, "is for, are for", WORDS, build=_meant_for),
-    sequence(ALL_THINGS, either(small_words.REMARKS, sequence("is for, are for", silent(WORDS)))),
-    sequence(small_words.DONE_WITH, ALL_THINGS, silent(optional(small_words.ANY_MORE))),
+    sequence(ALL_THINGS, either(fillers.REMARKS, sequence("is for, are for", silent(WORDS)))),
+    sequence(fillers.DONE_WITH, ALL_THINGS, silent(optional(small_words.ANY_MORE))),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
     sequence(
         "(i|we) (need|want|have) to (get (at|into|inside|in)|reach [into]), let me get (at|into)",
@@ -188,7 +188,7 @@ AS_IT_STANDS = plain(
     quiet(
         sequence(
             noun_phrase,
-            f"{verbs.BE}, {verbs.LIES}",
+            f"{predicates.BE}, {predicates.LIES}",
             DESCRIBED,
             build=_stands_there,
         )

@@ -22,7 +22,6 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 from etot_cli.reasoning.language.grammar.phrases.destinations import (
     DESTINATIONS,
     DIRECTED,
-    FILLED,
     INTO,
     ONTO,
 )
@@ -51,6 +50,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    FILLED,
     Destination,
     NounPhrase,
     Things,

@@ -19,9 +19,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 )
 from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.parsers.input import Input
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
@@ -42,7 +42,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import small_words, verbs
+from etot_cli.reasoning.language.words import predicates, small_words, verbs
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 
 WHICH = NounPhrase(pronoun="it", text="which")
@@ -175,8 +175,8 @@ WHICH_GOES_ON = plain(
         either(
             sequence("you (then|afterwards|finally)", verbs.SET_DOWN),
             sequence(
-                f"(is|must|should|has) (then|afterwards|finally) [to] be ({verbs.DONE_WITH_IT}),"
-                f" is (then|afterwards) ({verbs.DONE_WITH_IT}), then (goes|has to go|must go)"
+                f"((is|must|should|has) (then|afterwards|finally) [to] be|is (then|afterwards))"
+                f" ({predicates.DONE_WITH_IT}), then (goes|has to go|must go)"
             ),
         ),
         DESTINATIONS,
@@ -185,11 +185,11 @@ WHICH_GOES_ON = plain(
 )
 """Where what was named last goes then; see ``named_last``."""
 _GOES = "(stands|sits|rests|lies|goes|belongs|is)"
-_TO_GO = f"(be [({verbs.DONE_WITH_IT})]|stand|sit|rest|lie|go|belong|end up)"
+_TO_GO = f"(be [({predicates.DONE_WITH_IT})]|stand|sit|rest|lie|go|belong|end up)"
 WHICH_IN_TURN_IS = plain(
     sequence(
         "which",
-        f"(in turn|itself|then|for its part) {_GOES} [{verbs.DONE_WITH_IT}],"
+        f"(in turn|itself|then|for its part) {_GOES} [{predicates.DONE_WITH_IT}],"
         f" {_GOES} in turn, goes [itself],"
         f" (in turn|itself) (should|must|shall|has to|needs to|is to|ought to) {_TO_GO},"
         f" (should|must|shall|has to|needs to|is to|ought to) (in turn|itself) {_TO_GO},"

@@ -23,15 +23,12 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.phrases.being_so import PREDICATE, state_of
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
-from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, FILLED, WHERE
+from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
-from etot_cli.reasoning.language.grammar.phrases.states import (
-    PREDICATE,
-    being,
-    containing,
-    state_of,
-)
+from etot_cli.reasoning.language.grammar.phrases.states import being, containing
+from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS
 from etot_cli.reasoning.language.grammar.requests.taking import SOURCE
 from etot_cli.reasoning.language.grammar.sentences.passives import PASSIVE
@@ -46,13 +43,14 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    FILLED,
     Destination,
     NounPhrase,
     State,
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import nouns, small_words, verbs
+from etot_cli.reasoning.language.words import frames, nouns, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 
 _MOVED = word_set("off out gone farther further closer nearer")
@@ -100,22 +98,24 @@ WANTED = either(
     PASSIVE,
     sequence(
         either(
-            sequence(ALL_THINGS, verbs.TO_HAVE),
-            sequence(NP_LIST, verbs.TO_EACH_HAVE, build=lambda nps: Things(all_of(nps, "each"))),
+            sequence(ALL_THINGS, predicates.TO_HAVE),
+            sequence(
+                NP_LIST, predicates.TO_EACH_HAVE, build=lambda nps: Things(all_of(nps, "each"))
+            ),
         ),
         noun_phrase,
         build=_its_own,
     ),
     sequence(
-        either(sequence(verbs.LET, ALL_THINGS, verbs.LET_BE), sequence("have", ALL_THINGS)),
+        either(sequence(verbs.LET, ALL_THINGS, predicates.LET_BE), sequence("have", ALL_THINGS)),
         WHERE,
         EXTRAS,
         build=lambda things, where, extras: put_down((PutGroup(things, where),), extras),
     ),
     sequence(
         either(
-            sequence(f"have, let, {verbs.CAN}", ALL_THINGS, "[please] join"),
-            sequence(ALL_THINGS, verbs.JOIN),
+            sequence(f"have, let, {predicates.CAN}", ALL_THINGS, "[please] join"),
+            sequence(ALL_THINGS, predicates.JOIN),
         ),
         noun_phrase,
         silent(optional("there")),
@@ -124,8 +124,8 @@ WANTED = either(
     sequence(
         # "Let the pen keep the cap company (in the cup)"
         either(
-            sequence(f"have, let, {verbs.CAN}", ALL_THINGS, "[please] keep"),
-            sequence(ALL_THINGS, verbs.KEEP_COMPANY),
+            sequence(f"have, let, {predicates.CAN}", ALL_THINGS, "[please] keep"),
+            sequence(ALL_THINGS, predicates.KEEP_COMPANY),
         ),
         noun_phrase,
         "company",
@@ -134,16 +134,16 @@ WANTED = either(
     ),
     sequence(
         noun_phrase,
-        verbs.JOINED_BY,
+        predicates.JOINED_BY,
         ALL_THINGS,
         build=lambda np, things: put_to(things, (Destination(Toward.WITH, (np,), "join"),)),
     ),
-    sequence(optional("have, let, make"), ALL_THINGS, verbs.SHARE, noun_phrase, build=_shared),
+    sequence(optional("have, let, make"), ALL_THINGS, predicates.SHARE, noun_phrase, build=_shared),
     sequence(
         # "The oil should share the shelf with the jar", which is there or goes there, too
         optional("have, let, make"),
         ALL_THINGS,
-        verbs.SHARE,
+        predicates.SHARE,
         noun_phrase,
         "with",
         NP_LIST,
@@ -152,7 +152,7 @@ WANTED = either(
     sequence(
         # "The pen I want in the cup"
         ALL_THINGS,
-        verbs.WANTED,
+        predicates.WANTED,
         optional("it, them"),
         DESTINATIONS,
         build=put_to,
@@ -163,27 +163,30 @@ WANTED = either(
             DESTINATIONS,
             OPTIONAL_COMMA,
             either(
-                sequence(f"{verbs.WANTED}, {verbs.STANDS_THERE}", NP_LIST),
-                sequence(NP_LIST, verbs.IS_THERE),
+                sequence(f"{predicates.WANTED}, {predicates.STANDS_THERE}", NP_LIST),
+                sequence(NP_LIST, predicates.IS_THERE),
             ),
             build=lambda where, nps: EnsureClause((State(nps, where),)),
         )
     ),
-    sequence(verbs.WANTED, ALL_THINGS, verbs.TAKEN, SOURCE, build=RemoveClause),
-    sequence(verbs.WANTED, ALL_THINGS, verbs.GONE, noun_phrase, build=RemoveClause),
+    sequence(predicates.WANTED, ALL_THINGS, predicates.TAKEN, SOURCE, build=RemoveClause),
+    sequence(predicates.WANTED, ALL_THINGS, predicates.GONE, noun_phrase, build=RemoveClause),
     sequence(
         ALL_THINGS,
-        f"{verbs.MODAL}, {verbs.COME_AWAY}",
+        f"{predicates.MODAL}, {predicates.COME_AWAY}",
         optional("gone"),
         SOURCE,
         build=RemoveClause,
     ),
-    sequence(ALL_THINGS, verbs.COME_AWAY, "out, off, down", build=RemoveClause),
+    sequence(ALL_THINGS, predicates.COME_AWAY, "out, off, down", build=RemoveClause),
     sequence(
-        verbs.WANT, ALL_THINGS, optional("[to be] (picked up|lifted [up])"), build=_wanted_in_hand
+        predicates.WANT,
+        ALL_THINGS,
+        optional("[to be] (picked up|lifted [up])"),
+        build=_wanted_in_hand,
     ),
 )
-_WERE_SO = either(being(verbs.WERE), containing(verbs.CONTAINED))
+_WERE_SO = either(being(predicates.WERE), containing(predicates.CONTAINED))
 _SO_WISHED = sequence(
     _WERE_SO,
     some(
@@ -201,7 +204,7 @@ _SO_WISHED = sequence(
     build=lambda first, more: EnsureClause((first, *more)),
 )
 WISHED = either(
-    sequence(small_words.WISH_IF, EMPTY_WORDS, _SO_WISHED),
+    sequence(frames.WISH_IF, EMPTY_WORDS, _SO_WISHED),
     quiet(
         sequence(
             # "As long as the pen is in a cup, I am happy"
@@ -209,7 +212,7 @@ WISHED = either(
             _SO_WISHED,
             silent(optional(small_words.BY_THE_END)),
             COMMA,
-            f"[then] ({small_words.WOULD_BE_NICE}|{small_words.IS_ENOUGH})",
+            f"[then] ({frames.WOULD_BE_NICE}|{frames.IS_ENOUGH})",
         )
     ),
 )
@@ -220,18 +223,18 @@ _LEFT = silent(optional("[to be] (left|remaining)"))
 _WHAT_GOES = either(
     sequence(
         either(phrase(f"the only {_THING}", True), phrase("the only (one|ones)", _ONE)),
-        optional(f"[that|which] ({verbs.MODAL}|i want|we want|i need), that, which"),
+        optional(f"[that|which] ({predicates.MODAL}|i want|we want|i need), that, which"),
         _LEFT,
     ),
-    sequence(phrase("all", True), f"that ({verbs.MODAL}), [that] (i|we) (want|need)", _LEFT),
+    sequence(phrase("all", True), f"that ({predicates.MODAL}), [that] (i|we) (want|need)", _LEFT),
     sequence(
-        phrase(f"what, the {_THING} (that|which)", False), f"{verbs.MODAL}, (i|we) (want|need)"
+        phrase(f"what, the {_THING} (that|which)", False), f"{predicates.MODAL}, (i|we) (want|need)"
     ),
 )
 """What is there, or alone is there (True), be it of its sort (:data:`_ONE`)."""
 _NO_MORE = "and nothing else, but nothing else"
 _IT_IS = "it is, it 's"
-_IS = f"{verbs.BE}, should be, must be, has to be, needs to be, shall be"
+_IS = f"{predicates.BE}, should be, must be, has to be, needs to be, shall be"
 
 
 def _there(things: Things, only: bool | str, where: tuple[Destination, ...]) -> Clause | None:
@@ -280,8 +283,8 @@ TOLD_APART = either(
     sequence(
         # "The cup and nothing else should be on the tray", "there should only be the cup"
         either(
-            sequence(ALL_THINGS, OPTIONAL_COMMA, _NO_MORE, OPTIONAL_COMMA, verbs.MODAL),
-            sequence(verbs.THERE_BE_ONLY, ALL_THINGS),
+            sequence(ALL_THINGS, OPTIONAL_COMMA, _NO_MORE, OPTIONAL_COMMA, predicates.MODAL),
+            sequence(predicates.THERE_BE_ONLY, ALL_THINGS),
             sequence("mak(e|ing)", ALL_THINGS, f"the only {_THING}", _LEFT),
         ),
         DESTINATIONS,
@@ -301,9 +304,9 @@ TOLD_APART = either(
         _IT_IS,
         ALL_THINGS,
         either(
-            sequence("that, which", f"{verbs.MODAL}, {verbs.WANTED}"),
-            f"{verbs.WANTED}",
-            sequence(optional("that, which"), verbs.TO_BE_DONE_BY_YOU, verbs.SET_DOWN),
+            sequence("that, which", f"{predicates.MODAL}, {predicates.WANTED}"),
+            f"{predicates.WANTED}",
+            sequence(optional("that, which"), predicates.TO_BE_DONE_BY_YOU, verbs.SET_DOWN),
         ),
         DESTINATIONS,
         build=put_to,
@@ -311,7 +314,7 @@ TOLD_APART = either(
     sequence(
         # "The left ball is the one that you should pick up"
         either(sequence(_POINTED_OUT, _THE_ONE), sequence("it is", noun_phrase, "that, which")),
-        verbs.TO_BE_DONE_BY_YOU,
+        predicates.TO_BE_DONE_BY_YOU,
         verbs.PICK,
         build=lambda np: PickClause(Things((np,))),
     ),
@@ -325,7 +328,7 @@ TOLD_APART = either(
         _POINTED_OUT,
         _THE_ONE,
         ALL_THINGS,
-        verbs.MODAL,
+        predicates.MODAL,
         one_of({Toward.INSIDE: "in, into, inside", Toward.ON: "on, onto"}),
         build=lambda np, things, toward: put_to(things, (Destination(toward, (np,)),)),
     ),
@@ -343,20 +346,20 @@ TOLD_APART = either(
         NP_LIST,
         "are where",
         ALL_THINGS,
-        verbs.BELONG,
+        predicates.BELONG,
         build=lambda places, things: _belonging(things, (Destination(Toward.TO, places),)),
     ),
     sequence(
         # "The tray is where the cup goes", "… where I want the cup"
         noun_phrase,
         either(
-            sequence("is where", ALL_THINGS, verbs.BELONG),
+            sequence("is where", ALL_THINGS, predicates.BELONG),
             sequence(
                 "is where you [(should|must|will|can|have to|need to|are to)]",
                 verbs.SET_DOWN,
                 ALL_THINGS,
             ),
-            sequence("is where", verbs.WANTED, ALL_THINGS, optional("to (be|go|stand|lie)")),
+            sequence("is where", predicates.WANTED, ALL_THINGS, optional("to (be|go|stand|lie)")),
             sequence(
                 f"(is|would be) {_PLACE_FOR}",
                 ALL_THINGS,

@@ -168,6 +168,21 @@ class Destination(Struct, frozen=True):
         return replace(self, targets=tuple(map(change, self.targets)))
 
 
+TOP = "top"
+"""The word of a destination on top of something: of a shelf, its top board. What is "at the top"
+or the bottom has boards."""
+AS_SAID = "there, as was said"
+"""The word of a destination that is left out, which the clause before says."""
+ONWARD = "onward"
+"""The word of a destination to which something goes from another one, to which it is likened."""
+ACROSS = "over to"
+"""The word of a destination that things are brought over to, be it into it or beside it."""
+FILLED = "filled"
+"""The word of a destination that is filled or loaded: what has an inside is so there."""
+RECEIVER = "receiver"
+"""The word of a destination that is said to get something."""
+
+
 class State(Struct, frozen=True):
     """What is to hold, as in "the plum is inside the cup".
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from functools import cache
 
-from etot_cli.reasoning.language.words import small_words
+from etot_cli.reasoning.language.words import frames, small_words
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS, VERB_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -59,7 +59,7 @@ def _adds(part: str) -> bool:
 @cache
 def _ahead() -> frozenset[str]:
     """What may stand before a request; there are thousands."""
-    return frozenset({*spellings(small_words.FRAMES), "please", "now", "first", "then"})
+    return frozenset({*spellings(frames.FRAMES), "please", "now", "first", "then"})
 
 
 def _is_looked_for(part: str) -> bool:

@@ -34,11 +34,7 @@ from etot_cli.reasoning.language.reference.choosing.instances import (
 )
 from etot_cli.reasoning.language.reference.choosing.landmarks import is_one
 from etot_cli.reasoning.language.reference.choosing.modified import all_but, left_out, modified
-from etot_cli.reasoning.language.reference.choosing.nouns import (
-    matched,
-    names_part,
-    parts_of,
-)
+from etot_cli.reasoning.language.reference.choosing.nouns import matched, names_part, parts_of
 from etot_cli.reasoning.language.reference.choosing.opposites import idle_words
 from etot_cli.reasoning.language.reference.choosing.selection import select
 from etot_cli.reasoning.language.reference.geometry import space
@@ -47,19 +43,10 @@ from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import Quantity, quantity_of
 from etot_cli.reasoning.language.reference.naming.entries import EXACT, HEAD, Entry
-from etot_cli.reasoning.language.reference.naming.usual_form import (
-    is_robot,
-    one_like,
-    usual_form,
-)
+from etot_cli.reasoning.language.reference.naming.usual_form import is_robot, one_like, usual_form
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import (
-    SAID_OF_BOARDS,
-    SIDES,
-    matches_any,
-    singular,
-)
+from etot_cli.reasoning.language.words.lexicon import SAID_OF_BOARDS, SIDES, matches_any, singular
 from etot_cli.reasoning.language.words.nouns import BODY_NOUNS, STACK, THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep

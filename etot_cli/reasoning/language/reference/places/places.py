@@ -12,9 +12,12 @@ from msgspec import structs
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, is_open
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.phrases.destinations import ACROSS, FILLED, ONWARD, TOP
 from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL_OF_ALL
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    ACROSS,
+    FILLED,
+    ONWARD,
+    TOP,
     Beside,
     Destination,
     NounPhrase,
@@ -45,12 +48,7 @@ from etot_cli.reasoning.language.reference.pronouns.one_thing import meant_by_it
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.words.categories import has_no_top
 from etot_cli.reasoning.language.words.known import REASONS
-from etot_cli.reasoning.language.words.lexicon import (
-    JOINT_NOUNS,
-    SIDES,
-    matches_any,
-    singular,
-)
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, SIDES, matches_any, singular
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import AT_END, OVER, THEREIN, Prep

@@ -7,18 +7,13 @@ from collections.abc import Sequence
 from etot_cli.reasoning.builtin.goal import Place, Relation
 from etot_cli.reasoning.builtin.relations import parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
-from etot_cli.reasoning.language.grammar.syntax.phrases import (
-    Destination,
-    Toward,
-)
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
 from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.geometry.vessels import bears, lies_on
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
-from etot_cli.reasoning.language.reference.pronouns.coreference import (
-    latest_place,
-)
+from etot_cli.reasoning.language.reference.pronouns.coreference import latest_place
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import ON_IT, THEREIN
 

@@ -1,0 +1,165 @@
+"""What goes along with what is put somewhere ("the cup on the tray, with the pen in it")."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+
+from etot_cli.reasoning.builtin.goal import Place, things_in
+from etot_cli.reasoning.builtin.relations import bearers
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
+from etot_cli.reasoning.language.goals.choosing import choose_by_place
+from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.stance import with_stance
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Modifier,
+    NounPhrase,
+    State,
+    Things,
+    Toward,
+    stance_in,
+)
+from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Whereabouts, holds
+from etot_cli.world.state import DESK, owner_of
+
+
+def place_bystanders(
+    context: Context,
+    condition: State,
+    themes: Sequence[int],
+    places_of: dict[int, tuple[Place, ...]],
+) -> None:
+    """Gives some of the things a place of their own ("… with the plum inside the mug")."""
+    for phrase in condition.subjects:
+        if phrase.words == ("everything",):
+            why = "name what is to be there; what is there already comes along"
+            raise ReferenceProblem(phrase.text, why, 3)
+    subjects = _bystanders(context, condition)
+    _check_describes(context, condition, subjects, places_of)
+    if not set(subjects) & set(themes):
+        # "It" is rather what the bystander is in or on.
+        places: tuple[Place, ...] = ()
+        with suppress(AmbiguousReference):
+            places = context.places.of(condition.destinations, subjects)
+        along = {index for place in places for index in place.referents()} & set(themes)
+        elsewhere = not along and _goes_elsewhere(context, condition, subjects, places, places_of)
+        crowd = subjects[1:] and any(place.beside for place in places)
+        if crowd or not (along or elsewhere):
+            text = " and ".join(phrase.text for phrase in condition.subjects)
+            raise ReferenceProblem(text, "it is not put anywhere here", 1)
+    else:
+        places = context.places.of(condition.destinations, subjects)
+    if condition.kept:
+        for subject in subjects:
+            choose_by_place(context, subject, places, stays=True)
+    if stance := stance_in(condition.destinations):
+        places = with_stance(context, subjects, places, stance)
+    for subject in subjects:
+        places_of[subject] = places
+
+
+def _goes_elsewhere(
+    context: Context,
+    condition: State,
+    subjects: Sequence[int],
+    places: Sequence[Place],
+    places_of: dict[int, tuple[Place, ...]],
+) -> bool:
+    """Whether "with the plum on the desk" says where a bystander is to be, not where it is: it is
+    not there, nor does it tell one bowl from others, nor is it a lid of that.
+
+    Raises:
+        AmbiguousReference: it may as well tell which "a bowl" is.
+    """
+    scene, discourse = context.scene, context.discourse
+    named = [place.where for place in places if place.where is not None and not place.beside]
+    pronoun = any(np.pronoun for item in condition.destinations for np in item.targets)
+    if not named or len(named) < len(places) or pronoun:
+        return False
+    things = discourse.things(*subjects)
+    if any(touches(thing, at, scene) for thing in things for at in discourse.things(*named)):
+        return False
+    below: set[str] = set()
+    for index in (p.where for found in places_of.values() for p in found if p.where is not None):
+        referent = discourse.referents[index]
+        names = {thing.name for thing in things_in(referent.options)} - {DESK}
+        if len(referent.options) > 1 and any(bearers(scene, t.name) & names for t in things):
+            if referent.text.split()[0] in ("the", "this", "that"):
+                return False
+            text, why = condition.subjects[0].text, "it may tell which one is meant:"
+            raise AmbiguousReference(text, sorted(names), why)
+        below |= names
+    lids = any(matches_any(np.head, LIDS) for np in condition.subjects)
+    return not (lids and any(bearers(scene, thing.name) & below for thing in things))
+
+
+def _bystanders(context: Context, condition: State) -> list[int]:
+    """What some place is said of; of several pens, "with the pen in it" is about the one there."""
+
+    def options(np: NounPhrase) -> list[int]:
+        """How many things each of those is that a phrase may mean."""
+        with suppress(ReferenceProblem):
+            return [len(option) for option in context.phrases.meaning(np, Role.THEME).options]
+        return []
+
+    (where, *more) = condition.destinations
+    prep = {Toward.INSIDE: Prep.IN, Toward.ON: Prep.ON}.get(where.toward)
+    phrases: list[NounPhrase] = []
+    for np in condition.subjects:
+        there = np
+        if prep and where.targets and not more and np.determiner == "the":
+            there = np.told_by(Modifier(prep, where.targets))
+        narrowed = options(there) == [1] and len(options(np)) > 1
+        phrases.append(there if narrowed else np)
+    return context.phrases.things(Things(tuple(phrases)), Role.THEME)
+
+
+def _check_describes(
+    context: Context,
+    condition: State,
+    subjects: Sequence[int],
+    places_of: dict[int, tuple[Place, ...]],
+) -> None:
+    """Whether "on the shelf with the pot on it" but tells which shelf: the pot stands there, or
+    beside it.
+
+    Raises:
+        ReferenceProblem: it does, or (AmbiguousReference) "the cup on the tray with the pen in it"
+            may also be about the cup.
+    """
+    where = {p.where for places in places_of.values() for p in places if p.where is not None}
+    below = {thing.name for thing in context.discourse.things(*where)} - {DESK}
+    if not all(np.pronoun for item in condition.destinations for np in item.targets):
+        return
+    for index in (index for index in subjects if index not in context.discourse.put):
+        for thing in context.discourse.things(index):
+            beside = [
+                Whereabouts(item.relation, (name,))
+                for where in condition.destinations
+                for item in where.beside
+                for name in below
+                if item.relation.landmarks == 1
+            ]
+            there = any(holds(item, thing.name, context.scene) for item in beside)
+            if there or below & bearers(context.scene, thing.name):
+                text = context.discourse.referents[index].text
+                inside = any(item.toward is Toward.INSIDE for item in condition.destinations)
+                vessels = [
+                    item
+                    for item in context.discourse.things(*places_of)
+                    if inside and can_be(item, Role.CONTAINER, context.scene)
+                ]
+                around = {
+                    owner_of(context.scene.states[item.name].inside or "")
+                    for item in context.discourse.things(index)
+                }
+                if around & {item.name for item in vessels}:
+                    continue  # it comes along
+                if vessels:
+                    named = [item.name for item in vessels]
+                    raise AmbiguousReference("in it", [*named, *sorted(below)])
+                raise ReferenceProblem(text, "it is there already; say where what is", 3)

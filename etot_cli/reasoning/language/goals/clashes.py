@@ -1,0 +1,145 @@
+"""Whether where things go clashes with what is said of them: where they are, what is denied."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+
+from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.relations import carriers
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.context import Context, InTheWay
+from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
+from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
+from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL
+from etot_cli.reasoning.language.words.categories import is_eaten, is_keeping, is_poured
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
+from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.state import DESK
+
+
+def check_taken(
+    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether "the red one", where something goes, is what it is taken from: another may be."""
+    taken = any(
+        isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
+        for step in context.done[-1:]
+    ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
+    states, moved = context.scene.states, context.discourse.things(*themes)
+    upon = all(states[thing.name].inside is None for thing in moved)
+    where = {
+        place.where
+        for place in places  # "from the drawer into the drawer" is right of what lies on top
+        if place.where is not None and not (upon and place.relation is Relation.INSIDE)
+    }
+    reached = {*context.discourse.things(*where)}
+    for phrase in group.things.phrases:
+        for prep, np in ((item.prep, np) for item in phrase.modifiers for np in item.phrases):
+            if np.pronoun:
+                continue  # by now "it" is where the things go
+            told: set[Thing] = set()
+            with suppress(ReferenceProblem):
+                told = {*things_in(context.phrases.meaning(np, Role.ANY).options)}
+            if prep is Prep.FROM and reached & told:
+                raise ReferenceProblem(phrase.text, "it would be taken from where it goes", 3)
+            there = {o for o in told if any(touches(o, at, context.scene) for at in reached)}
+            if prep is Prep.CONTRAST and there:
+                context.in_the_way.append(InTheWay(np.text, frozenset(there)))
+    for phrase in (np for item in group.destinations for np in item.targets):
+        described = any(HERE_BEFORE in item.words for item in phrase.modifiers)
+        if not taken or described or not phrase.is_elliptic:
+            continue
+        for place in (place.where for place in places if place.where is not None):
+            below = context.discourse.things(place)
+            above = context.discourse.things(*themes)
+            if all(touches(one, other, context.scene) for one in above for other in below):
+                raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
+
+
+def check_swept(context: Context, clause: PutClause) -> None:
+    """Whether "everything from the plate and the tray" may be what is on both, or the tray."""
+    (first, *more) = [np for group in clause.groups for np in group.things.phrases]
+    swept = bool(first.modifiers) and matches_any(first.head, THING_NOUNS)
+    below = {name for thing in context.scene.states for name in carriers(context.scene, thing)}
+    for second in more[:1] if swept or first.head in GENERAL else ():
+        swept = False
+        with suppress(ReferenceProblem):
+            meant = things_in(context.phrases.meaning(second, Role.THEME).options)
+            swept = any(thing.name in below for thing in meant)
+        if swept:
+            text = f"{first.text} and {second.text}"
+            raise ReferenceProblem(text, "say in two sentences where what is on each is to go", 4)
+
+
+def check_poured(
+    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether "ketchup on the bun" is the bottle: it is where things are but kept, and what is
+    called so itself is on what is neither eaten nor a vessel.
+    """
+    infos, discourse = context.scene.infos, context.discourse
+    marks = [place.where for place in places if place.where is not None and not place.beside]
+    where = {thing.name for thing in discourse.things(*marks)}
+    if all(not infos[name].movable or is_keeping(infos[name].label) for name in where - {DESK}):
+        return
+    names = dict.fromkeys(thing.name for thing in discourse.things(*themes))
+    for phrase in group.things.phrases:
+        noun = " ".join(phrase.words)
+        packs = tuple(name for name in names if is_poured(noun, name, infos[name].label))
+        if packs and not phrase.determiner and not phrase.modifiers:
+            served = any(
+                infos[name].container or is_eaten(infos[name].label) for name in where - {DESK}
+            )
+            if not served and [infos[name].label.casefold() for name in packs] == [noun]:
+                discourse.notes.append(f"read {noun!r} as all of it, in what it is in")
+                continue
+            why = f"say 'the {noun}' where all of it is meant, in what it is in"
+            raise ReferenceProblem(phrase.text, why, 4, word=noun, candidates=packs)
+
+
+def check_contrasted(
+    context: Context, spoken: Things, themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether "the cups on the plate, but not the red one" says of the plate which it is not, and
+    "on the shelf instead of the car" of the car that it is there; or of the cups what is the plate.
+    """
+    discourse = context.discourse
+    moved = {*discourse.things(*themes)}
+    told = (item.prep for np in spoken.phrases for item in np.modifiers)
+    contrasted = themes if Prep.CONTRAST in told else ()
+    for index in (place.where for place in places if place.where is not None):
+        text, out = discourse.referents[index].text, discourse.left_out.get(index, ())
+        if moved & {*out}:
+            raise ReferenceProblem(text, "what is no such place is to go there itself", 1)
+        spared = {out.name for theme in contrasted for out in discourse.left_out.get(theme, ())}
+        if spared & {thing.name for thing in discourse.things(index)}:
+            # "The cup in the box, not box A", "on the shelf, not its top board" tell of the place.
+            raise ReferenceProblem(text, "it is said not to be meant", 1)
+        for thing in out:
+            if any(touches(thing, at, context.scene) for at in discourse.things(index)):
+                why = f"{thing.name} is there; say where that is to go"
+                raise ReferenceProblem(text, why, 3)
+
+
+def check_not_there(context: Context, group: PutGroup, places: Sequence[Place]) -> None:
+    """Whether "the cup not in the box next to the can" comes into the box, which may be what is
+    denied: the can is in there; or "everything in the jar" into "the bottom one", which is no jar.
+
+    Raises:
+        ReferenceProblem: it does.
+    """
+    beside = all(where.toward is Toward.BESIDE for where in group.destinations)
+    elliptic = any(np.is_elliptic for where in group.destinations for np in where.targets)
+    if not (beside or elliptic):
+        return  # "the cup not in the box" goes where that is said
+    discourse = context.discourse
+    there = {t for at in places if at.where is not None for t in discourse.things(at.where)}
+    for np in group.things.phrases:
+        told = (item for item in np.modifiers if item.prep in (Prep.IN, Prep.ON))
+        for phrase in (phrase for item in told if item.denied is beside for phrase in item.phrases):
+            if there & {*things_in(context.phrases.meaning(phrase, Role.ANY).options)}:
+                why = "where it is not to be" if beside else "where it is"
+                raise ReferenceProblem(np.text, f"it would come to {why}", 2)
