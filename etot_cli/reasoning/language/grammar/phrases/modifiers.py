@@ -411,6 +411,11 @@ _modifier = either(
         build=lambda prep: Modifier(prep, (NounPhrase(pronoun="it", text="it"),)),
     ),
     sequence(
+        # "The mug to its left"
+        one_of({Prep[side.name]: said for side, said in places.ITS_SIDE.items()}),
+        build=lambda prep: Modifier(prep, (NounPhrase(pronoun="it", text="its"),)),
+    ),
+    sequence(
         # "That is red and on the left"
         after("that", "which"),
         "and [(that|which) is|is] [also]",
