@@ -25,7 +25,11 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import (
     PLAIN_MODIFIER,
     quality_alone,
 )
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, with_all
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
+    NP_LIST,
+    one_not_both,
+    with_all,
+)
 from etot_cli.reasoning.language.grammar.phrases.states import SO, state_of
 from etot_cli.reasoning.language.grammar.phrases.turns import ONE_BEFORE_ANOTHER, TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
@@ -214,8 +218,12 @@ def put_of(
         groupings = [Grouping.SEPARATELY]
     elif "apart" in named:
         return None
-    chosen = len(groups) == 1 and groups[0].things.either
-    if len(groupings) > 1 or turns is None or ("one" in named and not chosen):
+    if "one" in named:
+        one = one_not_both(groups[0].things)
+        if one is None or groups[1:]:
+            return None
+        groups = (replace(groups[0], things=one),)
+    if len(groupings) > 1 or turns is None:
         return None
     grouping = groupings[0] if groupings else grouping
     described = [_that_are(groups, *item[1]) for item in said if item[0] == "that"]
