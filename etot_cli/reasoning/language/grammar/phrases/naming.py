@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     exceptions,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
 from etot_cli.reasoning.language.grammar.phrases.comparing import ONE_COMPARED
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE, WHERE_THAT_IS
 from etot_cli.reasoning.language.grammar.phrases.modifiers import (
@@ -73,7 +74,20 @@ DETERMINER = either(
 )
 PRONOUN = phrase("it, them, they, this, that, these, those, its, he, him, she, her")
 ROBOT = word(lambda given, text: text in ("me", "you", "us", "robot"))
-WORDS = some(NOUN_WORD, least=1, most=6)
+_ANY_WORDS = some(NOUN_WORD, least=1, most=6)
+
+
+def _before_a_place(given: Input, at: int) -> list[Result]:
+    """Words of a name; of a "close-up photo", too, "the photo close to the tray" says where."""
+    return [
+        (end, value)
+        for end, value in _ANY_WORDS.find(given, at)
+        if end == at + 1 or f"{given.words[end - 1]} {given.ahead[end]}" not in _BEGIN_A_PLACE
+    ]
+
+
+_BEGIN_A_PLACE = ("close to", "near to", "next to")
+WORDS = Parser(_before_a_place, lambda: _ANY_WORDS.first)
 
 
 def _any_again(
