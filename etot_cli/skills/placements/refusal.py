@@ -22,6 +22,55 @@ MAX_KNOWN = 2
 farther apart than they have to be, so that with fewer away they may show none."""
 
 
+class _Again:
+    """Looks for a place again, without some of the objects that may be in the way."""
+
+    def __init__(self, belief: Belief, request: Request) -> None:
+        self.overlooked: Placement | None = None
+        """A placement, come upon on the way, that nothing is in the way of."""
+        self.stamps: Stamps = {}
+        self._belief = belief
+        self._request = request
+        self._known: list[Place] = []
+
+    def possible(self, other: Request) -> Placement | None:
+        """A placement for another request."""
+        tally = Tally(self._belief.world)
+        return next(placements(self._belief, other, tally, self.stamps), None)
+
+    def helps(self, absent: Iterable[str]) -> bool:
+        """Whether there is a place once some objects are taken away, and none there with them."""
+        other = replace(self._request, absent=self._request.absent.union(absent))
+        still = (place for place in self._known if place.bearers.isdisjoint(other.absent))
+        if any(placement_at(self._belief, other, place) for place in still):
+            return True
+        found = self.possible(other)
+        if found is None:
+            return False
+        as_it_is = placement_at(self._belief, self._request, found.place)
+        if as_it_is is not None:
+            self.overlooked = self.overlooked or as_it_is
+        elif len(self._known) < MAX_KNOWN:
+            self._known.append(found.place)
+        return as_it_is is None
+
+    def guilty(self, suspects: list[str], fastened: list[str]) -> list[str]:
+        """The fewest objects without which there is a place: those that can be moved first. Nobody
+        where a placement was overlooked.
+        """
+        together = len(suspects) > 1 and self.helps(suspects)
+        if self.overlooked:
+            return []
+        guilty = [one for one in suspects[:MAX_SUSPECTS] if self.helps([one])]
+        if together and not guilty:
+            guilty = least(suspects, self.helps)
+        guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if self.helps([one])]
+        everybody = [*suspects, *fastened]
+        if guilty or self.overlooked or not fastened or len(everybody) < 2:
+            return guilty
+        return least(everybody, self.helps) if self.helps(everybody) else []
+
+
 def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome | Placement:
     """The cause of a put that has no place; a placement where looking for the cause comes upon one
     that nothing is in the way of: not all places have been looked at.
@@ -31,8 +80,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         request: what was to go where.
         tally: what became of the places that were looked at.
     """
-    name, address = request.attached.name, request.support.address
-    owner = [] if request.support.owner is None else [request.support.owner]
+    name, address, owner = request.attached.name, request.support.address, _owner(request)
     if request.at and not request.support.inside(request.support.local(np.array(request.at))).any():
         text = f"there is no {address}{_at(request)}"
         return failed(CauseKind.NO_ROOM, [name, *owner], text)
@@ -45,42 +93,11 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             [*owner, name],
             f"the arm does not reach {address}{_at(request)} with {name} held as it is",
         )
-    stamps: Stamps = {}
-    suspects, fastened = suspected(belief, request, tally, stamps)
-    overlooked: list[Placement] = []
-    known: list[Place] = []
-
-    def possible(other: Request) -> Placement | None:
-        return next(placements(belief, other, Tally(belief.world), stamps), None)
-
-    def helps(absent: Iterable[str]) -> bool:
-        """Whether there is a place once some objects are taken away, and none there with them."""
-        other = replace(request, absent=request.absent.union(absent))
-        still = (place for place in known if place.bearers.isdisjoint(other.absent))
-        if any(placement_at(belief, other, place) for place in still):
-            return True
-        found = possible(other)
-        if found is None:
-            return False
-        as_it_is = placement_at(belief, request, found.place)
-        if as_it_is is not None:
-            overlooked.append(as_it_is)
-        elif len(known) < MAX_KNOWN:
-            known.append(found.place)
-        return as_it_is is None
-
-    together = len(suspects) > 1 and helps(suspects)
-    if overlooked:
-        return overlooked[0]
-    everybody = [*suspects, *fastened]
-    guilty = [one for one in suspects[:MAX_SUSPECTS] if helps([one])]
-    if together and not guilty:
-        guilty = least(suspects, helps)
-    guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if helps([one])]
-    if overlooked:
-        return overlooked[0]
-    if not guilty and fastened and len(everybody) > 1 and helps(everybody):
-        guilty = least(everybody, helps)
+    again = _Again(belief, request)
+    suspects, fastened = suspected(belief, request, tally, again.stamps)
+    guilty = again.guilty(suspects, fastened)
+    if again.overlooked:
+        return again.overlooked
     if guilty:
         if tally.obstructed and (missed := _missed(belief, request, tally)) is not None:
             return missed
@@ -90,8 +107,18 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             f"there is no room for {name} {_preposition(request)} {address}: "
             f"{_listed(guilty)} in the way",
         )
+    return _too_small(belief, request, tally, again, [*suspects, *fastened])
+
+
+def _too_small(
+    belief: Belief, request: Request, tally: Tally, again: _Again, everybody: list[str]
+) -> SkillOutcome:
+    """The cause where there is no place with ``everybody`` away, either: what a place is kept free
+    for, the hand, an edge that something is to be beside, or the size of the thing.
+    """
+    name, address, owner = request.attached.name, request.support.address, _owner(request)
     anywhere = replace(request, keepout=(), coming=())
-    if anywhere != request and possible(anywhere) is not None:
+    if anywhere != request and again.possible(anywhere) is not None:
         return failed(
             CauseKind.NO_ROOM,
             [name, *owner],
@@ -99,14 +126,14 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
             "free there",
         )
     cleared = replace(request, absent=request.absent.union(everybody))
-    if tally.obstructed or _has_good_place(belief, cleared, stamps):
+    if tally.obstructed or _has_good_place(belief, cleared, again.stamps):
         fixed = [
             other
             for other in tally.blockers.most(excluding=[name])
             if not belief.world.entries[other].free
         ]
         return failed(CauseKind.NO_ROOM, [*(fixed or owner), name], _as_held(request, tally, fixed))
-    if _has_good_place(belief, replace(cleared, bare=True), stamps):
+    if _has_good_place(belief, replace(cleared, bare=True), again.stamps):
         return failed(
             CauseKind.UNREACHABLE,
             [*owner, name],
@@ -118,7 +145,7 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         for mark in where.landmarks
         if mark in belief.world.entries and belief.world.entries[mark].info.movable
     ]
-    if marks and possible(replace(anywhere, preference=None)) is not None:
+    if marks and again.possible(replace(anywhere, preference=None)) is not None:
         # Beyond an edge, or in a gap too narrow, nothing stands that could be taken away.
         return failed(
             CauseKind.NO_ROOM,
@@ -130,6 +157,10 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
         [name, *owner],
         f"{name} does not fit {_preposition(request)} {address}{_at(request)}",
     )
+
+
+def _owner(request: Request) -> list[str]:
+    return [] if request.support.owner is None else [request.support.owner]
 
 
 def _missed(belief: Belief, request: Request, tally: Tally) -> Placement | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from operator import attrgetter
@@ -15,6 +15,7 @@ from etot_cli.reasoning.builtin.goal import (
     Keep,
     Open,
     Put,
+    Thing,
 )
 from etot_cli.reasoning.builtin.relations import bearers, carriers, is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
@@ -94,58 +95,71 @@ def _left_by_what_moves(context: Context, clause: AvoidClause) -> tuple[int, ...
 
 
 def _forbid(context: Context, clause: AvoidClause) -> None:
+    """Adds what a clause forbids to the constraints, or notes that no plan does it anyway.
+
+    Raises:
+        ReferenceProblem: it is not clear what is meant, or no plan can be kept from it.
+    """
+    things = clause.things
     if clause.goes_on:
-        last = clause.things.phrases[-1].text if clause.things else "anything else"
+        last = things.phrases[-1].text if things else "anything else"
         why = "'not' may be said of what follows by 'and', too; say that in a sentence of its own"
         raise ReferenceProblem(last, why, 4)
-    if clause.things is None and clause.avoid is Avoid.HARM:
-        context.discourse.notes.append("no plan may harm anything")
-        return
-    if clause.things is None:
-        _avoid_others(context, clause)
+    if things is None:
+        if clause.avoid is Avoid.HARM:
+            context.discourse.notes.append("no plan may harm anything")
+        else:
+            _avoid_others(context, clause)
         return
     if keep_it_standing(context, clause):
         return
     _check_moves(context, clause.by)
-    role = Role.PART if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else Role.ANY
-    if any(np.words in _THE_REST and not np.modifiers for np in clause.things.phrases):
-        others = _others_like_what_turns(context, clause.things)
+    if any(np.words in _THE_REST and not np.modifiers for np in things.phrases):
+        others = _others_like_what_turns(context, things)
         if others is None:
             _avoid_others(context, clause)
         else:
             _forbid(context, structs.replace(clause, things=others))
-        return
-    elliptic = (
-        np.is_elliptic or leaves_noun_out(np) or not (np.words or np.pronoun)
-        for np in clause.things.phrases
-    )
-    if role is Role.ANY and any(elliptic):
-        role = _role_of_one(context, clause.things)
+    elif clause.avoid is Avoid.PUT:
+        _rule_out(context, clause, things)
+    else:
+        _keep(context, clause, things)
+
+
+def _rule_out(context: Context, clause: AvoidClause, things: Things) -> None:
+    """Places where things must not be put. "Do not put the plum there, put it here" speaks of the
+    plum, and "in the red one" of what "there" is.
+    """
     before = len(context.discourse.mentions)
-    if clause.avoid is Avoid.PUT:
-        rule_out_things(context, clause)
-        # "Do not put the plum there, put it here" speaks of the plum, and "in the red one" of what
-        # "there" is.
-        said = context.discourse.mentions[before:]
-        kept = [mention for mention in said if mention.role is Role.THEME and not before]
-        targets = [structs.replace(m, role=Role.ANY) for m in said if m.role in _TARGETS]
-        kept += [structs.replace(m, clause=0) for m in targets] if before else targets
-        # "Nothing but the cups may be there, so put them there"; behind "no cup but the white one"
-        # "the other" is one of the cups.
-        general = all({*np.words} & {"", "anything", *THING_NOUNS} for np in clause.things.phrases)
-        left_out = context.discourse.left_out if general else {}
-        spared = [thing for m in said for thing in left_out.get(m.referent, ())]
-        context.discourse.mentions[before:] = [] if spared else kept
-        for thing in sorted(spared, key=attrgetter("address")):
-            context.discourse.alone(thing, Role.THEME)
-        return
-    indices = _left_by_what_moves(context, clause) or context.phrases.things(clause.things, role)
+    rule_out_things(context, clause)
+    said = context.discourse.mentions[before:]
+    kept = [mention for mention in said if mention.role is Role.THEME and not before]
+    targets = [structs.replace(m, role=Role.ANY) for m in said if m.role in _TARGETS]
+    kept += [structs.replace(m, clause=0) for m in targets] if before else targets
+    # "Nothing but the cups may be there, so put them there"; behind "no cup but the white one"
+    # "the other" is one of the cups.
+    general = all({*np.words} & {"", "anything", *THING_NOUNS} for np in things.phrases)
+    left_out = context.discourse.left_out if general else {}
+    spared = [thing for m in said for thing in left_out.get(m.referent, ())]
+    context.discourse.mentions[before:] = [] if spared else kept
+    for thing in sorted(spared, key=attrgetter("address")):
+        context.discourse.alone(thing, Role.THEME)
+
+
+def _keep(context: Context, clause: AvoidClause, things: Things) -> None:
+    """Things that are kept as they are: as the clause says, or as it is understood of those that
+    are moved, opened or taken along anyway.
+    """
+    before = len(context.discourse.mentions)
+    role = _role_of_kept(context, clause, things)
+    indices = _left_by_what_moves(context, clause) or context.phrases.things(things, role)
+    kept = context.discourse.things(*indices)
     if clause.avoid is Avoid.HARM:
-        harmed = " and ".join(thing.address for thing in context.discourse.things(*indices))
+        harmed = " and ".join(thing.address for thing in kept)
         context.discourse.notes.append(f"no plan may harm {harmed}")
         return
-    if clause.over and not clause.things.are_any:
-        context.toppling |= {thing.name for thing in context.discourse.things(*indices)}
+    if clause.over and not things.are_any:
+        context.toppling |= {thing.name for thing in kept}
     if clause.taken and _goes_along(context, indices):
         return
     one_way = all(len(context.discourse.referents[index].options) == 1 for index in indices)
@@ -157,32 +171,19 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
                 Constraint(_KEEPS[clause.avoid], (), referent=index) for index in indices
             )
         return
-    if clause.avoid is Avoid.MOVE and any(is_only(np.determiner) for np in clause.things.phrases):
-        homes = [context.home(thing) for thing in context.discourse.things(*indices)]
-        check_alone(context, clause.things.phrases, indices, homes)
-    for index in indices if clause.avoid is Avoid.CLOSE else ():
-        if not context.discourse.is_spoken(index):
-            context.discourse.as_it_stands(index, is_open)
+    if clause.avoid is Avoid.MOVE and any(is_only(np.determiner) for np in things.phrases):
+        check_alone(context, things.phrases, indices, [context.home(thing) for thing in kept])
     for index in indices if clause.avoid in (Avoid.OPEN, Avoid.CLOSE) else ():
+        if clause.avoid is Avoid.CLOSE and not context.discourse.is_spoken(index):
+            context.discourse.as_it_stands(index, is_open)
         leave_among_turned(context, index, opens=clause.avoid is Avoid.CLOSE)
     done = [s for s in context.done if isinstance(s, Open | Close) and s.what in indices]
     if clause.avoid is Avoid.MOVE and done:  # "open it and leave it as it is"
         context.steps += [replace(step, final=True) for step in done]
         return
-    # "Without touching a cup" is about all of them.
-    things = context.discourse.things(*indices)
-    parted = role is Role.PART
-    names = tuple(dict.fromkeys(t.address if parted and t.part else t.name for t in things))
-    if clause.avoid is Avoid.OPEN:
-        own = [part for thing in things for part in parts_of(context.scene, thing)]
-        shut = [part for part in own if not is_open(context.scene, part)]
-        if shut != own:  # what stands open is neither opened nor to be closed
-            names = tuple(f"{part.owner}.{part.name}" for part in shut) or names
-    if DESK in names:
-        raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
-    if clause.avoid is Avoid.TOUCH and (board := next((t for t in things if t.board), None)):
-        why = "one board alone is not kept from being touched; say that nothing is put on it"
-        raise ReferenceProblem(board.address, why, 2)
+    # "Without touching a cup" is about all of them, told again by what was made of them above.
+    kept = context.discourse.things(*indices)
+    names = _names_of_kept(context, clause, kept, by_part=role is Role.PART)
     context.discourse.step_back(before, indices)
     if clause.avoid in _LEAVING:
         context.discourse.left_alone |= {*indices}
@@ -190,27 +191,71 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         # "All as it is except for the cup; that goes on the tray"
         for thing in sorted(out, key=attrgetter("address")):
             context.discourse.alone(thing, Role.THEME)
-    # A drawer moves by being opened or closed, not with its chest.
+    context.constraints += _as_constraints(context, clause, things, kept, names)
+
+
+def _role_of_kept(context: Context, clause: AvoidClause, things: Things) -> Role:
+    """What the things that are kept as they are are among."""
+    if clause.avoid in (Avoid.OPEN, Avoid.CLOSE):
+        return Role.PART
+    elliptic = (
+        np.is_elliptic or leaves_noun_out(np) or not (np.words or np.pronoun)
+        for np in things.phrases
+    )
+    return _role_of_one(context, things) if any(elliptic) else Role.ANY
+
+
+def _names_of_kept(
+    context: Context, clause: AvoidClause, kept: Sequence[Thing], *, by_part: bool
+) -> tuple[str, ...]:
+    """The names that a constraint has things by; of what is not to be opened only what is shut, as
+    what stands open is neither opened nor to be closed.
+
+    Raises:
+        ReferenceProblem: nothing can be kept from the desk, or from one board.
+    """
+    names = tuple(dict.fromkeys(t.address if by_part and t.part else t.name for t in kept))
+    if clause.avoid is Avoid.OPEN:
+        own = [part for thing in kept for part in parts_of(context.scene, thing)]
+        shut = [part for part in own if not is_open(context.scene, part)]
+        if shut != own:
+            names = tuple(f"{part.owner}.{part.name}" for part in shut) or names
+    if DESK in names:
+        raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
+    if clause.avoid is Avoid.TOUCH and (board := next((t for t in kept if t.board), None)):
+        why = "one board alone is not kept from being touched; say that nothing is put on it"
+        raise ReferenceProblem(board.address, why, 2)
+    return names
+
+
+def _as_constraints(
+    context: Context,
+    clause: AvoidClause,
+    things: Things,
+    kept: Sequence[Thing],
+    names: tuple[str, ...],
+) -> Iterator[Constraint]:
+    """How things are kept as they are; a drawer moves by being opened or closed, not with its
+    chest.
+    """
     joints = sum(JOINT_NOUNS.values(), ())
-    drawers = all(np.words and matches_any(np.head, joints) for np in clause.things.phrases)
-    moving = {t: parts_of(context.scene, t) for t in things if t.part or drawers}
+    drawers = all(np.words and matches_any(np.head, joints) for np in things.phrases)
+    moving = {t: parts_of(context.scene, t) for t in kept if t.part or drawers}
     parts = [part for found in moving.values() for part in found]
     ways = [
         is_open(context.scene, p) or (is_closed(context.scene, p) and Keep.CLOSED) for p in parts
     ]
-    touching = clause.avoid in _LEAVING
-    if touching and all(moving.get(t) for t in things) and all(ways):
-        for part, way in zip(parts, ways, strict=True):
-            keep = Keep.OPEN if way is True else Keep.CLOSED
-            context.constraints.append(Constraint(keep, (f"{part.owner}.{part.name}",)))
+    addresses = tuple(f"{part.owner}.{part.name}" for part in parts)
+    turning = clause.avoid in _LEAVING and all(moving.get(t) for t in kept)
+    if turning and all(ways):
+        for address, way in zip(addresses, ways, strict=True):
+            yield Constraint(Keep.OPEN if way is True else Keep.CLOSED, (address,))
         if clause.avoid is Avoid.TOUCH:
-            touched = tuple(f"{part.owner}.{part.name}" for part in parts)
-            context.constraints.append(Constraint(Keep.UNTOUCHED, touched))
+            yield Constraint(Keep.UNTOUCHED, addresses)
         return
-    if touching and all(moving.get(t) for t in things):  # one that is ajar, not its chest
-        names = tuple(f"{part.owner}.{part.name}" for part in parts)
-    names += _what_is_there(context, names) if clause.as_it_is else ()
-    context.constraints.append(Constraint(_KEEPS[clause.avoid], names))
+    names = addresses if turning else names  # one that is ajar, not its chest
+    there = _what_is_there(context, names) if clause.as_it_is else ()
+    yield Constraint(_KEEPS[clause.avoid], (*names, *there))
 
 
 def _check_moves(context: Context, by: Sequence[NounPhrase]) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from msgspec import Struct
+
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
@@ -35,98 +37,165 @@ AS_NEAR = 0.01
 """What is farther by less is as near to the eye, and to a camera that measures to 5-10 mm [m]."""
 
 
-def related(
-    modifier: Modifier,
-    things: list[Thing],
-    landmarks: list[list[Thing]],
-    quantity: Quantity,
-    count: int | None,
-    scene: SceneState,
-    notes: list[str],
-    text: str,
-) -> tuple[list[Thing], list[Thing]]:
-    """Those of the things that a modifier is true of, or that fit it best, and besides the best
-    fitting the others that it is true of as well.
+class Told(Struct, frozen=True):
+    """What a modifier says of some things, and of how many of them."""
 
-    ``notes`` gets what was chosen where several would do, or none by the relation's definition;
-    ``text`` is the whole phrase, for messages.
-    """
-    prep = modifier.prep
-    if prep is Prep.OF and all(map(is_one, modifier.phrases)):
-        things = [thing for thing in things if _has_owner(thing, scene)]
-    bare = modifier.denied and prep is Prep.WITH  # a cup without a saucer is on none either
-    by_robot = any(space.ROBOT in several for several in landmarks)
-    if by_robot and not (prep is Prep.NEAR and len(things) > 1) and prep not in _DISTANCES:
-        raise ReferenceProblem(modifier.phrases[0].text, "say beside which object", 2)
-    fitting = [
-        thing
-        for thing in things
-        if any(
+    modifier: Modifier
+    landmarks: list[list[Thing]]
+    """For each of its phrases what that may mean."""
+    quantity: Quantity
+    count: int | None
+    scene: SceneState
+    text: str
+    """The whole phrase, for messages."""
+
+    @property
+    def prep(self) -> Prep:
+        """Its preposition."""
+        return self.modifier.prep
+
+    @property
+    def marks(self) -> list[Thing]:
+        """All that its phrases may mean."""
+        return [mark for several in self.landmarks for mark in several]
+
+    def ways(self) -> list[tuple[Thing, ...]]:
+        """What its phrases may mean together."""
+        if len(self.landmarks) == 1:
+            return [(mark,) for mark in self.landmarks[0]]
+        return [(one, two) for one in self.landmarks[0] for two in self.landmarks[1] if one != two]
+
+    def may_hold(self, thing: Thing) -> bool:
+        """Whether the modifier may be true of a thing."""
+        prep, scene = self.prep, self.scene
+        # A cup without a saucer is on none, either.
+        bare = self.modifier.denied and prep is Prep.WITH
+        return any(
             (thing not in marks and space.holds_at(prep, thing, marks, scene) is not False)
             or (prep is Prep.OF and space.holds_at(prep, thing, marks, scene))
             or (bare and space.touches(thing, marks[0], scene))
-            for marks in _tuples(landmarks)
+            for marks in self.ways()
         )
-    ]
-    plainly = [
-        thing
-        for thing in fitting
-        if prep in space.RELATIONS
-        and any(
+
+    def holds_plainly(self, thing: Thing) -> bool:
+        """Whether a relation is true of a thing by its definition, and it bears no landmark."""
+        prep, scene = self.prep, self.scene
+        return prep in space.RELATIONS and any(
             space.is_plainly(prep, thing, marks, scene)
             and not any(space.carries(thing, mark, scene) for mark in marks)
-            for marks in _tuples(landmarks)
+            for marks in self.ways()
         )
-    ]
+
+    def note(self, chosen: Sequence[Thing], others: Sequence[Thing], *, plain: bool) -> str:
+        """Which things were chosen rather than others."""
+        beside = " and ".join(mark.name for mark in self.marks)
+        names = " and ".join(thing.name for thing in chosen)
+        names += f" rather than {' or '.join(thing.name for thing in others)}" if others else ""
+        return f"{space.RELATIONS[self.prep].value} {beside}: {names}{'' if plain else ROUGHLY}"
+
+
+_Found = tuple[list[Thing], list[Thing]]
+"""What a modifier tells, and besides the best fitting the others that it is true of as well."""
+
+
+def related(told: Told, things: list[Thing], notes: list[str]) -> _Found:
+    """Those of the things that a modifier is true of, or that fit it best, and besides the best
+    fitting the others that it is true of as well.
+
+    ``notes`` gets what was chosen where several would do, or none by the relation's definition.
+
+    Raises:
+        AmbiguousReference: the modifier can be understood in two ways.
+        ReferenceProblem: it says where something is by the robot.
+    """
+    prep, denied, scene = told.prep, told.modifier.denied, told.scene
+    if prep is Prep.OF and all(map(is_one, told.modifier.phrases)):
+        things = [thing for thing in things if _has_owner(thing, scene)]
+    by_robot = any(space.ROBOT in several for several in told.landmarks)
+    if by_robot and not (prep is Prep.NEAR and len(things) > 1) and prep not in _DISTANCES:
+        raise ReferenceProblem(told.modifier.phrases[0].text, "say beside which object", 2)
+    fitting = [thing for thing in things if told.may_hold(thing)]
+    plainly = [thing for thing in fitting if told.holds_plainly(thing)]
     if not plainly and len(things) == 1 and _is_fixed_beside(prep, things[0], scene):
-        return (
-            (things, []) if modifier.denied else ([], [])
-        )  # it says where something goes, not which fridge
-    landmark_things = [mark for several in landmarks for mark in several]
-    if prep is Prep.FRONT and not plainly:
-        before = before_fronts(things, landmark_things, scene)
-        if before and {*before} != {*fitting} and (fitting or modifier.denied):
-            raise AmbiguousReference(text, [thing.name for thing in (*fitting, *before)])
-        if len(before) == 1 and not modifier.denied:
-            mark = " and ".join(mark.name for mark in landmark_things)
-            notes.append(f"in front of {mark}: {before[0].name}, before the front of its own")
-            return before, []
-    upon = [
+        # It says where something goes, not which fridge.
+        return (things if denied else [], [])
+    at_a_front = [] if plainly else _before_a_front(told, things, fitting, notes)
+    if at_a_front:
+        return at_a_front, []
+    upon = _upon_a_side(told, fitting)
+    if upon and plainly:  # "the pot on the left side of the bench"
+        raise AmbiguousReference(told.text, [thing.name for thing in (*upon, *plainly)])
+    if upon:
+        return [thing for thing in things if (thing in upon) != denied], []
+    supports = [thing for thing in things if space.is_support(thing, scene)]
+    borne = any(space.rests_on(m, thing, scene) for m in told.marks for thing in supports)
+    if prep in space.RELATIONS and borne and not (plainly or denied):
+        return [], []  # "the table next to the phone" on a table says where on that
+    if prep is Prep.NEXT_TO and told.count == len(plainly) == 1 and told.quantity.definite:
+        _check_nearer(plainly[0], fitting, told.marks[0], scene, told.text)
+    if denied:
+        return _none_of_those(told, things, plainly or fitting), []
+    if prep in (Prep.UNDER, Prep.ABOVE) and told.count == 1:
+        return _touching(told, plainly or fitting), []
+    if prep not in RANKED:
+        return plainly or fitting, []
+    return _best(told, things, plainly or fitting, notes, plain=bool(plainly))
+
+
+def _before_a_front(
+    told: Told, things: list[Thing], fitting: list[Thing], notes: list[str]
+) -> list[Thing]:
+    """What stands before the front that a landmark has of its own, be it turned away.
+
+    Raises:
+        AmbiguousReference: other things stand in front of it as the robot sees it.
+    """
+    denied = told.modifier.denied
+    before = before_fronts(things, told.marks, told.scene) if told.prep is Prep.FRONT else []
+    if before and {*before} != {*fitting} and (fitting or denied):
+        raise AmbiguousReference(told.text, [thing.name for thing in (*fitting, *before)])
+    if len(before) != 1 or denied:
+        return []
+    mark = " and ".join(mark.name for mark in told.marks)
+    notes.append(f"in front of {mark}: {before[0].name}, before the front of its own")
+    return before
+
+
+def _upon_a_side(told: Told, fitting: list[Thing]) -> list[Thing]:
+    """What is "on the left side of" a thing by standing on it."""
+    if told.prep not in ON_SIDE or told.modifier.words != ("on",):
+        return []
+    return [t for t in fitting if any(space.rests_on(t, mark, told.scene) for mark in told.marks)]
+
+
+def _none_of_those(told: Told, things: list[Thing], fitting: list[Thing]) -> list[Thing]:
+    """What a modifier is denied of: what is "not on the tray" is no tray, either, nor in a bowl
+    that is on it.
+    """
+    whole = {mark.name for mark in told.marks if mark == Thing(mark.name)}
+    below = whole if told.prep in (Prep.ON, Prep.IN, Prep.FROM) else set()
+    left = [t for t in things if t not in fitting and not below & space.below(t, told.scene)]
+    return [thing for thing in left if thing not in told.marks] or left
+
+
+def _touching(told: Told, fitting: list[Thing]) -> list[Thing]:
+    """As "the block under the blue one" of a tower, which is the one that bears it."""
+    under = told.prep is Prep.UNDER
+    return [
         thing
         for thing in fitting
-        if prep in ON_SIDE and modifier.words == ("on",)
-        if any(space.rests_on(thing, mark, scene) for mark in landmark_things)
-    ]
-    if upon and plainly:  # "the pot on the left side of the bench"
-        raise AmbiguousReference(text, [thing.name for thing in (*upon, *plainly)])
-    if upon:
-        return [thing for thing in things if (thing in upon) != modifier.denied], []
-    supports = [thing for thing in things if space.is_support(thing, scene)]
-    borne = any(space.rests_on(m, thing, scene) for m in landmark_things for thing in supports)
-    if prep in space.RELATIONS and borne and not (plainly or modifier.denied):
-        return [], []  # "the table next to the phone" on a table says where on that
-    if prep is Prep.NEXT_TO and count == len(plainly) == 1 and quantity.definite:
-        _check_nearer(plainly[0], fitting, landmark_things[0], scene, text)
-    fitting = plainly or fitting
-    if modifier.denied:
-        # "What is not on the tray" is no tray, either, nor in a bowl that is on it.
-        whole = {m.name for m in landmark_things if m == Thing(m.name)}
-        below = whole if prep in (Prep.ON, Prep.IN, Prep.FROM) else set()
-        left = [t for t in things if t not in fitting and not below & space.below(t, scene)]
-        return [thing for thing in left if thing not in landmark_things] or left, []
-    if prep in (Prep.UNDER, Prep.ABOVE) and count == 1:
-        # "The block under the blue one" of a tower is the one that bears it.
-        touching = [
-            thing
-            for thing in fitting
-            for mark in landmark_things
-            if space.touches(*((mark, thing) if prep is Prep.UNDER else (thing, mark)), scene)
-        ]
-        return touching or fitting, []
-    if prep not in RANKED:
-        return fitting, []
+        for mark in told.marks
+        if space.touches(*((mark, thing) if under else (thing, mark)), told.scene)
+    ] or fitting
+
+
+def _best(
+    told: Told, things: list[Thing], fitting: list[Thing], notes: list[str], *, plain: bool
+) -> _Found:
+    """What fits a ranked relation best, which is ``plain``-ly true of all that fit, or of none."""
+    prep, quantity, count, scene = told.prep, told.quantity, told.count, told.scene
     best: dict[Thing, float] = {}
-    for marks in _tuples(landmarks):
+    for marks in told.ways():
         others = [
             thing
             for thing in fitting
@@ -143,18 +212,14 @@ def related(
     elif prep not in space.RELATIONS:
         return [thing for thing in things if thing in order[: count or 1]], []
     else:
-        chosen = order if plainly or prep not in (Prep.NEAR, Prep.NEXT_TO) else order[:1]
-        straight = [t for t in chosen if space.is_straight(prep, t, landmark_things, scene)]
+        chosen = order if plain or prep not in (Prep.NEAR, Prep.NEXT_TO) else order[:1]
+        straight = [t for t in chosen if space.is_straight(prep, t, told.marks, scene)]
         chosen = straight if straight[1:] or (straight and quantity.every) else chosen
         chosen = [thing for thing in things if thing in chosen]
     others = [thing for thing in order if thing not in chosen]
-    if chosen and prep in space.RELATIONS and (others or not plainly):
-        beside = " and ".join(mark.name for mark in landmark_things)
-        names = " and ".join(thing.name for thing in chosen)
-        names += f" rather than {' or '.join(thing.name for thing in others)}" if others else ""
-        roughly = "" if plainly else ROUGHLY
-        notes.append(f"{space.RELATIONS[prep].value} {beside}: {names}{roughly}")
-    return chosen, others if plainly else []
+    if chosen and prep in space.RELATIONS and (others or not plain):
+        notes.append(told.note(chosen, others, plain=plain))
+    return chosen, others if plain else []
 
 
 def _check_nearer(
@@ -181,12 +246,6 @@ def _has_owner(thing: Thing, scene: SceneState) -> bool:
 def _is_fixed_beside(prep: Prep, thing: Thing, scene: SceneState) -> bool:
     info = scene.infos.get(thing.name)
     return prep in space.RELATIONS and info is not None and not info.movable
-
-
-def _tuples(landmarks: list[list[Thing]]) -> list[tuple[Thing, ...]]:
-    if len(landmarks) == 1:
-        return [(mark,) for mark in landmarks[0]]
-    return [(one, two) for one in landmarks[0] for two in landmarks[1] if one != two]
 
 
 def means_the_others(modifier: Modifier) -> bool:

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.reference.choosing.landmarks import (
     HOLDING,
     RANKED,
     ROUGHLY,
+    Told,
     between_the_others,
     is_one,
     means_the_others,
@@ -94,9 +95,8 @@ def modified(
         ways: dict[tuple[Thing, ...], tuple[list[Thing], list[str]]] = {}
         for landmarks in landmark_sets(modifier):
             said: list[str] = []
-            found, more = related(
-                modifier, things, landmarks, quantity, count, scene, said, phrase.text
-            )
+            told = Told(modifier, landmarks, quantity, count, scene, phrase.text)
+            found, more = related(told, things, said)
             found = _holding_so_many(modifier, found, landmarks, scene)
             rough = any(ROUGHLY in note for note in said)
             if rough and modifier.prep in RANKED and modifier.words[1:]:

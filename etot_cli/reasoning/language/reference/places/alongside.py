@@ -9,7 +9,7 @@ from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.reference.geometry.space import is_flat
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.spoken_of import clauses_of, mentioned_in
-from etot_cli.reasoning.language.reference.pronouns.coreference import ROOMY
+from etot_cli.reasoning.language.reference.pronouns.one_thing import ROOMY
 from etot_cli.reasoning.language.words.lexicon import matches_any, word_set
 from etot_cli.world.spatial import Nearby
 

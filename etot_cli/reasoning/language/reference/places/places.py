@@ -40,8 +40,8 @@ from etot_cli.reasoning.language.reference.places.spots import Spots
 from etot_cli.reasoning.language.reference.places.surroundings import Surroundings
 from etot_cli.reasoning.language.reference.pronouns.coreference import (
     antecedents,
-    meant_by_it,
 )
+from etot_cli.reasoning.language.reference.pronouns.one_thing import meant_by_it
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.words.categories import has_no_top
 from etot_cli.reasoning.language.words.known import REASONS

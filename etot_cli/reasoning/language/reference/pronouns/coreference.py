@@ -2,43 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 
-from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Place, Relation
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID
-from etot_cli.reasoning.language.reference.choosing.modified import names_of_things
-from etot_cli.reasoning.language.reference.geometry.space import is_flat
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.spoken_of import (
-    TARGETS,
-    are_several,
-    clauses_of,
-    fits,
     left_unsaid,
-    mentioned_in,
 )
+from etot_cli.reasoning.language.reference.pronouns.one_thing import meant_by_it, telling
 from etot_cli.reasoning.language.reference.pronouns.plural_pronouns import (
     acted_on,
     emptied_by,
     meant_by_them,
 )
 from etot_cli.reasoning.language.words import categories
-from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any
-from etot_cli.world.spatial import Nearby
-from etot_cli.world.state import owner_of
 
 PLURAL_PRONOUNS = frozenset({"them", "they", "these", "those"})
 
 
 PERSONAL_PRONOUNS = frozenset({"he", "him", "she", "her"})
 """Of what is called like an animal or a doll; of people nothing is known."""
-
-
-ROOMY = 2.0
-"""What is so many times wider than a thing on it has room for another one beside that."""
 
 
 def antecedents(
@@ -87,243 +73,6 @@ def is_like_people(discourse: Discourse, referent: int) -> bool:
     )
 
 
-def meant_by_it(
-    discourse: Discourse,
-    role: Role,
-    text: str,
-    excluded: Sequence[int] = (),
-    *,
-    topmost: bool = False,
-) -> int:
-    """What "it" means in a role, of the latest clause that has anything to play it: the one
-    thing that was acted on there, else the one place that something went to, else the one
-    landmark. Where that thing went to a place that could be meant as well ("put the plum into
-    the mug and move it to the tray"), either may be meant.
-
-    Raises:
-        AmbiguousReference: several things are as likely to be meant.
-        ReferenceProblem: nothing before it fits.
-    """
-    if role in TARGETS:
-        excluded = (*excluded, *discourse.replaced)
-        # "Close the box after putting the cup beside the tray in it": not in the tray.
-        told_by = {*_telling(discourse)} - {*excluded}
-        if told_by:
-            with suppress(ReferenceProblem):
-                excluded_too = (*excluded, *told_by)
-                return meant_by_it(discourse, role, text, excluded_too, topmost=topmost)
-    for clause in clauses_of(discourse):
-        if clause in discourse.stacks and role in (Role.SURFACE, Role.PLACE):
-            return discourse.stacks[clause][1]
-        acted_on, places, landmarks = mentioned_in(discourse, clause, role, excluded)
-        if role is Role.THEME and discourse.stacks.get(clause, (None,))[0] in acted_on:
-            # "Build a tower of the cups and move it" is about all that stands on the bottom one.
-            bottom, _ = discourse.stacks[clause]
-            rivals = [place for place in places if _rivals(discourse, place, bottom, role)]
-            if rivals:
-                ways = ["the stack", *(discourse.referents[place].text for place in rivals)]
-                raise AmbiguousReference(text, ways)
-            return bottom
-        if any(are_several(discourse, i) for i in acted_on if role in TARGETS):
-            raise ReferenceProblem(text, UNCLEAR, 2)  # "take each cup off its saucer, and …"
-        below = [place.where for place in discourse.last_places]
-        if role in (Role.SURFACE, Role.PLACE) and {*below} & {*acted_on[:-1]}:
-            return acted_on[-1]  # "A on the tray, B on top of it, and C on top of that"
-        around = discourse.put_into.get(acted_on[0]) if len(acted_on) == 1 else None
-        if around is not None and role is Role.SURFACE and around not in excluded:
-            return around  # what is put on what lies in a vessel, goes on or into that
-        if len(acted_on) == 1 and discourse.returning and role is Role.CONTAINER:
-            return acted_on[0]  # "take the bowl out of the oven, put the egg in it, put it back"
-        if len(acted_on) == 1:
-            rivals = [
-                place
-                for place in places
-                if not topmost and _rivals(discourse, place, acted_on[0], role)
-            ]
-            marks = {*landmarks} & {*_beside(discourse)} if role is Role.THEME else ()
-            if any(_rivals(discourse, mark, acted_on[0], role) for mark in marks):
-                discourse.notes.append(
-                    f"read '{text}' as {names_of_things(discourse.things(*acted_on))}"
-                )
-            held = _holding(discourse, acted_on[0])
-            if role is Role.THEME and text == "that" and held and rivals == held:
-                # "Put the plum into the mug and put that on the tray", where the plum comes along
-                names = names_of_things(discourse.things(*held))
-                discourse.notes.append(f"read '{text}' as {names}")
-                return held[0]
-            # "Take the cup off the saucer and put the plum on it": either takes a plum.
-            own = {thing.name for thing in discourse.things(acted_on[0])}
-            if role in (Role.SURFACE, Role.CONTAINER):
-                last = [p.where for p in discourse.last_places if p.where is not None]
-                known = {*discourse.things(*landmarks)}
-                rooms = [
-                    index
-                    for index in last
-                    if role is Role.CONTAINER and fits(discourse, index, role)
-                    if not known & {*discourse.things(index)}
-                ]
-                others = [
-                    index
-                    for index in (*landmarks, *rooms)
-                    if not own & {thing.name for thing in discourse.things(index)}
-                ]
-                left = [i for i in others if {*discourse.things(i)} <= {*discourse.things(*last)}]
-                # On top of what was put on the tray, not of the box that it was taken from
-                others = left if topmost and last else others
-                rather = [i for i in left if _bears_rather(discourse, i, acted_on[0])]
-                if role is Role.SURFACE and len(rather) == len(others) == 1 and not rivals:
-                    return rather[0]  # off the tray, and another thing on it
-                rivals += [
-                    i
-                    for i in others
-                    if not (role is Role.SURFACE and _bears_rather(discourse, acted_on[0], i))
-                    and not (role is Role.CONTAINER and _stood_on(discourse, acted_on[0], i))
-                ]
-            plain = role is Role.CONTAINER and text == "it" and bool(rivals)
-            if plain and _came_out_of(discourse, acted_on[0], rivals):
-                discourse.notes.append(
-                    f"read '{text}' as {names_of_things(discourse.things(*acted_on))}"
-                )
-                rivals = []
-            found = (*acted_on, *rivals)
-        else:
-            # One of several things that were acted on together is not "it".
-            found = places or acted_on or landmarks
-            spared = _left_out(discourse, clause) if role is Role.THEME and not acted_on else ()
-            if len(spared) == 1:
-                # "All toys into the box except the bear, and put it on the shelf"
-                if found:
-                    discourse.notes.append(f"read '{text}' as {spared[0].name}")
-                return discourse.alone(spared[0], role)
-            if role is not Role.THEME and found == landmarks != ():
-                # What was opened before, rather than what but tells which jar goes in there.
-                earlier = _earlier(discourse, clause, role, excluded)
-                if not {*landmarks} & {*_beside(discourse)}:
-                    found = earlier or found
-                else:
-                    found = (*found, *earlier)
-            if role is Role.THEME and found == landmarks:
-                # "Take everything off the tray and put it away": what stood there, or that.
-                whatever = _whatever(discourse, clause)
-                if whatever and found:
-                    meant = discourse.referents[whatever[0]].text
-                    discourse.notes.append(f"read '{text}' as {meant}")
-                found = whatever or found
-        parts = [m.referent for m in discourse.mentions if m.clause == clause]
-        if not found and role is Role.SURFACE and _is_part(discourse, parts[-1:]):
-            raise ReferenceProblem(text, UNCLEAR, 2)  # "close the drawer and put the cup on it"
-        if len(found) > 1:
-            raise AmbiguousReference(text, [discourse.referents[index].text for index in found])
-        if found:
-            return found[0]
-    raise ReferenceProblem(text, UNCLEAR, 2)
-
-
-def _holding(discourse: Discourse, thing: int) -> list[int]:
-    """What a thing has been put into."""
-    around = discourse.put_into.get(thing)
-    return [] if around is None else [around]
-
-
-def _came_out_of(discourse: Discourse, thing: int, rivals: Sequence[int]) -> bool:
-    """Whether all that "it" may mean besides a vessel is what that is taken out of: in "take the
-    bowl out of the oven and put the egg in it" it is rather the bowl.
-    """
-    states = discourse.scene.states
-    inside = {states[t.name].inside for t in discourse.things(thing) if t.name in states}
-    around = {owner_of(at) for at in inside if at is not None}
-    return bool(around) and {t.name for t in discourse.things(*rivals)} <= around
-
-
-def _earlier(
-    discourse: Discourse, clause: int, role: Role, excluded: Sequence[int]
-) -> tuple[int, ...]:
-    """What the latest clause before one acted on, or where something went to there."""
-    for before in clauses_of(discourse):
-        acted_on, places, _ = mentioned_in(discourse, before, role, excluded)
-        if before < clause and (acted_on or places):
-            return acted_on or places
-    return ()
-
-
-def _left_out(discourse: Discourse, clause: int) -> tuple[Thing, ...]:
-    """What a clause has left out of several things."""
-    said = (m.referent for m in discourse.mentions if m.clause == clause and m.role is Role.THEME)
-    return tuple(dict.fromkeys(t for index in said for t in discourse.left_out.get(index, ())))
-
-
-def _telling(discourse: Discourse) -> Iterator[int]:
-    """What the clause that is being read has only named to tell other things by."""
-    own = {m.referent: m.role for m in discourse.mentions if m.clause == discourse.clause}
-    before = {m.referent for m in discourse.mentions if m.clause != discourse.clause}
-    before |= {*_beside(discourse)}
-    yield from (i for i, said in own.items() if said is Role.ANY and i not in before)
-
-
-def _is_part(discourse: Discourse, referents: Sequence[int]) -> bool:
-    """Whether referents are drawers or doors, on which nothing stands."""
-    things = discourse.things(*referents)
-    return bool(things) and all(thing.part for thing in things)
-
-
-def _beside(discourse: Discourse) -> Iterator[int]:
-    """What the latest places are beside; what something went away from is none of it."""
-    for near in (near for place in discourse.last_places for near in place.beside):
-        yield from near.landmarks if near.relation is not Nearby.AWAY else ()
-
-
-def _whatever(discourse: Discourse, clause: int) -> tuple[int, ...]:
-    """What a clause moved from somewhere, whatever it is, where it is several things."""
-    return tuple(
-        mention.referent
-        for mention in discourse.mentions
-        if mention.clause == clause
-        and mention.whatever
-        and are_several(discourse, mention.referent)
-    )
-
-
-def _rivals(discourse: Discourse, place: int, theme: int, role: Role) -> bool:
-    """Whether "it" may as well mean the place that a thing was put at."""
-    things = discourse.things(place)
-    if discourse.is_desk(place):
-        return False
-    if role is Role.SURFACE:
-        themes = [discourse.scene.infos[thing.name] for thing in discourse.things(theme)]
-        below = [discourse.scene.infos[thing.name].size for thing in things]
-        support = all(map(is_flat, themes))
-        side = max(min(info.size[:2]) for info in themes)
-        return not support and any(min(size[:2]) >= ROOMY * side for size in below)
-    if role is Role.CONTAINER:
-        return discourse.put_into.get(theme) == place
-    return all(discourse.scene.infos[thing.name].movable for thing in things)
-
-
-def _stood_on(discourse: Discourse, theme: int, furniture: int) -> bool:
-    """Whether things stood on top of what has drawers or doors, and in none of these."""
-    scene = discourse.scene
-    below = [scene.infos[t.name] for t in discourse.things(furniture) if t.name in scene.infos]
-    inside = [scene.states[thing.name].inside for thing in discourse.things(theme)]
-    return all(info.parts and not info.container for info in below) and not any(inside)
-
-
-def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
-    """Whether one thing is a support by its looks, and another one neither that nor a vessel which
-    may hold what is put there, or be closed by it.
-    """
-    infos = discourse.scene.infos
-    here = (m for m in discourse.mentions if m.clause == discourse.clause and m.role is Role.THEME)
-    own, rivals, placed = (
-        [infos[thing.name] for thing in discourse.things(*indices) if thing.name in infos]
-        for indices in ((referent,), (other,), [mention.referent for mention in here])
-    )
-    lid = any(matches_any(info.label.split()[-1], LIDS) for info in placed)
-    widest = 0.0 if lid else max((min(info.size[:2]) for info in placed), default=0.0)
-    return all(map(is_flat, own)) and not any(
-        is_flat(info) or (info.container and widest < min(info.size[:2])) for info in rivals
-    )
-
-
 def latest_place(
     discourse: Discourse, relation: Relation, excluded: Sequence[int], text: str
 ) -> Place:
@@ -334,7 +83,7 @@ def latest_place(
         ReferenceProblem: nothing before it fits, or several things do.
     """
     role = Role.CONTAINER if relation is Relation.INSIDE else Role.SURFACE
-    told_by = _telling(discourse)
+    told_by = telling(discourse)
     return Place(relation, meant_by_it(discourse, role, text, (*excluded, *told_by)))
 
 
