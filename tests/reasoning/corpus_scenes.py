@@ -1956,3 +1956,15 @@ def coin_nook() -> SceneState:
         ball("wrapper", (0.34, 0.02), color="white"),
         item("card", "box", (0.44, -0.04), size=(0.12, 0.08, 0.01), color="red"),
     )
+
+
+def gallery() -> SceneState:
+    """A close-up photo, a next-day parcel, a postcard, an album, a frame, a wall cabinet."""
+    return scene(
+        item("photo", "box", (0.30, 0.20), size=(0.12, 0.09, 0.004), label="close-up photo"),
+        item("parcel", "box", (0.30, -0.20), size=(0.08, 0.08, 0.06), label="next-day parcel"),
+        item("postcard", "box", (0.32, 0.00), size=(0.10, 0.07, 0.004), color="blue"),
+        item("album", "box", (0.50, 0.25), size=(0.20, 0.16, 0.03), color="red"),
+        item("tray", "box", (0.50, -0.10), size=(0.25, 0.18, 0.02), color="black"),
+        cabinet("cabinet", (0.65, 0.45), 0.0, color="white"),
+    )

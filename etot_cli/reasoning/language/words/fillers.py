@@ -5,7 +5,10 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.manner import BY_HAND, ONE_BY_ONE
 from etot_cli.reasoning.language.words.predicates import RELATIONS
 
-_WHICH = "which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]"
+_WHICH = """
+    which [one|of them|shelf|board|drawer|box|bin|bowl|cup|mug|plate|tray|side]
+    [(you (do|move|take|put|handle|start with)|comes|goes|is (done|moved|put)) [first]|first]
+"""
 _EASIER = """
     (easier|easiest|best|better|possible|simpler|simplest|[more|most] convenient)
     [to (reach|get|grab|get at|grasp|grip|hold|lift|take|pick up|get hold of)]
@@ -50,7 +53,8 @@ WITHOUT_MEANING = f"""
     (whichever|whatever) [one|ones|of (them|these|the two)]
     you (like|want|prefer|choose|fancy|[can] (reach|grasp|get [(at|to)]|find))
     [best|first|[the] (easier|easiest)|(more|most) (easily|comfortably)], [it is] your choice,
-    [it is|that is] up to you, you (choose|decide|pick) [which [one]], the choice is yours,
+    [it is|that is] up to you [{_WHICH}], you (choose|decide|pick) [{_WHICH}|the order],
+    the choice is yours,
     wherever (you (like|want)|there is [some] (room|space)|it fits), (it fits|they fit) (in|into),
     (can|will) (take|hold|accommodate) (it|them), has [enough] (room|space) for (it|them),
     of your [own] (choice|choosing),
@@ -58,7 +62,8 @@ WITHOUT_MEANING = f"""
     [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
     (either|any|each|both) [one] [of (them|these|those|the two)] ({ANY_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
-    [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four) [it is]], whichever,
+    [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four) [it is]],
+    whichever [[comes|goes] first],
     if you can,
     [whether] (together or (apart|separately)|(apart|separately) or together),
     (whichever|whatever) [one] (is|seems|works|fits|suits you) [{_EASIER}],
@@ -70,7 +75,8 @@ WITHOUT_MEANING = f"""
     however you (like|want|can [(get hold of|reach|grasp|grip|hold|lift) (it|them)]),
     as you (like|wish|prefer|please),
     (whichever|either|any) way (round|around) [you (like|want|prefer|please)],
-    [in] (any|whichever|whatever) order
+    you (can|may) start with (either|any) [one|of them],
+    [do (it|this|that|them|these|those|both)] [in] (any|whichever|whatever) order
     [you (like|want|prefer|please|choose|see fit|fancy)|[that] suits you [best|{_EASIER}]|
     is (easier|easiest|best) [for you]|seems best [to you]],
     out of sight, (before|for) (dinner|lunch|breakfast|supper|bedtime|school|work),

@@ -146,6 +146,7 @@ REASONS = {
         ("under", "underneath", "below", "beneath", "above", "through", "around"),
         "things can be put on, into and beside others, no other way",
     ),
+    "way around": "of two things to two places alike, and no others, may either go to either",
     **dict.fromkeys(
         ("side", "sides"), "say whether to the left or to the right of what"
     ),

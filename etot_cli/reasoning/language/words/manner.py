@@ -183,9 +183,9 @@ ANYHOW = """
     [either] (separately|apart|individually) or together,
     in (any|whichever|whatever) combination [you (like|want)|[that] (works|fits|suits you) [best]]
 """
-NOT_REVERSED = """
-    [~comma] ([and|but] not|rather than|instead of) (the other way around|vice versa|the reverse)
-"""
+_REVERSED = "(the other way around|vice versa|the reverse)"
+OR_REVERSED = f"[~comma] or {_REVERSED}"
+NOT_REVERSED = f"[~comma] ([and|but] not|rather than|instead of) {_REVERSED}"
 """Behind what goes on or in what."""
 TOGETHER = "[all|both] together, [all|both] (in|on) the same (one|place)"
 SEPARATELY = """

@@ -74,7 +74,8 @@ SIDE = f"""
     (furthest|farthest|further|farther|closest|nearest|most) (to|on|at) (the|your)
     (left|right|front|back) [side|end|edge],
     in back, at the very (left|right|front|back), in the row,
-    (at|from|on) (the|its) [very] (top|bottom), on top
+    (at|from|on) (the|its) [very] (top|bottom), on top,
+    (at|on) (the|both|either|each) (end|ends) [of (the|that|this) row], on the (outside|inside)
 """
 ON_SIDE: dict[Prep, str] = {
     Prep.LEFT: "(on|at) [the] left [hand] [side] of",

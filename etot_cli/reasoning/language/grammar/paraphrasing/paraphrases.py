@@ -272,6 +272,16 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"(?: (?:(?:up|over|down|out) )?(?:there|here))?\?",
         r"look at \1,",
     ),
+    (r"(?<!do )\bnot (?:just|only) (the [^.,;:!?]+?),? but (?:also )?(?=the )", r"both \1 and "),
+    # "Do not just put the cup in the box; put the pen in as well" asks for both
+    (
+        r"(^|[.;!?] )(?:please )?do not (?:just|only|merely|simply) (?!leave\b|stand\b|sit\b)"
+        r"([^.,;:!?]+?)[.,;:!]+ (?:but )?"
+        r"(?=(?:please |also )*(?!(?:\w+ ){1,2}(?:it|them|that|those)\b)"
+        r"(?:(?!\b(?:not|never)\b)[^.,;:!?])*?\b"
+        r"(?:as well|too|also)\b)",
+        r"\1\2; ",
+    ),
     (r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just "),
     (r"(?<!not )\bonly (?=(?:lift|raise|grab|grasp|fetch|get|pick up|hold) )", "just "),
     # What alone is asked for; with how or until when, "only" is said of that.

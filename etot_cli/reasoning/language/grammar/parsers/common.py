@@ -16,7 +16,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     some,
     word,
 )
-from etot_cli.reasoning.language.grammar.parsers.input import Input
+from etot_cli.reasoning.language.grammar.parsers.input import Input, Result
 from etot_cli.reasoning.language.grammar.text import splitting as text
 from etot_cli.reasoning.language.words import fillers, known, manner, nouns, small_words
 from etot_cli.reasoning.language.words.categories import is_category
@@ -70,7 +70,20 @@ def _is_noun(given: Input, said: str) -> bool:
 
 
 NOUN_WORD = word(_is_noun)
-WORDS = some(NOUN_WORD, least=1, most=6)
+_ANY_WORDS = some(NOUN_WORD, least=1, most=6)
+
+
+def _before_a_place(given: Input, at: int) -> list[Result]:
+    """Words of a name; of a "close-up photo", too, "the photo close to the tray" says where."""
+    return [
+        (end, value)
+        for end, value in _ANY_WORDS.find(given, at)
+        if end == at + 1 or f"{given.words[end - 1]} {given.ahead[end]}" not in _BEGIN_A_PLACE
+    ]
+
+
+_BEGIN_A_PLACE = ("close to", "near to", "next to")
+WORDS = Parser(_before_a_place, lambda: _ANY_WORDS.first)
 DESCRIPTIVE = word(lambda given, text: is_descriptive(text))
 _NUMBER = sequence(
     word(lambda given, text: text.isdigit() and len(text) < 3), optional("of [the|these|those]")

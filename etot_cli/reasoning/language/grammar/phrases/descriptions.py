@@ -59,11 +59,24 @@ def _rightly(how: str, prep: Prep, np: NounPhrase) -> Modifier | None:
     return None if found is None else replace(found, direct=direct)
 
 
+def _pair(one: NounPhrase, two: NounPhrase | None) -> tuple[NounPhrase, ...] | None:
+    """Two things, or what names both; in "the jar and the cup next to it" it is the jar."""
+    found = (one,) if two is None else coordinated(one, (two,))
+    if two is None or found is None:
+        return found
+    one, two = found
+    if one.words and not one.modifiers and singular(one.head) == one.head:
+        told = tuple(
+            replace(item, phrases=(one,)) if [np.text for np in item.phrases] in _IT else item
+            for item in two.modifiers
+        )
+        two = replace(two, modifiers=told)
+    return one, two
+
+
+_IT = ["it"], ["its"], ["that"]
 BETWEEN = sequence(
-    places.BETWEEN,
-    noun_phrase,
-    optional(sequence("and", noun_phrase), None),
-    build=lambda one, two: (one,) if two is None else coordinated(one, (two,)),
+    places.BETWEEN, noun_phrase, optional(sequence("and", noun_phrase), None), build=_pair
 )
 
 

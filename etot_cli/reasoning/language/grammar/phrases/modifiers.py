@@ -51,7 +51,7 @@ from etot_cli.reasoning.language.grammar.phrases.descriptions import (
     quality_alone,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
-from etot_cli.reasoning.language.words import nouns, small_words
+from etot_cli.reasoning.language.words import nouns, places, small_words
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     BOARD_NOUNS,
@@ -176,6 +176,11 @@ _modifier = either(
         ),
         not_ahead("the", "a", "an", "it", "them", "that", "this", "my", "your"),
         build=lambda prep: Modifier(prep, (NounPhrase(pronoun="it", text="it"),)),
+    ),
+    sequence(
+        # "The mug to its left"
+        one_of({Prep[side.name]: said for side, said in places.ITS_SIDE.items()}),
+        build=lambda prep: Modifier(prep, (NounPhrase(pronoun="it", text="its"),)),
     ),
     sequence(
         # "That is red and on the left"

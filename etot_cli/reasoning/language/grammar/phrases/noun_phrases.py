@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.phrases.coordination import (
 )
 from etot_cli.reasoning.language.grammar.phrases.naming import NAMED
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
-from etot_cli.reasoning.language.words import predicates, small_words
+from etot_cli.reasoning.language.words import manner, predicates, small_words
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, same_noun, singular
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
@@ -182,6 +182,17 @@ def _one_of(nps: tuple[NounPhrase, ...]) -> Things | None:
     return None if whole is None else Things(whole, either=True)
 
 
+def one_not_both(things: Things) -> Things | None:
+    """A choice that is told to be none of both: "either cup" is then one of two."""
+    (np, *more) = things.phrases
+    if things.either:
+        return things
+    one, *of = np.determiner.removeprefix("exactly ").removeprefix("only ").split() or ("",)
+    if more or one not in ("either", "any", "one") or "other" in of:
+        return None
+    return Things((replace(np, determiner=f"{one} of the two"),))
+
+
 _ANY_ONE = (["a"], ["an"], ["one"], ["any"], ["either"])
 
 
@@ -246,6 +257,13 @@ CHOICE = Rule(
             alternatives(noun_phrase, 1),
             "~comma [but] not both ~comma",
             build=lambda nps: _one_of(nps) if nps[1:] else None,
+        ),
+        sequence(
+            noun_phrase,
+            OPTIONAL_COMMA,
+            manner.NOT_BOTH,
+            OPTIONAL_COMMA,
+            build=lambda np: one_not_both(Things((np,))),
         ),
     )
 )

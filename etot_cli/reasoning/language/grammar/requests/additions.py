@@ -23,7 +23,11 @@ from etot_cli.reasoning.language.grammar.phrases.being_so import SO, state_of
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.descriptions import PLAIN_MODIFIER, quality_alone
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, with_all
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
+    NP_LIST,
+    one_not_both,
+    with_all,
+)
 from etot_cli.reasoning.language.grammar.phrases.turns import ONE_BEFORE_ANOTHER, TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
@@ -36,7 +40,8 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     in_a_stance,
 )
 from etot_cli.reasoning.language.words import manner, nouns
-from etot_cli.reasoning.language.words.lexicon import same_noun
+from etot_cli.reasoning.language.words.lexicon import same_noun, singular
+from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -152,6 +157,7 @@ _EXTRA = sequence(
         phrase(manner.IN_THIS_ORDER, ("ordered", ())),
         f"{manner.ONE_BY_ONE}, in (any|whatever) order",
         manner.NOT_REVERSED,
+        phrase(manner.OR_REVERSED, ("exchanged", ())),
     ),
     build=lambda *found: found[0] if found else (),
 )
@@ -211,8 +217,17 @@ def put_of(
         groupings = [Grouping.SEPARATELY]
     elif "apart" in named:
         return None
-    chosen = len(groups) == 1 and groups[0].things.either
-    if len(groupings) > 1 or turns is None or ("one" in named and not chosen):
+    if "one" in named:
+        one = one_not_both(groups[0].things)
+        if one is None or groups[1:]:
+            return None
+        groups = (replace(groups[0], things=one),)
+    if "exchanged" in named:
+        pair = _either_way(groups)
+        if pair is None or groupings:
+            return None
+        groups, groupings = (pair,), [Grouping.SEPARATELY]
+    if len(groupings) > 1 or turns is None:
         return None
     grouping = groupings[0] if groupings else grouping
     described = [_that_are(groups, *item[1]) for item in said if item[0] == "that"]
@@ -242,6 +257,23 @@ def put_of(
         one_each="each" in named,
         ordered="ordered" in named,
     )
+
+
+def _either_way(groups: tuple[PutGroup, ...]) -> PutGroup | None:
+    """Two things to two places, either to either ("A in X and B in Y, or the other way around");
+    None where that cannot be.
+    """
+    things = [np for group in groups for np in group.things.phrases]
+    places = [np for group in groups for at in group.destinations for np in at.targets]
+    plain = all(
+        np.determiner in THE_WORDS and np.words and singular(np.head) == np.head
+        for np in (*things, *places)
+    )
+    (first, *more) = (at for group in groups for at in group.destinations)
+    alike = [replace(at, targets=first.targets) for at in more] == [first] and not first.beside
+    if not (len(groups) == len(things) == len(places) == 2 and plain and alike):
+        return None
+    return PutGroup(Things(tuple(things)), (replace(first, targets=tuple(places)),))
 
 
 def left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:

@@ -135,6 +135,9 @@ _SAY_NOTHING = phrase(
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"
     f", {SAFELY}, {A_SAFE_PLACE}, {predicates.OUT_OF_THE_WAY}"
 )
+_NOT_ONLY = Expression(
+    r"\b(?:not|never) (?:\w+ )?(only|just|merely) (?!anywhere\b|once\b|like\b|as\b|where\b)"
+)
 _NOT_BOTH = Expression(r"\b(?:not|never)\b(?:(?!~comma|~colon|\bbut\b).)*\bboth\b")
 
 
@@ -161,8 +164,11 @@ def unaccounted(words: Sequence[str], reading: Reading) -> str | None:
     """The first word of a sentence that its reading has read over, None when there is none."""
     left = Counter(_traces(reading))
     text = " ".join(words)
-    if _NOT_BOTH.search(text) and any(isinstance(said.clause, AvoidClause) for said in reading):
-        return "both"  # one of them may go there
+    if any(isinstance(said.clause, AvoidClause) for said in reading):
+        if _NOT_BOTH.search(text):
+            return "both"  # one of them may go there
+        if said := _NOT_ONLY.search(text):
+            return said[1]  # it may go there beside others
     if _ALLOWED_LATER.search(text):
         return "later"
     if _is_first_alone(reading) and (said := _LAST_FIRST.search(text)):

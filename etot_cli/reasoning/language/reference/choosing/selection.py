@@ -27,7 +27,13 @@ noisy captures are off by 0.9 % in the median (docs/results.md)."""
 def side_word(phrase: str) -> str | None:
     """The side that "on the far left of the desk" and "farthest to the left" name."""
     sides = [word for word in phrase.split() if word in (*SIDES, "top", "bottom")]
-    return sides[-1] if sides else None
+    if sides:
+        return sides[-1]
+    return next((side for words, side in _OF_A_ROW if words & {*phrase.split()}), None)
+
+
+_OF_A_ROW = ({"ends", "either", "both", "each", "outside"}, "outer"), ({"inside"}, "inner")
+"""What "at the ends", "at either end" and "on the inside" name; "at the end" may be either."""
 
 
 def select(
@@ -327,6 +333,9 @@ def _at_side(
             raise ReferenceProblem(phrase, "say which", 2, word=side)
         return ends if side == "outer" else inner
     if side == "middle":
+        _, inner = rows.ends_of_row(things, scene)
+        if count is not None and len(inner) == count > 1:
+            return inner
         upon = rows.is_column(things, scene)
         things = (rows.upon_each_other if upon else rows.in_a_row)(things, scene)
         if len(things) % 2 == 0:
