@@ -137,7 +137,7 @@ def test_any_number_of_things_leaves_the_desk(count: int) -> None:
         ({"left_of": ["unit", "nut"]}, ["[PICK UP, nut] [PUT ON, desk] (right of unit)"]),
         (
             {"not": {"on": ["nut", "desk"]}},
-            ["[PICK UP, nut] [PUT ON, unit]", "[PICK UP, nut] [PUT INTO, mug]"],
+            ["[PICK UP, nut] [PUT INTO, mug]", "[PICK UP, nut] [PUT ON, unit]"],
         ),
     ],
 )
