@@ -235,6 +235,7 @@ class _Search:
         """Takes a failed node out and reflects on every branch that ran through it."""
         paths = self._tree.extract_paths(node)  # [P]
         self._tree.remove_subtree(node)
+        self._queue.note_failure(node)
         if node.verdict is not None and _is_abandoned(node.verdict):
             self._cut = LimitKind.ABANDONED
             return

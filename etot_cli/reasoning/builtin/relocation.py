@@ -77,7 +77,20 @@ def relocated(failed: FailedStep, name: str, acted: str | None, index: int) -> I
 
 def _taken_away(failed: FailedStep, name: str, index: int) -> Iterator[Correction]:
     _, put = set_aside(failed, name)
-    yield from put_first(failed, index, name, put, f"{name} goes to a safe place first")
+    change = f"{name} goes to a safe place first"
+    loaded = _loaded_at(failed, name, index)
+    if loaded is not None:
+        # It takes nothing along then, and what belongs on it goes there all the same.
+        yield from put_first(failed, loaded, name, put, change)
+    yield from put_first(failed, index, name, put, change)
+
+
+def _loaded_at(failed: FailedStep, name: str, before: int) -> int | None:
+    """Index of the first action of the branch that puts something on an object."""
+    actions = failed.branch.actions[:before]
+    vessel = failed.start.infos[name].container
+    onto = (i for i, one in enumerate(actions) if one.verb is Verb.PUT_ON and owner_of(one.target) == name)
+    return None if vessel else next(onto, None)
 
 
 def put_first(

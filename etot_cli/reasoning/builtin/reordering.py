@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from etot_cli.reasoning.builtin.company import coming_beside
 from etot_cli.reasoning.builtin.failed_case import FailedCase
 from etot_cli.reasoning.builtin.keepouts import kept_away
+from etot_cli.reasoning.builtin.loads import supports_of
 from etot_cli.reasoning.builtin.relations import bearers, carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction, put_first, relocated, set_aside
 from etot_cli.reasoning.builtin.revision import (
@@ -33,9 +34,20 @@ stays within a millimetre."""
 
 
 def out_of_the_way(case: FailedCase, name: str) -> Iterator[Correction]:
-    """The branch with an object brought to its own place, or else to a safe one, first."""
-    yield from own_place_first(case, name)
-    yield from relocated(case.failed, name, case.acted, case.index)
+    """The branch with an object brought to its own place, or else to a safe one, first. What was
+    taken off it to be put where it is waits elsewhere meanwhile.
+    """
+    found = chain(
+        own_place_first(case, name), relocated(case.failed, name, case.acted, case.index)
+    )
+    before = cycle_of(case.actions, case.index).start
+    held = case.acted if case.action.verb in PUTS else None
+    if held is None or name not in supports_of(held, case.actions[:before], case.start):
+        yield from found
+        return
+    for correction in found:
+        actions = inserted(correction.actions, before, set_aside(case.failed, held))
+        yield Correction(actions, f"{held} waits elsewhere, and {correction.change}")
 
 
 def own_place_first(
