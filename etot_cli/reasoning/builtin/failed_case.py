@@ -115,7 +115,9 @@ class FailedCase:
         """Whether the branch has put an object onto another one that is to blame as well."""
         placed = placed_by(self.actions, name, self.index)
         put = None if placed is None else self.actions[placed + 1]
-        return put is not None and put.verb is Verb.PUT_ON and owner_of(put.target) in self.culprits()
+        return (
+            put is not None and put.verb is Verb.PUT_ON and owner_of(put.target) in self.culprits()
+        )
 
     def _brought_with(self, name: str) -> list[str]:
         """The vessels with which the branch has brought an object to where it is.

@@ -176,7 +176,9 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
     leaving = leaving_later(case)
     # Where any of them makes room, that is one which the branch takes away anyway. What the branch
     # has put on another of them may go there all the same once that is elsewhere.
-    for name in sorted(case.culprits(), key=lambda name: (name not in leaving[:1], case.rides(name))):
+    for name in sorted(
+        case.culprits(), key=lambda name: (name not in leaving[:1], case.rides(name))
+    ):
         if name == owner:
             yield from opened_wider(case.failed, owner)
             yield from shut_meanwhile(case.failed, owner)

@@ -86,11 +86,15 @@ def _taken_away(failed: FailedStep, name: str, index: int) -> Iterator[Correctio
 
 
 def _loaded_at(failed: FailedStep, name: str, before: int) -> int | None:
-    """Index of the first action of the branch that puts something on an object."""
-    actions = failed.branch.actions[:before]
-    vessel = failed.start.infos[name].container
-    onto = (i for i, one in enumerate(actions) if one.verb is Verb.PUT_ON and owner_of(one.target) == name)
-    return None if vessel else next(onto, None)
+    """Index of the first action of the branch that puts something on an object to stay there."""
+    if failed.start.infos[name].container:
+        return None
+    onto = (
+        index
+        for index, action in enumerate(failed.branch.actions[:before])
+        if action.verb is Verb.PUT_ON and not action.safe and owner_of(action.target) == name
+    )
+    return next(onto, None)
 
 
 def put_first(

@@ -37,9 +37,7 @@ def out_of_the_way(case: FailedCase, name: str) -> Iterator[Correction]:
     """The branch with an object brought to its own place, or else to a safe one, first. What was
     taken off it to be put where it is waits elsewhere meanwhile.
     """
-    found = chain(
-        own_place_first(case, name), relocated(case.failed, name, case.acted, case.index)
-    )
+    found = chain(own_place_first(case, name), relocated(case.failed, name, case.acted, case.index))
     before = cycle_of(case.actions, case.index).start
     held = case.acted if case.action.verb in PUTS else None
     if held is None or name not in supports_of(held, case.actions[:before], case.start):
