@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 
-from etot_cli.planning.tree import PlanNode
+from etot_cli.planning.tree import Origin, PlanNode
 from etot_cli.skills.action import PUTS, Action
 from etot_cli.world.state import owner_of
 
@@ -80,14 +80,16 @@ class Waiting:
         """Whether the best branch repeats a failure from a node on, and its actions behind that."""
         children = node.live_children
         if node.end is not None or not children:
-            return self._is_known_to_fail(history), 0
+            return self._is_known_to_fail(node, history), 0
         ways = (self._left(child, (*history, child.action)) for child in children)
         repeats, left = min(ways)
-        return repeats or self._is_known_to_fail(history), left + 1
+        return repeats or self._is_known_to_fail(node, history), left + 1
 
-    def _is_known_to_fail(self, history: Sequence[Action]) -> bool:
-        """Whether the last action has failed after the same had been done with all involved."""
-        return any(
+    def _is_known_to_fail(self, node: PlanNode, history: Sequence[Action]) -> bool:
+        """Whether a node's action has failed after the same had been done with all involved; what a
+        correction has changed may matter, whatever the cause names.
+        """
+        return node.origin is Origin.PRIORI and any(
             _deeds(history[:-1], names) == deeds
             for names, deeds in self._failures.get(history[-1], ())
         )

@@ -1494,3 +1494,56 @@ def test_what_no_hand_takes_anywhere_is_not_set_down_elsewhere(lasting: bool) ->
     plan = "[PICK UP, bowl] [PUT ON, desk] [PICK UP, bowl] (horizontal) [PUT ON, rack.bottom]"
     why = replace(cause(CauseKind.NO_GRASP, "ball", "bowl"), lasting=lasting)
     assert (revisions(failed(start, plan, 2, why)) == []) == lasting
+
+
+def towers() -> SceneState:
+    """Blocks a on b and c on d."""
+    return scenes.scene(
+        scenes.item("a", at=(0.4, -0.1), on="b"),
+        scenes.item("b", at=(0.4, -0.1)),
+        scenes.item("c", at=(0.4, 0.1), on="d"),
+        scenes.item("d", at=(0.4, 0.1)),
+    )
+
+
+@pytest.mark.parametrize("blamed", [("a", "c"), ("c", "a")])
+def test_what_bears_another_makes_way_before_that_is_put_on_it(blamed: tuple[str, str]) -> None:
+    start = towers()
+    before = held(changed(start, a={"on": ("c",)}), "b")
+    plan = "[PICK UP, a] [PUT ON, c] [PICK UP, b] [PUT ON, d]"
+    step = failed(start, plan, 3, cause(CauseKind.NO_ROOM, *blamed), before)
+    assert revision(step) == f"{RELOCATE.format('c')} {plan}"
+
+
+def test_a_thing_goes_to_its_own_place_first_unless_that_is_taken_away_with_it() -> None:
+    start = towers()
+    onto_d = "[PICK UP, a] [PUT ON, d]"
+    for move, wanted in (
+        (
+            "[PICK UP, d] [PUT ON, b]",
+            f"{RELOCATE.format('c')} [PICK UP, d] [PUT ON, b] [PICK UP, c]",
+        ),
+        ("[PICK UP, c] [PUT ON, b]", ""),
+    ):
+        plan = f"[PICK UP, b] [PUT ON, desk] {move} {onto_d}"
+        step = failed(start, plan, 0, cause(CauseKind.COLLISION, "a"))
+        found = revisions(step)
+        lifted = "[PICK UP, d]" in plan
+        own_first = found[0].startswith(onto_d)
+        assert own_first != lifted, wanted
+        assert any(text.startswith(onto_d) for text in found)  # only later
+
+
+def test_what_is_taken_off_a_thing_to_go_where_that_stands_waits_elsewhere() -> None:
+    start = towers()
+    before = held(start, "a")
+    plan = "[PICK UP, a] [PUT ON, mat] [PICK UP, b] [PUT ON, desk]"
+    start = scenes.scene(
+        scenes.item("mat", size=(0.1, 0.1, 0.01)),
+        scenes.item("b", on="mat"),
+        scenes.item("a", on="b"),
+    )
+    before = held(start, "a")
+    step = failed(start, plan, 1, cause(CauseKind.NO_ROOM, "b"), before)
+    away = "[PICK UP, b] [PUT ON, desk]"
+    assert revision(step) == f"{RELOCATE.format('a')} {away} [PICK UP, a] [PUT ON, mat]"

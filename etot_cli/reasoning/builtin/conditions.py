@@ -237,7 +237,7 @@ def _oddity(atom: Atom, scene: SceneState) -> tuple[bool, bool, bool, float]:
     takes = inside and (thing is None or sorted(thing.size)[1] < place.mouth)
     covered = any(other in state.on and state.inside != other for state in scene.states.values())
     width, depth, _ = place.size
-    return not takes or covered, inside and not takes, place.movable, -width * depth
+    return not takes or covered, inside, place.movable, -width * depth
 
 
 def _conjunctions(options: Iterable[list[tuple[Atom, ...]]]) -> list[tuple[Atom, ...]]:
