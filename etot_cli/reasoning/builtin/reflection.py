@@ -174,8 +174,11 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
     if others <= {owner, *marks}:
         yield from _room_beside(case, marks)
     leaving = leaving_later(case)
-    # Where any of them makes room, that is one which the branch takes away anyway.
-    for name in sorted(case.culprits(), key=lambda name: name not in leaving[:1]):
+    # Where any of them makes room, that is one which the branch takes away anyway. What the branch
+    # has put on another of them may go there all the same once that is elsewhere.
+    for name in sorted(
+        case.culprits(), key=lambda name: (name not in leaving[:1], case.rides(name))
+    ):
         if name == owner:
             yield from opened_wider(case.failed, owner)
             yield from shut_meanwhile(case.failed, owner)
