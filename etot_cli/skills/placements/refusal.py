@@ -61,7 +61,11 @@ class _Again:
         together = len(suspects) > 1 and self.helps(suspects)
         if self.overlooked:
             return []
-        guilty = [one for one in suspects[:MAX_SUSPECTS] if self.helps([one])]
+        # Room for others is looked for in hundreds of places: not by one after the other away where
+        # there was none with all of them away.
+        one_by_one = together or len(suspects) < 2 or not self._request.coming
+        blamed = suspects[:MAX_SUSPECTS] if one_by_one else []
+        guilty = [one for one in blamed if self.helps([one])]
         if together and not guilty:
             guilty = least(suspects, self.helps)
         guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if self.helps([one])]
