@@ -142,6 +142,8 @@ class PlaceFinder:
             # Where it may stand at all is told from a few points; the rest waits until it is asked
             # for, which is seldom.
             may_stand = quality < Quality.PILED
+            if may_stand and not self._support.is_even and not self._relief.reserved.any():
+                continue  # on what is uneven nothing stands, nor lies in a door's way
             tables = standing if may_stand else anywhere
             for index, group in enumerate(groups):
                 if company is not None and company.is_hopeless:
