@@ -98,7 +98,8 @@ class Foresight:
         if next(placements(lifted, request, tally), None) is not None:
             return True
         # Where it is tight the put comes upon a place as it looks for what is in the way.
-        return isinstance(why_no_place(lifted, request, tally), Placement)
+        tight = not tally.looked_at
+        return tight and isinstance(why_no_place(lifted, request, tally), Placement)
 
 
 def _once_held(belief: Belief, name: str, prepared: PreparedGrasp) -> Belief:
