@@ -18,8 +18,8 @@ from etot_cli.skills.placements.placement import Placement
 from etot_cli.world.snapshot import copy_configuration
 
 MAX_GRASPS = 40
-"""Grasps that are looked at, at one place: a level hand finds half a dozen that differ, each of them
-at three dips; a tenth of a second."""
+"""Grasps that are looked at, at one place: a level hand finds half a dozen that differ, each at
+three dips; a tenth of a second."""
 
 
 def graspable_first(
