@@ -64,8 +64,8 @@ class Action:
     Args:
         verb: the primitive.
         target: object, surface, container or articulated object; ``object`` or ``object.part``.
-        pose: grasp pose asked for, None when any will do; of a safe PUT ON, that in which the thing
-            is to be grasped there next, as far as there is a place for that.
+        pose: grasp pose asked for, None when any will do; of a PUT ON, that in which the thing is
+            to be grasped there next, as far as there is a place for that.
         safe: a PUT ON that must also stay clear of everything that moved or swept (a safe place).
         keepout: the discs that such a place, or one that is to leave room for another thing,
             avoids, from the failed rollout; base frame.
@@ -191,8 +191,8 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             pose = GraspPose.VERTICAL
         elif plain.lower() == "safe place":
             safe = True
-        elif verb is Verb.PUT_ON and (taken := _TAKEN.fullmatch(plain)) is not None:
-            pose, safe = GraspPose(taken[1].lower()), True
+        elif verb is not Verb.PICK_UP and (taken := _TAKEN.fullmatch(plain)) is not None:
+            pose = GraspPose(taken[1].lower())
         elif verb is Verb.OPEN and plain.lower() == "partly":
             partly = True
         elif verb is Verb.PICK_UP and (next_put := _ONWARD.fullmatch(plain)) is not None:

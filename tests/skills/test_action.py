@@ -188,5 +188,5 @@ def test_length_is_bounded() -> None:
 
 def test_what_is_set_down_for_another_grasp_says_so() -> None:
     (down,) = parse_plan("[PUT ON, desk] (to be taken horizontal)")
-    assert (down.pose, down.safe) == (GraspPose.HORIZONTAL, True)
+    assert down == Action(Verb.PUT_ON, "desk", GraspPose.HORIZONTAL)
     assert str(down) == "[PUT ON, desk] (to be taken horizontal)"
