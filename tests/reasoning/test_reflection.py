@@ -485,7 +485,7 @@ def test_what_no_level_hand_takes_where_it_is_is_set_down_for_one(taken: bool, w
     pick, put = "[PICK UP, jar]", f"[PUT ON, rack.low]{where}"
     before = held(start, "jar")
     reason = cause(CauseKind.NO_ROOM, "rack", "jar")
-    anew = f"[PUT ON, desk] {pick} (horizontal) {put}"
+    anew = f"[PUT ON, desk] (to be taken horizontal) {pick} (horizontal) {put}"
     if taken:
         step = failed(start, f"{pick} {put}", 1, reason, before)
         assert revision(step) == f"{pick} (horizontal) {put}", "without setting it down first"
@@ -1323,9 +1323,18 @@ def test_what_does_not_go_there_as_it_is_held_is_grasped_so_that_it_does(kind: C
     again = failed(start, suited, 1, cause(kind, "drawer", "toy"), held(start, "toy"))
     assert suited not in revisions(again)
     nowhere = failed(start, suited, 0, cause(CauseKind.NO_ROOM, "toy"))
+    down = "[PUT ON, desk] (to be taken horizontal)"
     assert revisions(nowhere) == [
-        "[PICK UP, toy] [PUT ON, desk] [PICK UP, toy] (to put on drawer) [PUT ON, drawer]"
+        f"[PICK UP, toy] {down} [PICK UP, toy] (to put on drawer) [PUT ON, drawer]"
     ]
+
+
+def test_where_the_arm_does_not_get_to_what_could_move_it_is_grasped_so_that_it_does() -> None:
+    start = scenes.scene(scenes.ball("apple", (0.3, 0.2)), scenes.cup("holder", (0.4, -0.2)))
+    plan = "[PICK UP, apple]{} [PUT INTO, holder]"
+    reason = cause(CauseKind.UNREACHABLE, "holder", "apple")
+    step = failed(start, plan.format(""), 1, reason, held(start, "apple"))
+    assert plan.format(" (to put into holder)") in revisions(step)
 
 
 def test_what_was_set_down_to_be_grasped_anew_is_grasped_so_at_once_after_other_actions() -> None:

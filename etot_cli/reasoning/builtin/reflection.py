@@ -208,7 +208,9 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
     if pick is not None:
         yield from regrasped(case.failed, pick, case.cause.kind)
     yield from grasped_anew(case.failed, pick, case.cause.kind)
-    if not case.culprits() or case.is_furniture_alone():
+    beyond = case.cause.kind is CauseKind.UNREACHABLE and set(case.culprits()) <= {owner}
+    if not case.culprits() or beyond or case.is_furniture_alone():
+        # Where the arm does not get to the target itself nothing else is in its way.
         yield from grasped_for(case.failed, pick, case.cause)
         yield from laid_down(case.failed, pick, case.cause)
 
