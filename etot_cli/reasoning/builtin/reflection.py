@@ -207,11 +207,13 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
         yield from other_places(case.failed, index)
     if pick is not None:
         yield from regrasped(case.failed, pick, case.cause.kind)
-    yield from grasped_anew(case.failed, pick, case.cause.kind)
     beyond = case.cause.kind is CauseKind.UNREACHABLE and set(case.culprits()) <= {owner}
-    if not case.culprits() or beyond or case.is_furniture_alone():
-        # Where the arm does not get to the target itself nothing else is in its way.
+    # Where the arm does not get to the target itself nothing else is in its way.
+    alone = not case.culprits() or beyond or case.is_furniture_alone()
+    if alone:
         yield from grasped_for(case.failed, pick, case.cause)
+    yield from grasped_anew(case.failed, pick, case.cause.kind)
+    if alone:
         yield from laid_down(case.failed, pick, case.cause)
 
 
