@@ -85,11 +85,15 @@ class Understanding:
         self.context = Context(scene, resolver, discourse)
         self.timed: list[Timed] = []
         self.sentence = 0
+        self.conditional = False
+        """Something was asked for only if things are so by now."""
+        self.undone = False
+        """It was not so, and nothing was asked for otherwise."""
 
     @property
     def asked(self) -> bool:
         """Whether anything has been asked for, even if it holds already."""
-        return any(item.steps for item in self.timed)
+        return self.undone or any(item.steps for item in self.timed)
 
     def copy(self) -> Understanding:
         """An independent copy, for trying a reading."""
@@ -101,6 +105,7 @@ class Understanding:
         other.context.in_the_way = list(self.context.in_the_way)
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
+        other.conditional, other.undone = self.conditional, self.undone
         other.sentence, other.context.last = self.sentence, self.context.last
         return other
 

@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     CLEARED,
     Beside,
+    Condition,
     Destination,
     Modifier,
     NounPhrase,
@@ -253,6 +254,9 @@ def _said(node: object) -> Iterator[str]:
     match node:
         case Spoken(order=order, not_before=later) if order is not Order.SAID:
             yield from (_ORDER, *((_DENIAL, "only") if later else ()))
+        case Condition(so=so, denied=denied, only=only):
+            yield from ("only",) if only else ()
+            yield from () if so and not denied else (_DENIAL,)
         case Modifier(words=words) if words == CLEARED:
             yield "empty"
         case Modifier(prep=prep, denied=denied):

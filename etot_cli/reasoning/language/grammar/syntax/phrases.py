@@ -204,6 +204,22 @@ class State(Struct, frozen=True):
     alone: bool = False
 
 
+class Condition(Struct, frozen=True):
+    """How things are, by which it is told what is asked for. ``word``: of a state, empty where
+    ``place`` tells it; ``denied``: it is not so. ``so``: whether it has to hold.
+    """
+
+    subjects: tuple[NounPhrase, ...]
+    word: str = ""
+    place: Destination | None = None
+    denied: bool = False
+    so: bool = True
+    only: bool = False
+    """It is said that nothing is asked for otherwise."""
+    text: str = ""
+    """As written."""
+
+
 def has_choice(where: Iterable[Destination]) -> bool:
     """Whether one of several places is meant ("in the box or on it", "in the red or blue box")."""
     return sum(max(len(item.targets), 1) for item in where) > 1
