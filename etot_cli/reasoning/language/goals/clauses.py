@@ -119,6 +119,21 @@ def _check_not_wanted(context: Context, clause: PutClause, put_before: set[int])
             raise ReferenceProblem(np.text, "say whether that is what is wanted", 3)
 
 
+def _check_no_layer(context: Context, clause: EnsureClause) -> None:
+    """Whether what is "in the middle" is no layer of a tower that was asked for just before.
+
+    Raises:
+        ReferenceProblem: it may be.
+    """
+    for state in clause.states if isinstance(context.last, TowerClause) else ():
+        bare = [
+            w for w in state.destinations if w.beside and not (w.targets or w.beside[0].phrases)
+        ]
+        layers = [np for np in state.subjects if not context.phrases.resolver.names_stack(np)]
+        if bare and layers and not layers[0].pronoun:
+            raise ReferenceProblem(layers[0].text, "say what is above and below it", 3)
+
+
 def steps_of(clause: Clause, context: Context) -> list[Step]:
     """A clause's steps.
 
@@ -169,6 +184,7 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                 if clause.opens:  # "there" is rather in there than where something went before
                     context.discourse.last_places = _into(context, index)
         case EnsureClause():
+            _check_no_layer(context, clause)
             closer = closer_said(clause)
             if closer is not None:
                 put(context, closer, wherever=True, going=clause.states[0].going)

@@ -127,7 +127,11 @@ AT_BOTTOM = (
     "[at|on] [the [very]] bottom, lowest, underneath, below, at the base, "
     "as (its|the|a) (base|bottom)"
 )
-AT_MIDDLE = "[in [the]] (middle|centre|center), in between"
+AT_NEITHER_END = """
+    neither [at|on] [the] top nor [at|on] [the] bottom,
+    neither [at|on] [the] bottom nor [at|on] [the] top
+"""
+AT_MIDDLE = f"[in [the]] (middle|centre|center), in between, {AT_NEITHER_END}"
 AT_TOP = "[at|on] [the [very]] top, uppermost, up top, above, highest, as (its|the) top"
 LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|release it|drop it)"
 """Behind where something is brought."""

@@ -121,6 +121,7 @@ _FIXED = f"""
     all (the (way|time|while)|along), at all times,
     remaining (in|on|where|there|inside|open|closed|shut|put),
     (nearly|almost) (closed|shut), no matter (from|if|whether),
+    {manner.AT_NEITHER_END},
     {manner.FROM_STATE}, from [a|the] horizontal [position|pose|orientation] to,
     (is|are) all the same to (me|us),
     not (possible|feasible|doable), (does|do|will) not work,
