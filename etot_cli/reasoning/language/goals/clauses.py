@@ -21,8 +21,10 @@ from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.putting import ensure, put
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.so_in_the_end import (
+    as_found,
     closed_with,
     filled_first,
+    had_to_be_opened,
     put_on_closed,
     told_by_contents,
 )
@@ -170,6 +172,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             context.steps = _after_a_lift(clause, context, moved)
         case RemoveClause():
             remove(context, clause)
+        case MoveClause(whatever_opened=True):
+            for thing in had_to_be_opened(context, clause.things.text):
+                context.steps.append(Close(context.single(thing, thing.address)))
         case MoveClause():
             context.tell_so(clause.things, opens=clause.opens)
             for phrase in clause.things.phrases:
@@ -189,7 +194,7 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             if closer is not None:
                 put(context, closer, wherever=True, going=clause.states[0].going)
             for state in () if closer else clause.states:
-                state, so = told_by_contents(context, state)
+                state, so = told_by_contents(context, as_found(context, state))
                 for item in (state, *so):
                     ensure(context, item)
         case TowerClause():

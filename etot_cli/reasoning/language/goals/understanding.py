@@ -232,7 +232,8 @@ class Understanding:
         now, then = dict(discourse.placed), next(later, None)
         then = {} if spoken.order is Order.FIRST else then
         before.append((spoken, now))
-        if isinstance(spoken.clause, MoveClause) and spoken.order is Order.SAID:
+        moved = spoken.clause if isinstance(spoken.clause, MoveClause) else None
+        if moved and not moved.whatever_opened and spoken.order is Order.SAID:
             # "Close the drawers that are open and open the one that is closed"
             turned, discourse.turned = discourse.turned, dict(self._turned_before)
             steps = tuple(steps_of(spoken.clause, self.context))

@@ -138,7 +138,9 @@ LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|rele
 KEPT_HELD = """
     and [then] (keep hold of|keep holding|hold on to|hang on to|hold|keep|do not drop) (it|them)
     [there|up|in (the|your) (hand|gripper)|[up] in the air|in mid air],
-    and [then] wait [there], and do not let go [of (it|them)]
+    and [then] wait [there], and do not let go [of (it|them)],
+    (and|but) do not (put|set|lay) (it|them) down [again] [anywhere|yet],
+    (and|but) do not put (it|them) anywhere [yet]
 """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
@@ -165,6 +167,11 @@ AS_IT_IS = f"""
     unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
+AS_FOUND = """
+    [exactly|just] (as|like|the way) you found (it|them),
+    [exactly|just] (as|like|the way) (it|they) (was|were) [before|at the start|originally]
+"""
+"""Behind what is opened on the way, and is not to be left so unless it was."""
 AS_NOW = "[~comma] [exactly|just] (as|like|the way) (it|they) (is|are) [now]"
 """Behind a state that things have."""
 UNTOUCHED = f"""

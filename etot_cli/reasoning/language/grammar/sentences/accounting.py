@@ -102,7 +102,7 @@ _FIXED = f"""
     at any (point|time|stage|moment), upright [exactly|just] (as|like|the way) (it|they) (is|are),
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were|got) left,
-    do not let go [of (it|them)],
+    {manner.KEPT_HELD},
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     left (open|opened|closed|shut|ajar|empty|alone|untouched),
     left [standing|lying|sitting] [exactly|precisely|just|right] (as|where|like) (it|they),
@@ -310,6 +310,7 @@ def _said(node: object) -> Iterator[str]:
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
+            yield from ("open", "all") if node.whatever_opened else ()
         case TowerClause(things=Things(phrases=phrases)):
             yield from (said for said, count in NUMBERS.items() if count == len(phrases))
             yield from ("stacked", "vertical", _ORDER, "top", "middle", "bottom", "biggest",

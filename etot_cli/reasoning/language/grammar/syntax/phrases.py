@@ -179,6 +179,8 @@ ACROSS = "over to"
 """The word of a destination that things are brought over to, be it into it or beside it."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
+AS_FOUND = "as found"
+"""The word of a state that a thing is to be in again, as it was at the start."""
 RECEIVER = "receiver"
 """The word of a destination that is said to get something."""
 
