@@ -43,6 +43,8 @@ def decided(state: Understanding, reading: Sequence[Spoken]) -> tuple[Spoken, ..
     if not given:
         _check_further(state, reading)
         return (*reading,)
+    if len({replace(condition, so=True) for condition in given}) > 1:
+        raise ReferenceProblem(given[1].text, "say it in a sentence of its own", 3)
     before = tuple(said for said in reading if said.only_if is None)
     known = state.copy()
     if before:
