@@ -215,7 +215,7 @@ def _upward(
     ends = {"bottom": clause.bottom, "middle": clause.middle, "top": clause.top}
     named = {end: end_of(context, phrase, things) for end, phrase in ends.items() if phrase}
     rest = [thing for thing in ordered if thing not in named.values()]
-    if rest and clause.middle:
+    if rest and clause.middle and len(ordered) != len(_LAYERS_WITH_A_MIDDLE):
         raise ReferenceProblem(text, f"say where {rest[0].name} goes", 2)
     lowest, uppermost = named.get("bottom"), named.get("top")
     if rest and not listed and lowest and uppermost and carries(lowest, uppermost, context.scene):
@@ -226,5 +226,11 @@ def _upward(
         rest.sort(key=lambda thing: -max(context.scene.infos[thing.name].size[:2]))
         order = ", ".join(thing.name for thing in rest)
         context.discourse.notes.append(f"stack from the bottom up, by width: {order}")
-    below = [named[end] for end in ("bottom", "middle") if end in named]
+    if "middle" in named:
+        named |= zip((end for end in _LAYERS_WITH_A_MIDDLE if end not in named), rest, strict=True)
+        return [named[end] for end in _LAYERS_WITH_A_MIDDLE]
+    below = [named["bottom"]] if "bottom" in named else []
     return [*below, *rest, *([named["top"]] if "top" in named else [])]
+
+
+_LAYERS_WITH_A_MIDDLE = ("bottom", "middle", "top")

@@ -9,6 +9,7 @@ from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Open, Pick, Put, Referent
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.wording import formal
+from etot_cli.reasoning.language.goals.as_things_are import decided
 from etot_cli.reasoning.language.goals.plausibility import (
     Moves,
     does_as_well,
@@ -60,7 +61,7 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
         attempt = state.copy()
         attempt.context.sentence = sentence.text
         try:
-            attempt.read(reading)
+            attempt.read(decided(attempt, reading))
             goal = attempt.goal()
         except ReferenceProblem as error:
             strict = not isinstance(error, UnclearLandmark)

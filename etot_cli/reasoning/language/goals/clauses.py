@@ -21,8 +21,10 @@ from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.putting import ensure, put
 from etot_cli.reasoning.language.goals.removing import remove
 from etot_cli.reasoning.language.goals.so_in_the_end import (
+    as_found,
     closed_with,
     filled_first,
+    had_to_be_opened,
     put_on_closed,
     told_by_contents,
 )
@@ -119,6 +121,21 @@ def _check_not_wanted(context: Context, clause: PutClause, put_before: set[int])
             raise ReferenceProblem(np.text, "say whether that is what is wanted", 3)
 
 
+def _check_no_layer(context: Context, clause: EnsureClause) -> None:
+    """Whether what is "in the middle" is no layer of a tower that was asked for just before.
+
+    Raises:
+        ReferenceProblem: it may be.
+    """
+    for state in clause.states if isinstance(context.last, TowerClause) else ():
+        bare = [
+            w for w in state.destinations if w.beside and not (w.targets or w.beside[0].phrases)
+        ]
+        layers = [np for np in state.subjects if not context.phrases.resolver.names_stack(np)]
+        if bare and layers and not layers[0].pronoun:
+            raise ReferenceProblem(layers[0].text, "say what is above and below it", 3)
+
+
 def steps_of(clause: Clause, context: Context) -> list[Step]:
     """A clause's steps.
 
@@ -155,6 +172,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             context.steps = _after_a_lift(clause, context, moved)
         case RemoveClause():
             remove(context, clause)
+        case MoveClause(whatever_opened=True):
+            for thing in had_to_be_opened(context, clause.things.text):
+                context.steps.append(Close(context.single(thing, thing.address)))
         case MoveClause():
             context.tell_so(clause.things, opens=clause.opens)
             for phrase in clause.things.phrases:
@@ -169,11 +189,12 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                 if clause.opens:  # "there" is rather in there than where something went before
                     context.discourse.last_places = _into(context, index)
         case EnsureClause():
+            _check_no_layer(context, clause)
             closer = closer_said(clause)
             if closer is not None:
                 put(context, closer, wherever=True, going=clause.states[0].going)
             for state in () if closer else clause.states:
-                state, so = told_by_contents(context, state)
+                state, so = told_by_contents(context, as_found(context, state))
                 for item in (state, *so):
                     ensure(context, item)
         case TowerClause():

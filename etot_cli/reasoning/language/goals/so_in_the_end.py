@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Put, Relation
-from etot_cli.reasoning.builtin.relations import parts_of
+from etot_cli.reasoning.builtin.goal import Put, Relation, Thing
+from etot_cli.reasoning.builtin.relations import enclosing, is_closed, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.prohibitions import avoid
@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    AS_FOUND,
     Destination,
     NounPhrase,
     State,
@@ -43,6 +44,47 @@ def closed_with(context: Context, clause: MoveClause) -> tuple[MoveClause, list[
         inside += [] if held is None else [held]
         phrases.append(np)
     return replace(clause, things=replace(clause.things, phrases=tuple(phrases))), inside
+
+
+def had_to_be_opened(context: Context, text: str) -> tuple[Thing, ...]:
+    """What is closed at the start and has to be opened for what was asked for so far.
+
+    Raises:
+        ReferenceProblem: there is nothing.
+    """
+    scene, discourse = context.scene, context.discourse
+    moved = [*discourse.things(*discourse.put, *discourse.lifted)]
+    places = (place for several in discourse.placed.values() for place in several if place)
+    moved += discourse.things(*(at.where for at in places if at.where is not None))
+    around = {at for t in moved if t.name in scene.states for at in enclosing(scene, t.name)}
+    found = tuple(
+        thing
+        for info in scene.infos.values()
+        for part in info.parts
+        for thing in [Thing(part.owner, part.name)]
+        if is_closed(scene, part) and (part.address in around or discourse.turned.get(thing))
+    )
+    if not found:
+        raise ReferenceProblem(text, "nothing has to be opened for what was said before", 3)
+    return found
+
+
+def as_found(context: Context, state: State) -> State:
+    """What is to be as it was at the start: open, or closed.
+
+    Raises:
+        ReferenceProblem: it is neither, or both.
+    """
+    if state.word != AS_FOUND:
+        return state
+    options = [o for np in state.subjects for o in context.phrases.meaning(np, Role.PART).options]
+    parts = [part for o in options for thing in o for part in parts_of(context.scene, thing)]
+    so = {is_closed(context.scene, part) for part in parts}
+    if len(so) != 1:
+        raise ReferenceProblem(state.subjects[0].text, "say whether it is to be open or closed", 3)
+    word = "closed" if so == {True} else "open"
+    context.discourse.notes.append(f"{state.subjects[0].text!r} is {word} at the start")
+    return replace(state, word=word)
 
 
 def told_by_contents(context: Context, state: State) -> tuple[State, list[State]]:

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.reference.choosing.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.choosing.opposites import check_opposites
 from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.memory.by_now import note_turned
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, SceneState
@@ -85,11 +86,17 @@ class Understanding:
         self.context = Context(scene, resolver, discourse)
         self.timed: list[Timed] = []
         self.sentence = 0
+        self._turned_before: dict[Thing, bool] = {}
+        """What was open or closed before the sentence."""
+        self.conditional = False
+        """Something was asked for only if things are so by now."""
+        self.undone = False
+        """It was not so, and nothing was asked for otherwise."""
 
     @property
     def asked(self) -> bool:
         """Whether anything has been asked for, even if it holds already."""
-        return any(item.steps for item in self.timed)
+        return self.undone or any(item.steps for item in self.timed)
 
     def copy(self) -> Understanding:
         """An independent copy, for trying a reading."""
@@ -101,12 +108,14 @@ class Understanding:
         other.context.in_the_way = list(self.context.in_the_way)
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
+        other.conditional, other.undone = self.conditional, self.undone
         other.sentence, other.context.last = self.sentence, self.context.last
         return other
 
     def read(self, reading: Sequence[Spoken]) -> None:
         """Reads the clauses in the order they are said, and notes when each is to be done."""
         self.sentence += 1
+        self._turned_before = dict(self.context.discourse.turned)
         timed: dict[int, Timed] = {}
         before: int | None = None
         placed: list[tuple[Spoken, dict[Thing, tuple[Place | None, ...]]]] = []
@@ -223,6 +232,15 @@ class Understanding:
         now, then = dict(discourse.placed), next(later, None)
         then = {} if spoken.order is Order.FIRST else then
         before.append((spoken, now))
+        moved = spoken.clause if isinstance(spoken.clause, MoveClause) else None
+        if moved and not moved.whatever_opened and spoken.order is Order.SAID:
+            # "Close the drawers that are open and open the one that is closed"
+            turned, discourse.turned = discourse.turned, dict(self._turned_before)
+            steps = tuple(steps_of(spoken.clause, self.context))
+            discourse.turned = turned
+            for step in steps:
+                note_turned(discourse, step)
+            return steps
         if then is None:
             return tuple(steps_of(spoken.clause, self.context))
         discourse.placed = dict(then)

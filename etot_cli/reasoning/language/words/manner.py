@@ -127,14 +127,20 @@ AT_BOTTOM = (
     "[at|on] [the [very]] bottom, lowest, underneath, below, at the base, "
     "as (its|the|a) (base|bottom)"
 )
-AT_MIDDLE = "[in [the]] (middle|centre|center), in between"
+AT_NEITHER_END = """
+    neither [at|on] [the] top nor [at|on] [the] bottom,
+    neither [at|on] [the] bottom nor [at|on] [the] top
+"""
+AT_MIDDLE = f"[in [the]] (middle|centre|center), in between, {AT_NEITHER_END}"
 AT_TOP = "[at|on] [the [very]] top, uppermost, up top, above, highest, as (its|the) top"
 LET_GO = "and (let [it] go|let go [of it]|release it|drop it), then (let go|release it|drop it)"
 """Behind where something is brought."""
 KEPT_HELD = """
     and [then] (keep hold of|keep holding|hold on to|hang on to|hold|keep|do not drop) (it|them)
     [there|up|in (the|your) (hand|gripper)|[up] in the air|in mid air],
-    and [then] wait [there], and do not let go [of (it|them)]
+    and [then] wait [there], and do not let go [of (it|them)],
+    (and|but) do not (put|set|lay) (it|them) down [again] [anywhere|yet],
+    (and|but) do not put (it|them) anywhere [yet]
 """
 """Behind what is picked up, which is held anyway."""
 UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
@@ -161,6 +167,11 @@ AS_IT_IS = f"""
     unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
+AS_FOUND = """
+    [exactly|just] (as|like|the way) you found (it|them),
+    [exactly|just] (as|like|the way) (it|they) (was|were) [before|at the start|originally]
+"""
+"""Behind what is opened on the way, and is not to be left so unless it was."""
 AS_NOW = "[~comma] [exactly|just] (as|like|the way) (it|they) (is|are) [now]"
 """Behind a state that things have."""
 UNTOUCHED = f"""

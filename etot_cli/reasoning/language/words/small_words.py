@@ -142,3 +142,13 @@ LOOK_FOR = """
 REACH = "reach[ing], look[ing], go[ing]"
 """Before what something is taken out of."""
 SO_THAT = "so that, such that, so, in such a way that"
+IF = "if, in case, provided [that], assuming [that]"
+ONLY_IF = "[but] only if"
+UNLESS = "unless"
+OTHERWISE = "otherwise, else, or else"
+IF_NOT = """
+    if not, if (it|that|this) is not, if they are not, if (it|that|this) is not (so|the case),
+    if not so
+"""
+IF_SO = "if (it|that|this) is, if they are, if so, if (it|that|this) is (so|the case)"
+"""Before what is asked for where what a condition says is not so, or is so for all that."""

@@ -151,6 +151,11 @@ USE = "use, using"
 COVER = "cover[ing] [up]"
 UNCOVER = "uncover[ing]"
 LET = "have, let, get"
+WHATEVER_OPENED = """
+    (whatever|everything|anything|all|what) [that] you
+    (open|opened|have opened|had opened|(had|have|need|needed) to open) [for (it|that|this)]
+"""
+"""Behind a verb for closing."""
 KEEP = "keep[ing], leav(e|ing)"
 IGNORE = """
     ignore, ignoring, never mind, forget [about], skip, do not bother with,

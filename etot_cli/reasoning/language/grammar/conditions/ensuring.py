@@ -51,6 +51,7 @@ from etot_cli.reasoning.language.grammar.phrases.states import (
 from etot_cli.reasoning.language.grammar.phrases.staying import KEPT_THERE, STAYS, kept_so
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    AS_FOUND,
     AS_SAID,
     Destination,
     NounPhrase,
@@ -270,6 +271,12 @@ ENSURE = either(
     ),
     sequence(forbidden.DO_NOT, verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
     sequence(verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=_none_left),
+    sequence(
+        verbs.KEEP,
+        NP_LIST,
+        manner.AS_FOUND,
+        build=lambda nps: EnsureClause((State(nps, word=AS_FOUND),)),
+    ),
     sequence(
         # "No cup but the red one is allowed on the tray"
         NP_LIST,

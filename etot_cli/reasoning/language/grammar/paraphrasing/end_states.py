@@ -43,8 +43,11 @@ def _nothing_else(there: str) -> str:
 _IN_THAT_ONE = rf"(?:{_IN_THERE}|(?:in|on|inside|into) (?:the (?P=noun)|(?P=place)))"
 """In what was named right before, by the same noun or all its words."""
 _PUT_NOTHING_ELSE = (
-    r"(?:and |but )?(?:(?:do not|never) (?:put|place) (?:anything else|any other things?)"
-    rf"|(?:put|place) nothing else) {_IN_THERE}(?=[.;!]|$)"
+    r"(?:and |but )?(?:(?:do not|never) (?:ever )?(?:put|place) (?:anything else|any other things?)"
+    r"|(?:put|place) nothing else"
+    r"|(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?nothing else"
+    r" (?:is|(?:should|must|may|is to|ought to|can) be)(?: ever)? (?:put|placed|set|laid))"
+    rf" {_IN_THERE}(?=[.;!]|$)"
 )
 _LEFT = "(?:,? and|, then)(?: then)? (?:left|kept|(?:to )?(?:stay|remain))"
 _KEPT = {"out of": "in", "off": "on"}

@@ -58,7 +58,19 @@ def _lifted(things: Things) -> MoveClause:
     return MoveClause(things, opens=True, far_fetched=1 + again)
 
 
+def _whatever_opened(text: str) -> MoveClause:
+    things = Things((NounPhrase(words=("everything",), text=text),))
+    return MoveClause(things, opens=False, whatever_opened=True)
+
+
 _PLAIN_MOVE = either(
+    sequence(
+        verbs.CLOSE,
+        optional("again"),
+        phrase(verbs.WHATEVER_OPENED),
+        optional("again, afterwards"),
+        build=_whatever_opened,
+    ),
     sequence("lift[ing] [up], rais(e|ing)", THINGS, build=_lifted),
     *(
         sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))

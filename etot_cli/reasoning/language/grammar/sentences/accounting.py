@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     CLEARED,
     Beside,
+    Condition,
     Destination,
     Modifier,
     NounPhrase,
@@ -101,7 +102,7 @@ _FIXED = f"""
     at any (point|time|stage|moment), upright [exactly|just] (as|like|the way) (it|they) (is|are),
     one (on [top of]|in|inside|into) (the other|another),
     (to|at) the end, all the rest, (nothing|anything|be|is|are|remains|been|was|were|got) left,
-    do not let go [of (it|them)],
+    {manner.KEPT_HELD},
     (near|close|next|closer|nearer) to, near (the|each other|one another),
     left (open|opened|closed|shut|ajar|empty|alone|untouched),
     left [standing|lying|sitting] [exactly|precisely|just|right] (as|where|like) (it|they),
@@ -120,6 +121,7 @@ _FIXED = f"""
     all (the (way|time|while)|along), at all times,
     remaining (in|on|where|there|inside|open|closed|shut|put),
     (nearly|almost) (closed|shut), no matter (from|if|whether),
+    {manner.AT_NEITHER_END},
     {manner.FROM_STATE}, from [a|the] horizontal [position|pose|orientation] to,
     (is|are) all the same to (me|us),
     not (possible|feasible|doable), (does|do|will) not work,
@@ -253,6 +255,9 @@ def _said(node: object) -> Iterator[str]:
     match node:
         case Spoken(order=order, not_before=later) if order is not Order.SAID:
             yield from (_ORDER, *((_DENIAL, "only") if later else ()))
+        case Condition(so=so, denied=denied, only=only):
+            yield from ("only",) if only else ()
+            yield from () if so and not denied else (_DENIAL,)
         case Modifier(words=words) if words == CLEARED:
             yield "empty"
         case Modifier(prep=prep, denied=denied):
@@ -305,6 +310,7 @@ def _said(node: object) -> Iterator[str]:
         case MoveClause(opens=opens, guarded=guarded):
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
+            yield from ("open", "all") if node.whatever_opened else ()
         case TowerClause(things=Things(phrases=phrases)):
             yield from (said for said, count in NUMBERS.items() if count == len(phrases))
             yield from ("stacked", "vertical", _ORDER, "top", "middle", "bottom", "biggest",

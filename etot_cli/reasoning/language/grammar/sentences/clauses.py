@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     EMPTY_WORDS,
     OPTIONAL_COMMA,
     exceptions,
+    noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.contrasts import (
     CONTRASTED,
@@ -67,7 +68,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
     PutGroup,
 )
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Modifier, Things, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    Modifier,
+    NounPhrase,
+    Things,
+    Toward,
+)
 from etot_cli.reasoning.language.words import manner, nouns, predicates, small_words
 
 AGAIN = either(
@@ -110,6 +117,22 @@ LEFT_OUT = either(
         build=excepting,
     ),
 )
+
+
+def _upon_what_goes_there(clause: PutClause, np: NounPhrase) -> PutClause | None:
+    """What goes somewhere "with the mat under it": the mat goes there, and it goes on that."""
+    several = clause.groups[0].things.may_be_several
+    match clause.groups:
+        case (PutGroup(things=Things(phrases=(_,)), destinations=(where,)),) if (
+            where.toward is Toward.ON and not (clause.conditions or several)
+        ):
+            upon = (Destination(Toward.ON, (np,)),)
+            groups = (
+                PutGroup(Things((np,)), (where,)),
+                replace(clause.groups[0], destinations=upon),
+            )
+            return replace(clause, groups=groups, ordered=True, far_fetched=1)
+    return None
 
 
 _WHICH_GOES = sequence("~comma which", predicates.MODAL, DESTINATIONS)
@@ -195,6 +218,14 @@ CLAUSE = located(
                 PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=but_some
             ),
             sequence(PUT, _WHICH_GOES, build=_making_room),
+            sequence(
+                PUT,
+                OPTIONAL_COMMA,
+                "with",
+                noun_phrase,
+                "[placed|lying] (under|underneath|beneath|below) it",
+                build=_upon_what_goes_there,
+            ),
             SIDE_BY_SIDE,
             UNLESS_THERE,
         ),

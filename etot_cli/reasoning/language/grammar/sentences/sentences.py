@@ -29,6 +29,7 @@ from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.requests.emptying import TO_BE_EMPTY
+from etot_cli.reasoning.language.grammar.sentences.as_things_are import as_things_are
 from etot_cli.reasoning.language.grammar.sentences.before_requests import WITH_MORE_BEFORE_IT
 from etot_cli.reasoning.language.grammar.sentences.chains import (
     CHAIN,
@@ -160,6 +161,7 @@ _GREETING = silent(some(either(frames.GREETINGS, fillers.WITHOUT_MEANING, COMMA)
 
 WHOLE = either(
     sequence(optional("(maybe|perhaps) [~comma]"), SENTENCE, _END, optional(QUESTION)),
+    sequence(as_things_are(SENTENCE), _END, optional(QUESTION)),
     sequence(SENTENCE, COMMA, small_words.TRAILING_LAST, _END, build=_in_the_end),
     sequence(SENTENCE, COMMA, manner.IN_THIS_ORDER, _END, build=_in_sequence),
     sequence(_BY_THEN, OPTIONAL_COMMA, small_words.SOMEBODY_COMES, _END),

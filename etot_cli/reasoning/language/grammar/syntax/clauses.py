@@ -137,6 +137,8 @@ class MoveClause(Struct, frozen=True):
     turns: Turns = Turns()
     far_fetched: int = 0
     """How much rather the same words are said of something else ("lift it" of a cup)."""
+    whatever_opened: bool = False
+    """It is whatever has to be opened for what was asked for before."""
 
 
 class EnsureClause(Struct, frozen=True):

@@ -179,6 +179,8 @@ ACROSS = "over to"
 """The word of a destination that things are brought over to, be it into it or beside it."""
 FILLED = "filled"
 """The word of a destination that is filled or loaded: what has an inside is so there."""
+AS_FOUND = "as found"
+"""The word of a state that a thing is to be in again, as it was at the start."""
 RECEIVER = "receiver"
 """The word of a destination that is said to get something."""
 
@@ -202,6 +204,22 @@ class State(Struct, frozen=True):
     always: bool = False
     allowed: bool = False
     alone: bool = False
+
+
+class Condition(Struct, frozen=True):
+    """How things are, by which it is told what is asked for. ``word``: of a state, empty where
+    ``place`` tells it; ``denied``: it is not so. ``so``: whether it has to hold.
+    """
+
+    subjects: tuple[NounPhrase, ...]
+    word: str = ""
+    place: Destination | None = None
+    denied: bool = False
+    so: bool = True
+    only: bool = False
+    """It is said that nothing is asked for otherwise."""
+    text: str = ""
+    """As written."""
 
 
 def has_choice(where: Iterable[Destination]) -> bool:

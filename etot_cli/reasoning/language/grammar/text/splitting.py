@@ -47,6 +47,20 @@ _OF_A_CHOICE = Expression(
     r"(?:may|must|should|can)) be (?:an?|the) [\w ]+ one"
 )
 """What is said of one of several things that was left to choose; no state ends in "one"."""
+_IF = Expression(r"\b(?:if|unless|provided)\b")
+_ELSE = spellings(f"{small_words.OTHERWISE}, {small_words.IF_NOT}, {small_words.IF_SO}")
+_OTHERWISE = Expression(
+    rf"(?:(?:but|and) )?(?:{'|'.join(sorted(_ELSE, key=len, reverse=True))})"
+    r"(?:,|\b(?! (?:open|closed|in|on|empty)\b))"
+)
+"""Behind a condition: what is asked for where that does not hold."""
+
+
+def _is_else(before: str, part: str) -> bool:
+    """Whether a sentence says what is asked for where the condition before it does not hold."""
+    return bool(_IF.search(before) and _OTHERWISE.match(part))
+
+
 _ADDED = Expression(r"(?:and |but )?without (?:ever )?\w+ing (?P<what>[^,]*)")
 
 
@@ -86,7 +100,7 @@ def sentences_of(text: str) -> list[str]:
         if found and part and _is_looked_for(found[-1]):
             # What is looked for, and what is to be done with it.
             found[-1] = f"{found[-1].removesuffix(QUESTION).strip()}, {part}"
-        elif found and _OF_A_CHOICE.fullmatch(part):
+        elif found and (_OF_A_CHOICE.fullmatch(part) or _is_else(found[-1], part)):
             found[-1] = f"{found[-1]}, {part}"
         elif found and _adds(part):
             found[-1] = f"{found[-1]}, {part.removeprefix('and ').removeprefix('but ')}"

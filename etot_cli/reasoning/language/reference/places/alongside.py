@@ -22,7 +22,7 @@ from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.pronouns.coreference import PLURAL_PRONOUNS
 from etot_cli.reasoning.language.reference.pronouns.one_thing import ROOMY
 from etot_cli.reasoning.language.reference.several import Phrases
-from etot_cli.reasoning.language.words.lexicon import matches_any, singular, word_set
+from etot_cli.reasoning.language.words.lexicon import matches_any, same_noun, singular, word_set
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import Prep
@@ -105,6 +105,22 @@ class Landmarks:
                     raise AmbiguousReference(phrase.text, [t.name for t in (*found, *alike)])
         return replace(beside, phrases=tuple(phrases))
 
+    def _that_one(self, phrase: NounPhrase, themes: Sequence[int]) -> tuple[int, ...]:
+        """Of several things with one noun "that cup" is the one spoken of last but for what goes
+        there itself; nothing where that is called something else.
+        """
+        discourse, (noun, *more) = self._discourse, phrase.words or ("",)
+        if phrase.determiner not in ("that", "this") or more or phrase.modifiers or noun == "one":
+            return ()
+        alike = [item for item in discourse.mentions if same_noun(item.noun, noun)]
+        said = [item.referent for item in alike if item.referent not in themes]
+        own = any(item.referent in themes for item in alike)
+        last = {item.referent for item in alike if item.clause == alike[-1].clause}
+        if not (own and said and len(discourse.things(*last - {*themes}, said[-1])) == 1):
+            return ()
+        discourse.mention_again(said[-1], Role.ANY)
+        return (said[-1],)
+
     def referents(
         self, phrase: NounPhrase, themes: Sequence[int], relation: Nearby, below: Set[str]
     ) -> list[int]:
@@ -115,7 +131,8 @@ class Landmarks:
         indices = (
             (self._beside_it(phrase, themes, relation, below),)
             if single and not phrase.determiner
-            else self._phrases.refer(self.told_there(phrase, below), Role.ANY, themes)
+            else self._that_one(phrase, themes)
+            or self._phrases.refer(self.told_there(phrase, below), Role.ANY, themes)
         )
         for index in indices:
             discourse.last_landmark = (discourse.clause, index, relation)

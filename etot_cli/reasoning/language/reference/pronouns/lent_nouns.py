@@ -36,6 +36,7 @@ from etot_cli.reasoning.language.reference.pronouns.narrowing import (
 from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
     SIZES,
+    STATES,
     THING_NOUNS,
     head_of,
     is_descriptive,
@@ -282,6 +283,9 @@ class LentNouns(ABC):
         try:
             resolved = self._of_cleared(phrase, role, resolve) or resolve(phrase, among=among)
         except ReferenceProblem:
+            said = (*phrase.words, *(w for item in phrase.modifiers for w in item.words))
+            if among and {*said} & {*STATES}:
+                return resolve(phrase)  # "the drawers that are open and the one that is closed"
             if narrower is None or not phrase.words[:-1]:
                 raise  # "the one on the right" is no contrast
             return narrower

@@ -1,0 +1,202 @@
+"""Which of what is asked for by a condition is asked for, as things are at the start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from msgspec.structs import replace
+
+from etot_cli.reasoning.builtin.goal import Put, Step, Thing
+from etot_cli.reasoning.builtin.relations import bearers, parts_of
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.understanding import Understanding
+from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    MoveClause,
+    PickClause,
+    PutClause,
+    ReorientClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Condition,
+    NounPhrase,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.reference.geometry.space import is_flat, lies_in, rests_on, touches
+from etot_cli.reasoning.language.reference.naming.states import state_holds
+from etot_cli.world.state import DESK, SceneState
+
+_HOLDS_UNSEEN = frozenset({"cup"})
+"""Kinds of vessels that may hold what no scene knows of, so that who knows if they are empty."""
+
+
+def decided(state: Understanding, reading: Sequence[Spoken]) -> tuple[Spoken, ...]:
+    """The clauses of a sentence that are asked for as things are, behind what the condition names;
+    ``state`` notes which way was taken.
+
+    Raises:
+        ReferenceProblem: it cannot be told, or what comes next may hang on it, too.
+    """
+    given = [said.only_if for said in reading if said.only_if is not None]
+    if not given:
+        _check_further(state, reading)
+        return (*reading,)
+    if len({replace(condition, so=True) for condition in given}) > 1:
+        raise ReferenceProblem(given[1].text, "say it in a sentence of its own", 3)
+    before = tuple(said for said in reading if said.only_if is None)
+    known = state.copy()
+    if before:
+        known.read(before)
+    holds = _holds(known, given[0])
+    first, second = (
+        tuple(said for said in reading if said.only_if and (said.only_if == given[0]) is is_first)
+        for is_first in (True, False)
+    )
+    start = first[0].position - 1
+    places = given[0].place.targets if given[0].place else ()
+    about = tuple(_named(np, start) for np in (*places, *given[0].subjects) if not np.pronoun)
+    ahead = (*about, *(_named(np, start) for np in _themes(first)))
+    ways = {given[0].so: (*about, *first), not given[0].so: (*ahead, *second)}
+    known.read(_plain(ways[not holds]))  # it has to be understood, too
+    if ways[holds] == ahead and first[1:]:
+        why = "that is not so; say whether all of it hangs on that"
+        raise ReferenceProblem(given[0].text, why, 3)
+    so = "so" if holds else "not so"
+    state.context.discourse.notes.append(f"{given[0].text!r}: that is {so}")
+    state.conditional, state.undone = True, ways[holds] == ahead
+    return (*before, *_plain(ways[holds]))
+
+
+def _plain(reading: Iterable[Spoken]) -> tuple[Spoken, ...]:
+    return tuple(replace(said, only_if=None) for said in reading)
+
+
+def _named(np: NounPhrase, at: int) -> Spoken:
+    return Spoken(ReorientClause(Things((np,)), only_named=True), at)
+
+
+def _themes(clauses: Iterable[Spoken]) -> tuple[NounPhrase, ...]:
+    """What the first of some clauses is about, which "it" may mean in what is asked for instead."""
+    for said in clauses:
+        match said.clause:
+            case PutClause(groups=(group, *_)):
+                return tuple(np for np in group.things.phrases if not np.pronoun)
+            case PickClause(things=things) | MoveClause(things=things):
+                return tuple(np for np in things.phrases if not np.pronoun)
+        break
+    return ()
+
+
+def _check_further(state: Understanding, reading: Sequence[Spoken]) -> None:
+    """Whether a sentence behind a condition is clear without that.
+
+    Raises:
+        ReferenceProblem: it may be asked for only if that holds, or comes before it.
+    """
+    text = state.context.sentence
+    first = reading[0]
+    leans = [*pronouns(tuple(said.clause for said in reading))] or first.order is not Order.SAID
+    if state.undone and leans:
+        raise ReferenceProblem(text, "say whether that is asked for in any case", 3)
+    if state.conditional and any(
+        said.order in (Order.FIRST, Order.BEFORE_THAT) for said in reading
+    ):
+        raise ReferenceProblem(text, "say it before what depends on how things are", 3)
+
+
+def _holds(state: Understanding, condition: Condition) -> bool:
+    """Whether a condition holds in the scene.
+
+    Raises:
+        ReferenceProblem: it is not clear what it is about, or whether it does.
+    """
+    attempt = state.copy()
+    scene = attempt.context.scene
+    subjects = _meant(attempt, condition.subjects)
+    places = _meant(attempt, condition.place.targets) if condition.place else ()
+    about = (*subjects, *places)
+    touched = _touched(state)
+    if any(
+        _overlap(at, other) for thing in about for at in _around(thing, scene) for other in touched
+    ):
+        raise ReferenceProblem(condition.text, "what is done before it may change that", 3)
+    so = {_is_so(condition, thing, places, scene) for thing in subjects}
+    if len(so) != 1:
+        raise ReferenceProblem(condition.text, "that is so of some of them only", 3)
+    return so == {not condition.denied}
+
+
+def _meant(state: Understanding, phrases: tuple[NounPhrase, ...]) -> tuple[Thing, ...]:
+    """The things that are meant for sure."""
+    discourse = state.context.discourse
+    found: list[Thing] = []
+    for index in state.context.phrases.things(Things(phrases), Role.ANY):
+        (*options,) = discourse.referents[index].options
+        if len(options) != 1:
+            raise ReferenceProblem(discourse.referents[index].text, "say which one", 3)
+        found += options[0]
+    return tuple(found)
+
+
+def _is_so(condition: Condition, thing: Thing, places: Sequence[Thing], scene: SceneState) -> bool:
+    """Whether it holds of one thing.
+
+    Raises:
+        ReferenceProblem: that cannot be told of it.
+    """
+    if condition.place is None:
+        info = scene.infos.get(thing.name)
+        known = info is not None and bool(info.parts)
+        if info is not None and condition.word == "empty":
+            seen = info.container and info.kind not in _HOLDS_UNSEEN
+            known |= seen or is_flat(info) or bool(info.boards)
+        elif (
+            len(
+                {
+                    state_holds(condition.word, Thing(thing.name, p.name), scene)
+                    for p in parts_of(scene, thing)
+                }
+            )
+            > 1
+        ):
+            raise ReferenceProblem(condition.text, "that is so of some of its parts only", 3)
+        if not known:
+            raise ReferenceProblem(condition.text, "that cannot be told by the scene", 3)
+        return state_holds(condition.word, thing, scene)
+    (place,) = places
+    how = {Toward.INSIDE: lies_in, Toward.ON: rests_on}.get(condition.place.toward, touches)
+    if how(thing, place, scene):
+        return True
+    holders = [Thing(name) for name in bearers(scene, thing.name) if name != place.name]
+    if any(touches(item, place, scene) for item in (thing, *holders)):
+        raise ReferenceProblem(condition.text, "say what it is in or on", 3)
+    return False
+
+
+def _around(thing: Thing, scene: SceneState) -> set[str]:
+    """The addresses of a thing, and of what is in or on it."""
+    held = (name for name in scene.states if touches(Thing(name), thing, scene))
+    return {thing.address, *held}
+
+
+def _overlap(one: str, other: str) -> bool:
+    """Whether two addresses are the same, or one is a part of the other."""
+    return one == other or other.startswith(f"{one}.") or one.startswith(f"{other}.")
+
+
+def _touched(state: Understanding) -> set[str]:
+    """What was to be moved, opened or put into before, and what that is in or on by now."""
+    scene, things = state.context.scene, state.context.discourse.things
+    steps: list[Step] = [step for item in state.timed for step in item.steps]
+    found: set[str] = set()
+    for step in steps:
+        what = step.what if isinstance(step, Put) else (step.what,)
+        at = [p.where for p in step.places if p.where is not None] if isinstance(step, Put) else []
+        found |= {thing.address for thing in things(*what, *at) if thing.name != DESK}
+        for thing in things(*what):
+            here = scene.states.get(thing.name)
+            if here is not None and thing.address == thing.name:
+                found |= {*here.on, *({here.inside} if here.inside else ())} - {DESK}
+    return found
