@@ -94,6 +94,25 @@ def _not_falling_off(nps: tuple[NounPhrase, ...], np: NounPhrase) -> Clause:
     return _not_leaving(nps, np)
 
 
+_THE_REST = Things((NounPhrase(words=("the rest",), text="nothing else"),))
+NOTHING_ELSE = sequence(
+    either(
+        sequence(
+            either(
+                sequence(predicates.LEAVING, "nothing else"),
+                sequence("nothing else", optional(predicates.NOTHING_ELSE_THERE)),
+                "there (is to|must|should|shall|may|can) be nothing else",
+            ),
+            DESTINATIONS,
+        ),
+        sequence(
+            "it (should|must|may|is to) (contain|hold|carry|bear|have) nothing else",
+            build=lambda *_: (Destination(Toward.TO, (NounPhrase(pronoun="it", text="it"),)),),
+        ),
+    ),
+    build=lambda *said: AvoidClause(Avoid.PUT, _THE_REST, said[-1], not_left=True),
+)
+"""That what has been put somewhere is to be alone there ("… and nothing else in it")."""
 AVOID = either(
     AVOIDED,
     quiet(
@@ -117,6 +136,7 @@ AVOID = either(
         DESTINATIONS,
         build=lambda *said: AvoidClause(Avoid.PUT, ANYTHING, said[-1], negated=True),
     ),
+    sequence(optional(verbs.ENSURE), NOTHING_ELSE),
     sequence(optional(verbs.ENSURE), either(NOT_MET, UNHARMED)),
     sequence(
         # "Mind the apple"
