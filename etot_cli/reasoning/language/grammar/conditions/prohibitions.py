@@ -113,6 +113,8 @@ NOTHING_ELSE = sequence(
     build=lambda *said: AvoidClause(Avoid.PUT, _THE_REST, said[-1], not_left=True),
 )
 """That what has been put somewhere is to be alone there ("… and nothing else in it")."""
+NOTHING_MORE = phrase("nothing else", AvoidClause(Avoid.MOVE, None))
+"""Behind all that is asked for."""
 AVOID = either(
     AVOIDED,
     quiet(
@@ -304,7 +306,7 @@ WITHOUT = sequence(
         ),
         sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
         HELD_MEANWHILE,
-        sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
+        sequence("[and|but]", NOTHING_MORE),
         AVOIDED,
     ),
 )

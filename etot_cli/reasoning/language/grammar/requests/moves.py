@@ -59,6 +59,11 @@ def _lifted(things: Things) -> MoveClause:
 
 
 _PLAIN_MOVE = either(
+    # "Open the drawer, put the pen in, close"
+    phrase(
+        "close [again], shut [again]",
+        MoveClause(Things((NounPhrase(pronoun="it", text="it"),)), opens=False),
+    ),
     sequence("lift[ing] [up], rais(e|ing)", THINGS, build=_lifted),
     *(
         sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))

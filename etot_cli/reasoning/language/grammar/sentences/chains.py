@@ -5,7 +5,7 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.conditions.left_alone import UNTOUCHED
-from etot_cli.reasoning.language.grammar.conditions.prohibitions import NOTHING_ELSE
+from etot_cli.reasoning.language.grammar.conditions.prohibitions import NOTHING_ELSE, NOTHING_MORE
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,
     Parser,
@@ -214,6 +214,7 @@ JOINED = either(
     ),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(either(IS_EMPTY, STAYING_UPRIGHT))),
     joint("and", OPTIONAL_COMMA, optional(small_words.SO_THAT), plain(NOTHING_ELSE)),
+    joint("and", OPTIONAL_COMMA, optional("and, but"), plain(NOTHING_MORE)),
     joint("and", COMMA, timed(_SO)),
     joint("and", COMMA, WHICH_IS_MOVED),
     joint("which", COMMA, WHICH_GOES_ON),
