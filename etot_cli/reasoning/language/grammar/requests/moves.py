@@ -7,6 +7,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
     either,
     optional,
     phrase,
@@ -19,8 +21,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
+    ahead,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD
 from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
@@ -58,12 +62,16 @@ def _lifted(things: Things) -> MoveClause:
     return MoveClause(things, opens=True, far_fetched=1 + again)
 
 
-_PLAIN_MOVE = either(
+_AHEAD = ((), (COMMA,), ("and",), ("then",), ("please",))
+_CLOSE_IT = sequence(
     # "Open the drawer, put the pen in, close"
-    phrase(
-        "close [again], shut [again]",
-        MoveClause(Things((NounPhrase(pronoun="it", text="it"),)), opens=False),
-    ),
+    Parser(lambda given, at: [(at, NOTHING)] if given.words[:at][-1:] in _AHEAD else []),
+    "close [again], shut [again]",
+    ahead(COMMA, "and", "then", NO_WORD),
+    build=lambda: MoveClause(Things((NounPhrase(pronoun="it", text="it"),)), opens=False),
+)
+_PLAIN_MOVE = either(
+    _CLOSE_IT,
     sequence("lift[ing] [up], rais(e|ing)", THINGS, build=_lifted),
     *(
         sequence(verb, THINGS, "up", build=lambda things, opens=opens: MoveClause(things, opens))

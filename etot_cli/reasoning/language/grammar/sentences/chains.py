@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     EMPTY_WORDS,
     LIST,
+    LIST_COMMA,
     OPTIONAL_COMMA,
     after,
 )
@@ -183,6 +184,7 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     # "Empty the box and the bag into the bin" empties both
+    joint("turned", LIST_COMMA, PLACED),
     joint("emptied", COMMA, optional(small_words.AND), PLACED),
     joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),

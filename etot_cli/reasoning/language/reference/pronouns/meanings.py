@@ -105,7 +105,9 @@ class Meanings(LentNouns):
             return self._meaning(phrase, role, noun)
         # "Open the upper drawer, take the pearl out and put it in the lower": no pearl
         alone = len(plain.words) == 1 and plain.words[0] in LEVELS and not plain.modifiers
-        return self._meaning(phrase, role, None if alone else noun)
+        spoken = (self.discourse.things(mention.referent) for mention in self.discourse.mentions)
+        opened = any(thing.part for things in spoken for thing in things)
+        return self._meaning(phrase, role, None if alone and opened else noun)
 
     def _meaning(self, phrase: NounPhrase, role: Role, noun_before: str | None) -> Resolved:
         discourse = self.discourse
