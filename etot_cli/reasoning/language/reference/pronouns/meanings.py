@@ -107,6 +107,7 @@ class Meanings(LentNouns):
         alone = len(plain.words) == 1 and plain.words[0] in LEVELS and not plain.modifiers
         spoken = (self.discourse.things(mention.referent) for mention in self.discourse.mentions)
         opened = any(thing.part for things in spoken for thing in things)
+        opened |= phrase.text in phrase.words
         return self._meaning(phrase, role, None if alone and opened else noun)
 
     def _meaning(self, phrase: NounPhrase, role: Role, noun_before: str | None) -> Resolved:
