@@ -163,7 +163,7 @@ BE = f"""
 LIES = "lie[s], stand[s], sit[s], rest[s]"
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
-    (should|must|shall|may|can|had better) (not|no longer)
+    (should|must|shall|may|can|had better) (not|never|no longer) [ever]
     (be|stay|remain|go|lie|stand|(end|finish|wind) up|get)
     [left|kept|put|[left] (lying|standing|sitting)|placed],
     (is|are) not to (be|go|stay|lie|stand|end up) [left|kept|put|placed],

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     remembered,
     sequence,
+    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
@@ -148,6 +149,11 @@ WITH_MORE_SO = either(
     ),
 )
 """How other things are to be besides ("…, with the door closed")."""
+IN_BETWEEN = plain(
+    sequence(THINGS, silent(optional(small_words.COMES)), "in between", build=_once_more),
+    Order.BETWEEN,
+)
+"""Things that come behind what comes first, and before what comes last."""
 ONCE_MORE = plain(sequence(THINGS, build=_once_more))
 """Things of which the same is asked for as before."""
 _ONCE_MORE_OR_NARRATED = either(ONCE_MORE, plain(NARRATED))
@@ -217,6 +223,7 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(either(IS_EMPTY, STAYING_UPRIGHT))),
     joint("and", OPTIONAL_COMMA, optional(small_words.SO_THAT), plain(NOTHING_ELSE)),
     joint("and", OPTIONAL_COMMA, optional("and, but"), plain(NOTHING_MORE)),
+    joint("and", OPTIONAL_COMMA, optional("and, with"), IN_BETWEEN),
     joint("and", COMMA, timed(_SO)),
     joint("and", COMMA, WHICH_IS_MOVED),
     joint("which", COMMA, WHICH_GOES_ON),
