@@ -189,9 +189,8 @@ def _check_between(before: Sequence[Timed]) -> None:
     Raises:
         ReferenceProblem: nothing is "in between".
     """
-    one, other = before[-2:] if before[1:] else (None, None)
-    turns = other and (other.order in (Order.THEN, Order.LAST) or one.order is Order.FIRST)
-    if not turns:
+    said = [item.order for item in before[-2:]]
+    if len(said) < 2 or not (said[1] in (Order.THEN, Order.LAST) or said[0] is Order.FIRST):
         raise ReferenceProblem("in between", "say before or after what", 3)
 
 

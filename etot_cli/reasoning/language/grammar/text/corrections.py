@@ -113,9 +113,9 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     everything = bool(_ALL_OF_IT.search(mark[0]))
     whole = not start and (everything or "instead" in sentence)
     if " ".join(said) in _SWAPPED:
-        for words in _exchanged(tail):
-            text = _joined(*before[:start], *words, *rest)
-            yield TakenBack(" ".join(tail), " ".join(words), text)
+        for exchanged in _exchanged(tail):
+            text = _joined(*before[:start], *exchanged, *rest)
+            yield TakenBack(" ".join(tail), " ".join(exchanged), text)
         return
     spans = list(_spans(tail, said, sentence, everything=everything, whole=whole))
     if said[-1] in ("one", "ones") and any(map(is_descriptive, said)):
