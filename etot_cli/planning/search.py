@@ -29,6 +29,7 @@ from etot_cli.planning.result import (
     told,
 )
 from etot_cli.planning.tree import NodeStatus, Origin, PlanNode, PlanTree, TreePath
+from etot_cli.planning.waiting import Waiting
 from etot_cli.reasoning.builtin.openings import kept_open
 from etot_cli.reasoning.protocol import (
     Assignment,
@@ -108,7 +109,7 @@ class _Search:
         self._observer = observer
 
         self._tree = PlanTree()  # [T]
-        self._queue: deque[PlanNode] = deque()  # [Q]
+        self._queue = Waiting(shortest_first=assignment.goal is not None)  # [Q]
         self._known = Findings(reasoner, simulator.world_count, limits.min_survival)
         self._started = time.monotonic()
         seconds = limits.time_limit_s
@@ -170,7 +171,7 @@ class _Search:
         self._branch_a_priori(scene)
         self._observer.proposed(self._tree)
         while self._queue or self._widen():
-            node = self._queue.popleft()
+            node = self._queue.pop()
             if not self._known.can_beat_best(node):
                 continue
             self._limit = self._limit_reached()
@@ -234,6 +235,7 @@ class _Search:
         """Takes a failed node out and reflects on every branch that ran through it."""
         paths = self._tree.extract_paths(node)  # [P]
         self._tree.remove_subtree(node)
+        self._queue.note_failure(node)
         if node.verdict is not None and _is_abandoned(node.verdict):
             self._cut = LimitKind.ABANDONED
             return

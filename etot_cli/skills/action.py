@@ -64,7 +64,8 @@ class Action:
     Args:
         verb: the primitive.
         target: object, surface, container or articulated object; ``object`` or ``object.part``.
-        pose: grasp pose asked for, None when any will do.
+        pose: grasp pose asked for, None when any will do; of a PUT ON, that in which the thing is
+            to be grasped there next, as far as there is a place for that.
         safe: a PUT ON that must also stay clear of everything that moved or swept (a safe place).
         keepout: the discs that such a place, or one that is to leave room for another thing,
             avoids, from the failed rollout; base frame.
@@ -99,7 +100,8 @@ class Action:
 
     def __str__(self) -> str:
         text = f"[{self.verb.value}, {self.target}]"
-        notes = [*([self.pose.value] if self.pose else []), *map(str, self.where)]
+        taken = "" if self.verb is Verb.PICK_UP else "to be taken "
+        notes = [*([taken + self.pose.value] if self.pose else []), *map(str, self.where)]
         if self.partly:
             notes.append("partly")
         if self.onward is not None:
@@ -189,6 +191,8 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             pose = GraspPose.VERTICAL
         elif plain.lower() == "safe place":
             safe = True
+        elif verb is not Verb.PICK_UP and (taken := _TAKEN.fullmatch(plain)) is not None:
+            pose = GraspPose(taken[1].lower())
         elif verb is Verb.OPEN and plain.lower() == "partly":
             partly = True
         elif verb is Verb.PICK_UP and (next_put := _ONWARD.fullmatch(plain)) is not None:
@@ -226,6 +230,7 @@ def _says_where(verb: Verb, place: Whereabouts) -> bool:
 
 _NAME = r"[A-Za-z]\w*(?:\.\w+)?"
 _ONWARD = re.compile(rf"(?i:to put (on|into)) ({_NAME})")
+_TAKEN = re.compile(r"(?i:to be taken (horizontal|vertical))")
 _ROOM_FOR = re.compile(rf"(?i:room for) ({_NAME}) (.+)")
 _POINT = re.compile(r"at (-?\d+(?:\.\d+)?) (-?\d+(?:\.\d+)?)")
 

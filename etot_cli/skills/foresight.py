@@ -13,14 +13,15 @@ from etot_cli.skills.belief import Belief
 from etot_cli.skills.grasps.approach import PreparedGrasp
 from etot_cli.skills.outcome import SkillOutcome
 from etot_cli.skills.placements.looking import placements
-from etot_cli.skills.placements.placement import Tally
+from etot_cli.skills.placements.placement import Placement, Tally
 from etot_cli.skills.placements.put import request_for
+from etot_cli.skills.placements.refusal import why_no_place
 from etot_cli.world.pose import Pose
 from etot_cli.world.snapshot import copy_configuration
 
 MAX_LOOKS, MAX_ALIKE = 12, 3
-"""Grasps from which it is looked ahead, up to a second each; and of these with the same slope of
-the hand, of which there are half a dozen: at a middle and both ends."""
+"""Grasps from which it is looked ahead, a quarter of a second each; and of these with the same
+slope of the hand, of which there are half a dozen: at a middle and both ends."""
 SAME_POINT, SAME_TURN = 0.01, np.cos(np.radians(15))
 """Grasps this close to one that does not do [m], with object and hand turned to each other by so
 little more or less (cosine), do no better: less than from one turn of an object to the next."""
@@ -45,6 +46,7 @@ class Foresight:
         self._round = not rod and bool(np.isclose(length, width))
         self._refused: list[Pose] = []
         self._slopes: Counter[float] = Counter()
+        self._ends: set[tuple[float, tuple[int, ...]]] = set()
         self.refused = 0
         """Grasps that do not serve."""
 
@@ -52,14 +54,23 @@ class Foresight:
         """Whether there is a place for the object as it is in the hand by a grasp."""
         in_tool = prepared.grasp.tool.inverse() @ self._belief.object_pose(self._name)
         slope = round(float(prepared.grasp.tool.rotation[2, 2]), 1)
+        at = slope, self._end(in_tool)
         may = len(self._refused) < MAX_LOOKS and self._slopes[slope] < MAX_ALIKE
-        if may and self._is_new(in_tool):
+        if may and at not in self._ends and self._is_new(in_tool):
             if self._goes_there(prepared):
                 return True
             self._refused.append(in_tool)
             self._slopes[slope] += 1
+            self._ends.add(at)
         self.refused += 1
         return False
+
+    def _end(self, in_tool: Pose) -> tuple[int, ...]:
+        """On which sides of its middle the object is held; of what is round that is all one."""
+        point = in_tool.inverse().position
+        if self._round:
+            point = np.array([np.hypot(*point[:2]), 0.0, point[2]])
+        return tuple((np.sign(point) * (np.abs(point) > SAME_POINT)).astype(np.int64).tolist())
 
     def _is_new(self, in_tool: Pose) -> bool:
         return not any(self._alike(in_tool, other) for other in self._refused)
@@ -83,7 +94,12 @@ class Foresight:
         request = request_for(lifted, self._put, self._name)
         if isinstance(request, SkillOutcome):
             return False
-        return next(placements(lifted, request, Tally(lifted.world)), None) is not None
+        tally = Tally(lifted.world)
+        if next(placements(lifted, request, tally), None) is not None:
+            return True
+        # Where it is tight the put comes upon a place as it looks for what is in the way.
+        tight = not tally.looked_at
+        return tight and isinstance(why_no_place(lifted, request, tally), Placement)
 
 
 def _once_held(belief: Belief, name: str, prepared: PreparedGrasp) -> Belief:

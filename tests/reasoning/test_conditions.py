@@ -137,7 +137,7 @@ def test_any_number_of_things_leaves_the_desk(count: int) -> None:
         ({"left_of": ["unit", "nut"]}, ["[PICK UP, nut] [PUT ON, desk] (right of unit)"]),
         (
             {"not": {"on": ["nut", "desk"]}},
-            ["[PICK UP, nut] [PUT ON, unit]", "[PICK UP, nut] [PUT INTO, mug]"],
+            ["[PICK UP, nut] [PUT INTO, mug]", "[PICK UP, nut] [PUT ON, unit]"],
         ),
     ],
 )
@@ -577,3 +577,23 @@ def test_a_relation_that_holds_of_what_cannot_be_moved_is_no_error(
 def test_a_relation_of_what_cannot_be_moved_may_come_about_by_another_condition() -> None:
     first, *_ = plans(_post(), BETWEEN, {"at": ["other", [0.42, 0.2]]})
     assert first == "[PICK UP, other] [PUT ON, desk] (at 0.420 0.200)"
+
+
+def test_what_is_to_leave_the_desk_goes_where_a_person_would_put_it() -> None:
+    """Into an open vessel, onto what stands fast, onto something large, and last onto small things;
+    a vessel that it does not go through the mouth of, or that has a lid on, is no such vessel."""
+    state = scenes.scene(
+        scenes.item("die", at=(0.3, 0.0), size=(0.03, 0.03, 0.03)),
+        scenes.item("nut", at=(0.3, 0.1), size=(0.03, 0.03, 0.03)),
+        scenes.item("mat", at=(0.3, 0.3), size=(0.2, 0.2, 0.01)),
+        scenes.item("scale", at=(0.5, 0.3), size=(0.15, 0.15, 0.04), fixed_on="desk"),
+        scenes.cup("pot", (0.5, -0.1)),
+        scenes.item("lid", at=(0.5, -0.1), size=(0.1, 0.1, 0.01), on="pot"),
+        scenes.cup("bowl", (0.5, -0.3)),
+    )
+    places = [
+        text.split()[-1].rstrip("]") for text in plans(state, {"not": {"on": ["die", "desk"]}})
+    ]
+    assert places == ["bowl", "scale", "mat", "lid", "nut", "pot"]
+    wide = {"not": {"on": ["mat", "desk"]}}
+    assert plans(state, wide)[0] == "[PICK UP, mat] [PUT ON, scale]"

@@ -485,7 +485,7 @@ def test_what_no_level_hand_takes_where_it_is_is_set_down_for_one(taken: bool, w
     pick, put = "[PICK UP, jar]", f"[PUT ON, rack.low]{where}"
     before = held(start, "jar")
     reason = cause(CauseKind.NO_ROOM, "rack", "jar")
-    anew = f"[PUT ON, desk] {pick} (horizontal) {put}"
+    anew = f"[PUT ON, desk] (to be taken horizontal) {pick} (horizontal) {put}"
     if taken:
         step = failed(start, f"{pick} {put}", 1, reason, before)
         assert revision(step) == f"{pick} (horizontal) {put}", "without setting it down first"
@@ -1323,9 +1323,18 @@ def test_what_does_not_go_there_as_it_is_held_is_grasped_so_that_it_does(kind: C
     again = failed(start, suited, 1, cause(kind, "drawer", "toy"), held(start, "toy"))
     assert suited not in revisions(again)
     nowhere = failed(start, suited, 0, cause(CauseKind.NO_ROOM, "toy"))
+    down = "[PUT ON, desk] (to be taken horizontal)"
     assert revisions(nowhere) == [
-        "[PICK UP, toy] [PUT ON, desk] [PICK UP, toy] (to put on drawer) [PUT ON, drawer]"
+        f"[PICK UP, toy] {down} [PICK UP, toy] (to put on drawer) [PUT ON, drawer]"
     ]
+
+
+def test_where_the_arm_does_not_get_to_what_could_move_it_is_grasped_so_that_it_does() -> None:
+    start = scenes.scene(scenes.ball("apple", (0.3, 0.2)), scenes.cup("holder", (0.4, -0.2)))
+    plan = "[PICK UP, apple]{} [PUT INTO, holder]"
+    reason = cause(CauseKind.UNREACHABLE, "holder", "apple")
+    step = failed(start, plan.format(""), 1, reason, held(start, "apple"))
+    assert plan.format(" (to put into holder)") in revisions(step)
 
 
 def test_what_was_set_down_to_be_grasped_anew_is_grasped_so_at_once_after_other_actions() -> None:
@@ -1494,3 +1503,71 @@ def test_what_no_hand_takes_anywhere_is_not_set_down_elsewhere(lasting: bool) ->
     plan = "[PICK UP, bowl] [PUT ON, desk] [PICK UP, bowl] (horizontal) [PUT ON, rack.bottom]"
     why = replace(cause(CauseKind.NO_GRASP, "ball", "bowl"), lasting=lasting)
     assert (revisions(failed(start, plan, 2, why)) == []) == lasting
+
+
+def towers() -> SceneState:
+    """Blocks a on b and c on d."""
+    return scenes.scene(
+        scenes.item("a", at=(0.4, -0.1), on="b"),
+        scenes.item("b", at=(0.4, -0.1)),
+        scenes.item("c", at=(0.4, 0.1), on="d"),
+        scenes.item("d", at=(0.4, 0.1)),
+    )
+
+
+@pytest.mark.parametrize("blamed", [("a", "c"), ("c", "a")])
+def test_what_bears_another_makes_way_before_that_is_put_on_it(blamed: tuple[str, str]) -> None:
+    start = towers()
+    before = held(changed(start, a={"on": ("c",)}), "b")
+    plan = "[PICK UP, a] [PUT ON, c] [PICK UP, b] [PUT ON, d]"
+    step = failed(start, plan, 3, cause(CauseKind.NO_ROOM, *blamed), before)
+    assert revision(step) == f"{RELOCATE.format('c')} {plan}"
+
+
+def test_a_thing_goes_to_its_own_place_first_unless_that_is_still_to_be_moved() -> None:
+    """Then that goes to its own place before, or the thing waits elsewhere where that is loaded."""
+    onto_d = "[PICK UP, a] [PUT ON, d]"
+    for move in ("[PICK UP, d] [PUT ON, b]", "[PICK UP, c] [PUT ON, b]"):
+        plan = f"[PICK UP, b] [PUT ON, desk] {move} {onto_d}"
+        step = failed(towers(), plan, 0, cause(CauseKind.COLLISION, "a"))
+        first, *others = revisions(step)
+        assert first.startswith(onto_d) == ("[PICK UP, d]" not in plan)
+        assert any(text.startswith(onto_d) for text in (first, *others))
+
+
+def test_what_is_taken_off_a_thing_to_go_where_that_stands_waits_elsewhere() -> None:
+    start = towers()
+    before = held(start, "a")
+    plan = "[PICK UP, a] [PUT ON, mat] [PICK UP, b] [PUT ON, desk]"
+    start = scenes.scene(
+        scenes.item("mat", size=(0.1, 0.1, 0.01)),
+        scenes.item("b", on="mat"),
+        scenes.item("a", on="b"),
+    )
+    before = held(start, "a")
+    step = failed(start, plan, 1, cause(CauseKind.NO_ROOM, "b"), before)
+    away = "[PICK UP, b] [PUT ON, desk]"
+    assert revision(step) == f"{RELOCATE.format('a')} {away} [PICK UP, a] [PUT ON, mat]"
+
+
+def test_what_comes_back_does_so_before_anything_is_put_on_it() -> None:
+    start = scenes.scene(
+        scenes.item("old_mat", at=(0.4, 0.2), size=(0.1, 0.1, 0.01)),
+        scenes.item("new_mat", at=(0.4, -0.2), size=(0.1, 0.1, 0.01)),
+        scenes.item("a", on="old_mat"),
+        scenes.item("b", on="a"),
+        scenes.item("c", on="b"),
+    )
+    wanted = [{"on": ["a", "new_mat"]}, {"on": ["b", "a"]}, {"on": ["c", "b"]}]
+    goal = tuple(Condition.model_validate(item) for item in wanted)
+    reasoner = BuiltinReasoner()
+    branch = next(reasoner.propose(Assignment("", goal), start))
+    for index, blamed in ((0, ("b", "c")), (2, ("b",))):
+        plan = format_plan(branch.actions)
+        step = failed(start, plan, index, cause(CauseKind.COLLISION, *blamed))
+        found = first_revision(reasoner, replace(step, branch=branch))
+        assert found is not None
+        branch = found
+    away = f"{RELOCATE.format('c')} {RELOCATE.format('b')} [PICK UP, a] [PUT ON, new_mat]"
+    back = "[PICK UP, b] [PUT ON, a] [PICK UP, c] [PUT ON, b]"
+    assert format_plan(branch.actions) == f"{away} {back}"

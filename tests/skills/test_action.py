@@ -184,3 +184,9 @@ def test_length_is_bounded() -> None:
     assert len(parse_plan("[OPEN, a]" * MAX_PLAN_ACTIONS)) == MAX_PLAN_ACTIONS
     with pytest.raises(PlanSyntaxError, match=f"at most {MAX_PLAN_ACTIONS} actions"):
         parse_plan("[OPEN, a]" * (MAX_PLAN_ACTIONS + 1))
+
+
+def test_what_is_set_down_for_another_grasp_says_so() -> None:
+    (down,) = parse_plan("[PUT ON, desk] (to be taken horizontal)")
+    assert down == Action(Verb.PUT_ON, "desk", GraspPose.HORIZONTAL)
+    assert str(down) == "[PUT ON, desk] (to be taken horizontal)"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from time import process_time
+
 import pytest
 
 from etot_cli.skills.action import read_whereabouts
@@ -10,6 +12,8 @@ from etot_cli.world.state import CauseKind, SceneState
 from tests.skills.helpers import BOX, Episode, episode
 
 SEEDS = range(3)
+SOON = 1.5
+"""Processor time after which an action that has no place has said so [s]; a third of it is used."""
 CUP = {"kind": "cup", "at": [0.42, -0.28], "diameter": 0.075, "height": 0.09, "mass": 0.15}
 CHEST = {"kind": "box", "at": [0.45, 0.15], "size": [0.16, 0.28, 0.08], "mass": 2, "fixed": True}
 MAT = {"kind": "box", "at": [0.45, 0.05], "size": [0.22, 0.40, 0.008], "mass": 0.4}
@@ -82,3 +86,22 @@ def test_where_nothing_leaves_room_that_is_what_is_said() -> None:
     cause = run.do("[PUT ON, chest] (room for cup left of box)").record.cause
     assert cause is not None and cause.kind is CauseKind.NO_ROOM
     assert "room that is kept free" in cause.text
+
+
+def test_no_is_said_soon_where_room_is_kept_for_many() -> None:
+    """The row would have to end before what stands as near as the arm gets; whether it would with
+    one or other of them away is looked for as well.
+    """
+    can = {"kind": "cylinder", "diameter": 0.05, "height": 0.07, "mass": 0.1}
+    cup = CUP | {"diameter": 0.07, "height": 0.07}
+    run = episode(
+        first=can | {"at": [0.55, -0.23]}, second=can | {"at": [0.36, 0.08]},
+        third=cup | {"at": [0.41, -0.06]}, end=cup | {"at": [0.28, -0.13]},
+    )  # fmt: skip
+    run.must("[PICK UP, first]")
+    row = "room for second behind first, room for third behind second, room for third in front of"
+    started = process_time()
+    record = run.do(f"[PUT ON, desk] ({row} end)").record
+    assert process_time() - started < SOON
+    assert record.cause is not None
+    assert record.cause.kind is CauseKind.NO_ROOM

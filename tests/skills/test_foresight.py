@@ -42,6 +42,39 @@ def test_a_bowl_is_grasped_so_that_it_goes_high_up(height: float, x: float, seed
     assert run.state.states["bowl"].on == ("shelf.top",)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(
+    ("drawer", "lid"),
+    [
+        ("bottom", {"kind": "box", "size": [0.09, 0.05, 0.012]}),
+        ("top", {"kind": "box", "size": [0.09, 0.05, 0.012]}),
+        ("bottom", {"kind": "box", "size": [0.09, 0.05, 0.025]}),
+    ],
+)
+def test_a_lid_goes_back_on_a_tin_before_a_carcass(
+    drawer: str, lid: dict[str, Any], seed: int
+) -> None:
+    """By one end and off its middle; five centimetres are free behind the tin."""
+    parts = [{"name": name, "travel": 0.17, "open": 0.17 * (name == drawer)}
+             for name in ("top", "bottom")]  # fmt: skip
+    chest = UNIT | {"at": [0.60, 0.02], "size": [0.24, 0.28, 0.26], "drawers": parts}
+    tin = {"kind": "cup", "inside": f"chest.{drawer}", "diameter": 0.08, "height": 0.05,
+           "mass": 0.2}  # fmt: skip
+    run = episode(seed, chest=chest, tin=tin, lid=lid | {"on": "tin", "mass": 0.05})
+    run.must("[PICK UP, lid]", "[PUT ON, desk]", "[PICK UP, lid] (to put on tin)")
+    assert run.must("[PUT ON, tin]").states["lid"].on == ("tin",)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("at", [[0.40, -0.22], [0.36, -0.10], [0.38, 0.15], [0.42, 0.0]])
+def test_what_is_set_down_for_a_level_hand_is_where_one_gets_at_it(at: list[float]) -> None:
+    book = {"kind": "box", "at": at, "size": [0.18, 0.075, 0.02], "mass": 0.2}
+    run = episode(shelf=shelf(0.22, 0.62), book=book)
+    run.must("[PICK UP, book] (vertical)", "[PUT ON, desk] (to be taken horizontal)")
+    assert run.must("[PICK UP, book] (horizontal)").holding == "book"
+
+
 def test_what_goes_there_anyhow_is_grasped_as_ever() -> None:
     plain, ahead = episode(box=BOX, shelf=shelf(0.2)), episode(box=BOX, shelf=shelf(0.2))
     plain.must("[PICK UP, box]")

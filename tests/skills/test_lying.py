@@ -146,3 +146,21 @@ def test_what_is_as_high_any_way_round_does_not_lie(thing: dict[str, Any]) -> No
     cause = run.do("[PUT ON, desk] (lying)").record.cause
     assert cause is not None and cause.kind is CauseKind.PRECONDITION
     assert cause.text.startswith("thing cannot be laid down: no side of it is one to lie on")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_can_is_not_laid_on_top_of_a_can(seed: int) -> None:
+    """So far out the hand from above gets none to stand there; a level one does."""
+    can = {"kind": "cylinder", "height": 0.08, "mass": 0.15}
+    objects = {
+        "low": can | {"diameter": 0.069, "at": [0.589, 0.108]},
+        "high": can | {"diameter": 0.067, "on": "low"},
+        "can": can | {"diameter": 0.072, "height": 0.088, "at": [0.499, -0.185]},
+    }
+    from_above = episode(seed, **objects)
+    from_above.must("[PICK UP, can] (vertical)")
+    assert not from_above.do("[PUT ON, high]").record.effect
+    after = episode(seed, **objects).must("[PICK UP, can] (horizontal)", "[PUT ON, high]")
+    assert after.states["can"].on == ("high",)
+    assert not after.states["can"].toppled

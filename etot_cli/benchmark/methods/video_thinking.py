@@ -125,7 +125,8 @@ def sentence(action: Action, record: RolloutRecord) -> str:
     owner, _, part = action.target.partition(".")
     info = record.before.infos.get(owner)
     thing = " ".join(filter(None, [owner if info is None else info.label, part]))
-    notes = [action.pose.value] if action.pose else [str(item) for item in action.where]
+    is_pick = action.verb is Verb.PICK_UP
+    notes = [action.pose.value] if is_pick and action.pose else [str(one) for one in action.where]
     return SENTENCES[action.verb].format(thing) + "".join(f", {note}" for note in notes) + "."
 
 

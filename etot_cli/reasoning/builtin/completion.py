@@ -58,6 +58,12 @@ def completed(revised: Branch, failed: FailedStep, goals: Sequence[Goal]) -> Ite
         if _closes_for_good(kept, index):
             set_down = [name for name, put in away.items() if put < index]
             _bring_back_before(sketch, kept[index:], {name: homes[name] for name in set_down})
+        below = _comes_onto(kept, index)
+        if below is not None and away.get(below, index) < index:
+            # Afterwards it could not be lifted any more.
+            home = _left_home(sketch, below, homes[below])
+            if home is not None:
+                sketch.put(below, *home[:2], where=home[2])
         sketch.do(action)
     stays_open = _stays_open(sketch, goals)
     for name in away:
@@ -80,6 +86,15 @@ def _closes_for_good(actions: Actions, index: int) -> bool:
     """Whether a branch closes a part and turns it no more after that."""
     later = {action.target for action in actions[index + 1 :] if action.verb in TURNS}
     return actions[index].verb is Verb.CLOSE and actions[index].target not in later
+
+
+def _comes_onto(actions: Actions, index: int) -> str | None:
+    """What the thing that an action picks up is put on next, to stay there."""
+    following = actions[index + 1 : index + 2]
+    if actions[index].verb is not Verb.PICK_UP or not following:
+        return None
+    put = following[0]
+    return owner_of(put.target) if put.verb is Verb.PUT_ON and not put.safe else None
 
 
 def _bring_back_before(sketch: Sketch, rest: Actions, homes: Mapping[str, Sequence[_Home]]) -> None:

@@ -212,14 +212,32 @@ def _beside(
 
 
 def _off_the_desk(name: str, scene: SceneState) -> list[Atom]:
-    """Everywhere that an object may be instead of on the desk: on and in all that there is."""
-    return [
+    """Everywhere that an object may be instead of on the desk, on and in all that there is, as a
+    person would choose.
+    """
+    found = [
         Atom("on" if role is Role.SURFACE else "inside", (name, other))
         for role in (Role.SURFACE, Role.CONTAINER)
         for other, info in scene.infos.items()
         if other != name and can_be(Thing(other), role, scene)
         if role is Role.CONTAINER or not info.container
     ]
+    return sorted(found, key=lambda atom: _oddity(atom, scene))
+
+
+def _oddity(atom: Atom, scene: SceneState) -> tuple[bool, bool, bool, float]:
+    """How far a place is from what is chosen first: an open vessel that takes a thing, then what
+    cannot be carried off, then what bears it the more safely the larger it is. So the tops of small
+    loose things come last.
+    """
+    name, other = atom.names
+    thing, place = scene.infos.get(name), scene.infos[other]
+    inside = atom.key == "inside"
+    # What goes through a mouth goes through it by its two shorter sides.
+    takes = inside and (thing is None or sorted(thing.size)[1] < place.mouth)
+    covered = any(other in state.on and state.inside != other for state in scene.states.values())
+    width, depth, _ = place.size
+    return not takes or covered, inside, place.movable, -width * depth
 
 
 def _conjunctions(options: Iterable[list[tuple[Atom, ...]]]) -> list[tuple[Atom, ...]]:

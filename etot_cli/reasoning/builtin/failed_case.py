@@ -111,6 +111,15 @@ class FailedCase:
 
         return sorted(others, key=rank)
 
+    def rides(self, name: str) -> bool:
+        """Whether the branch has put an object onto another one to blame that can make way."""
+        placed = placed_by(self.actions, name, self.index)
+        put = None if placed is None else self.actions[placed + 1]
+        if put is None or put.verb is not Verb.PUT_ON:
+            return False
+        below = owner_of(put.target)
+        return below in self.culprits() and self.scene.infos[below].movable
+
     def _brought_with(self, name: str) -> list[str]:
         """The vessels with which the branch has brought an object to where it is.
 

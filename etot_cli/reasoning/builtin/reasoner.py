@@ -17,6 +17,7 @@ from etot_cli.reasoning.builtin.constraints import (
 )
 from etot_cli.reasoning.builtin.goal import Constraint, Goal
 from etot_cli.reasoning.builtin.judging import judge_action
+from etot_cli.reasoning.builtin.loads import unburdened_first
 from etot_cli.reasoning.builtin.reflection import reflect_on
 from etot_cli.reasoning.builtin.turning import is_hopeless, turned_round
 from etot_cli.reasoning.builtin.understanding import goals_for
@@ -78,9 +79,10 @@ class BuiltinReasoner:
 
     def reflect(self, failed: FailedStep) -> Iterator[Branch]:
         """All corrected branches from the root, best first, worked out as they are asked for."""
-        revisions = chain.from_iterable(
+        whole = chain.from_iterable(
             completed(revised, failed, self._goals) for revised in reflect_on(failed)
         )
+        revisions = unburdened_first(whole, failed)
         instead = turned_round(failed, self._goals)
         # Of what keeps a thing from its place what can be taken away is, before others go for it.
         first, then = (instead, revisions) if is_hopeless(failed) else (revisions, instead)

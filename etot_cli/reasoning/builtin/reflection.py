@@ -174,8 +174,11 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
     if others <= {owner, *marks}:
         yield from _room_beside(case, marks)
     leaving = leaving_later(case)
-    # Where any of them makes room, that is one which the branch takes away anyway.
-    for name in sorted(case.culprits(), key=lambda name: name not in leaving[:1]):
+    # Where any of them makes room, that is one which the branch takes away anyway. What the branch
+    # has put on another of them may go there all the same once that is elsewhere.
+    for name in sorted(
+        case.culprits(), key=lambda name: (name not in leaving[:1], case.rides(name))
+    ):
         if name == owner:
             yield from opened_wider(case.failed, owner)
             yield from shut_meanwhile(case.failed, owner)
@@ -204,9 +207,13 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
         yield from other_places(case.failed, index)
     if pick is not None:
         yield from regrasped(case.failed, pick, case.cause.kind)
-    yield from grasped_anew(case.failed, pick, case.cause.kind)
-    if not case.culprits() or case.is_furniture_alone():
+    beyond = case.cause.kind is CauseKind.UNREACHABLE and set(case.culprits()) <= {owner}
+    # Where the arm does not get to the target itself nothing else is in its way.
+    alone = not case.culprits() or beyond or case.is_furniture_alone()
+    if alone:
         yield from grasped_for(case.failed, pick, case.cause)
+    yield from grasped_anew(case.failed, pick, case.cause.kind)
+    if alone:
         yield from laid_down(case.failed, pick, case.cause)
 
 

@@ -66,7 +66,7 @@ def grasped_anew(failed: FailedStep, pick: int | None, cause: CauseKind) -> Iter
     ways += _other_poses(failed, grasp, cause)
     _, down = set_aside(failed, name)
     for pose, how in ways:
-        anew = inserted(actions, taken, (down, replace(grasp, pose=pose)))
+        anew = inserted(actions, taken, (replace(down, pose=pose), replace(grasp, pose=pose)))
         yield Correction(anew, f"{name} is set down and grasped {how}", anew=True)
     level = grasp.pose is GraspPose.HORIZONTAL
     if level and _is_roofed(failed) and _may_lie(failed, name):
@@ -100,8 +100,8 @@ def grasped_for(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[
 
 
 def laid_down(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[Correction]:
-    """What is held from above and does not stand under a roof as it is held lies there: for what no
-    level hand takes, or gets in with.
+    """What is held from above and does not stand under a roof, or on top of what is loose, as it is
+    held lies there: for what no level hand takes, or gets there with.
 
     Args:
         failed: the failed put.
@@ -113,7 +113,9 @@ def laid_down(failed: FailedStep, pick: int | None, cause: Cause) -> Iterator[Co
     put = actions[failed.index]
     level = pick is not None and actions[pick].pose is GraspPose.HORIZONTAL
     misfit = cause.kind is CauseKind.NO_ROOM and cause.objects[:1] == (name,)
-    if name is None or level or misfit or cause.kind not in _AS_HELD or not _is_roofed(failed):
+    if name is None or level or misfit or cause.kind not in _AS_HELD:
+        return
+    if not (_is_roofed(failed) or _is_on_loose_top(failed)):
         return
     info, stance = failed.record.before.infos[name], any(w.relation.is_stance for w in put.where)
     if stance or info.container or info.kind in ROLLING_KINDS or not can_lie(info):
@@ -139,7 +141,8 @@ def _set_down_for(
     name = suited.target
     if relocations(failed.branch.actions, name) or suited.onward is None:
         return
-    _, down = set_aside(failed, name)
+    # From above it would be held as it was; a level hand may have had no room there.
+    down = replace(set_aside(failed, name)[1], pose=GraspPose.HORIZONTAL)
     extra = (down, suited) if actions is None else (down,)
     anew = inserted(actions or failed.branch.actions, at, extra)
     change = f"{name} is set down and grasped so that it goes to {suited.onward.target}"
@@ -223,6 +226,13 @@ def _is_roofed(failed: FailedStep) -> bool:
         for name in (owner_of(target), *carriers(scene, owner_of(target))):
             places |= {*scene.states[name].on, scene.states[name].inside or name}
     return any(has_front(scene, place) for place in places)
+
+
+def _is_on_loose_top(failed: FailedStep) -> bool:
+    """Whether something was to be put on top of what is loose itself."""
+    action = failed.branch.actions[failed.index]
+    info = failed.record.before.infos.get(action.target)
+    return action.verb is Verb.PUT_ON and info is not None and info.movable
 
 
 def _is_to_lie(failed: FailedStep) -> bool:

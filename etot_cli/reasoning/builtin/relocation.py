@@ -77,7 +77,24 @@ def relocated(failed: FailedStep, name: str, acted: str | None, index: int) -> I
 
 def _taken_away(failed: FailedStep, name: str, index: int) -> Iterator[Correction]:
     _, put = set_aside(failed, name)
-    yield from put_first(failed, index, name, put, f"{name} goes to a safe place first")
+    change = f"{name} goes to a safe place first"
+    loaded = _loaded_at(failed, name, index)
+    if loaded is not None:
+        # It takes nothing along then, and what belongs on it goes there all the same.
+        yield from put_first(failed, loaded, name, put, change)
+    yield from put_first(failed, index, name, put, change)
+
+
+def _loaded_at(failed: FailedStep, name: str, before: int) -> int | None:
+    """Index of the first action of the branch that puts something on an object to stay there."""
+    if failed.start.infos[name].container:
+        return None
+    onto = (
+        index
+        for index, action in enumerate(failed.branch.actions[:before])
+        if action.verb is Verb.PUT_ON and not action.safe and owner_of(action.target) == name
+    )
+    return next(onto, None)
 
 
 def put_first(

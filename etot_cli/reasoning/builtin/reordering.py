@@ -5,19 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from etot_cli.reasoning.builtin.company import coming_beside
 from etot_cli.reasoning.builtin.failed_case import FailedCase
 from etot_cli.reasoning.builtin.keepouts import kept_away
+from etot_cli.reasoning.builtin.loads import supports_of
 from etot_cli.reasoning.builtin.relations import bearers, carriers, has_front
 from etot_cli.reasoning.builtin.relocation import Correction, put_first, relocated, set_aside
 from etot_cli.reasoning.builtin.revision import (
     Actions,
+    Cycle,
     brought_before,
     cycle_of,
     inserted,
-    moved_before,
     placed_by,
     reachable_throughout,
     relocations,
@@ -33,9 +34,18 @@ stays within a millimetre."""
 
 
 def out_of_the_way(case: FailedCase, name: str) -> Iterator[Correction]:
-    """The branch with an object brought to its own place, or else to a safe one, first."""
-    yield from own_place_first(case, name)
-    yield from relocated(case.failed, name, case.acted, case.index)
+    """The branch with an object brought to its own place, or else to a safe one, first. What was
+    taken off it to be put where it is waits elsewhere meanwhile.
+    """
+    found = chain(own_place_first(case, name), relocated(case.failed, name, case.acted, case.index))
+    before = cycle_of(case.actions, case.index).start
+    held = case.acted if case.action.verb in PUTS else None
+    if held is None or name not in supports_of(held, case.actions[:before], case.start):
+        yield from found
+        return
+    for correction in found:
+        actions = inserted(correction.actions, before, set_aside(case.failed, held))
+        yield Correction(actions, f"{held} waits elsewhere, and {correction.change}")
 
 
 def own_place_first(
@@ -52,17 +62,45 @@ def own_place_first(
     own, failing = cycle_of(case.actions, pick), cycle_of(case.actions, case.index)
     if put.safe or pick not in own or case.index in own:
         return
-    actions = moved_before(case.actions, own, failing.start)
-    at = failing.start + pick + 1 - own.start
-    discs = {*put.keepout, *kept_away(actions[at + 1 :], put, case.scene)}
-    coming = coming_beside(actions, at, name)
-    there = replace(put, keepout=tuple(sorted(discs)), coming=coming)
-    foreseen = replace(there, where=_where_landmarks_go(actions, at, case.scene))
-    for own_place in dict.fromkeys((foreseen, there)):
-        yield Correction(
-            reachable_throughout((*actions[:at], own_place, *actions[at + 1 :]), case.start),
-            f"{name} is put where it belongs before it is in the way",
+    # Where its place is still to be moved, on to that place's own one first.
+    for first in dict.fromkeys((_supports_yet_to_come(case, put), ())):
+        ahead = tuple(action for one in first for action in case.actions[one.start : one.end])
+        following = tuple(
+            action
+            for index, action in enumerate(case.actions)
+            if index >= failing.start and not any(index in cycle for cycle in (*first, own))
         )
+        moved = case.actions[own.start : own.end]
+        actions = (*case.actions[: failing.start], *ahead, *moved, *following)
+        at = failing.start + len(ahead) + pick + 1 - own.start
+        discs = {*put.keepout, *kept_away(actions[at + 1 :], put, case.scene)}
+        coming = coming_beside(actions, at, name)
+        there = replace(put, keepout=tuple(sorted(discs)), coming=coming)
+        foreseen = replace(there, where=_where_landmarks_go(actions, at, case.scene))
+        for own_place in dict.fromkeys((foreseen, there)):
+            yield Correction(
+                reachable_throughout((*actions[:at], own_place, *actions[at + 1 :]), case.start),
+                f"{name} is put where it belongs before it is in the way",
+            )
+
+
+def _supports_yet_to_come(case: FailedCase, put: Action) -> tuple[Cycle, ...]:
+    """The cycles that bring what a thing is put on to its own place after the failed action, the
+    lowest first; none where the failed action has a part in that, or no end is found.
+    """
+    found: list[Cycle] = []
+    support = owner_of(put.target)
+    info = case.start.infos.get(support)
+    if put.verb is not Verb.PUT_ON or info is None or info.container:
+        return ()  # a vessel can be carried with what is in it
+    while (pick := _taken_at(case, support)) is not None:
+        cycle, onto = cycle_of(case.actions, pick), _put_after(case, pick)
+        if onto is None or onto.verb is not Verb.PUT_ON or cycle in found:
+            return ()
+        found.insert(0, cycle)
+        support = owner_of(onto.target)
+    in_time = support != case.acted and all(case.index < cycle.start for cycle in found)
+    return tuple(found) if in_time else ()
 
 
 def _taken_at(case: FailedCase, name: str) -> int | None:

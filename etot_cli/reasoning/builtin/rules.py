@@ -96,8 +96,8 @@ class _Checker:
 
     def check(self, actions: Sequence[Action]) -> list[Violation]:
         for index, action in enumerate(actions):
-            if action.pose is not None and action.verb is not Verb.PICK_UP:
-                self._say(index, 1, "only PICK UP takes a grasp pose")
+            if action.pose is not None and action.verb not in (Verb.PICK_UP, Verb.PUT_ON):
+                self._say(index, 1, "only PICK UP takes a grasp pose, and PUT ON the next one's")
             match action.verb:
                 case Verb.PICK_UP:
                     self._pick_up(index, action)

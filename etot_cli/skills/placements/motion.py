@@ -22,6 +22,7 @@ from etot_cli.skills.motion.motion import (
 from etot_cli.skills.outcome import DONE, SkillOutcome, arm_stopped, failed
 from etot_cli.skills.placements.placement import LOWER_STEP, Placement
 from etot_cli.skills.placements.put import put_places
+from etot_cli.skills.regrasping import graspable_first
 from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import Pose, straight
 from etot_cli.world.state import DESK, CauseKind, SceneState, owner_of
@@ -54,7 +55,10 @@ def put_motions(
         return
     attached = belief.attach(name)
     found, out_of_reach = False, False
-    for placement in put_places(belief, action, name, _again(belief, action, rehearsed)):
+    places = put_places(belief, action, name, _again(belief, action, rehearsed))
+    if action.pose is not None:
+        places = graspable_first(belief, name, action.pose, places)
+    for placement in places:
         if isinstance(placement, SkillOutcome):
             yield placement
             return

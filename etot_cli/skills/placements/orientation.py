@@ -13,6 +13,7 @@ from etot_cli.world.arrays import Vector
 from etot_cli.world.pose import LEVEL, UP, cross, quaternion_of, rotation_between, turn_about
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.stance import RIGHTED_DEG, SAME, TOPPLED_DEG, has_top, lies
+from etot_cli.world.state import ObjectInfo
 
 HIGHEST_APPROACH = 0.1
 """A hand that puts something down points no higher than level, give or take 6° (sine)."""
@@ -26,6 +27,9 @@ ALONG = 2
 """The body axis along which things stand, and about which a cylinder is round."""
 MOST_DISCOMFORT = 2.0
 """The worst that :func:`discomfort` tells."""
+ROLLS = 1.5
+"""On tops that are not as many times wider than it is long nothing round is laid for want of room:
+there is no more than a quarter of its length free on either side."""
 MAX_LAID = 2
 """Ways to lie that are tried."""
 TIPPED = np.radians(40)
@@ -185,10 +189,18 @@ def orientations(
             across = np.cross(UP, approach)
             tipped = turn_about(across / np.linalg.norm(across), TIPPED) @ base
             found += _turned(belief, attached, support, tipped, laid=False)
-    if entry.upright_matters and not entry.info.container:
+    if entry.upright_matters and not entry.info.container and not _rolls_off(entry.info, support):
         for rotation in laid_rotations(belief, attached, base)[:MAX_LAID]:
             found += _turned(belief, attached, support, rotation, laid=True)
     return found
+
+
+def _rolls_off(info: ObjectInfo, support: Support) -> bool:
+    """Whether something round, laid on a top for want of room, would soon be off it again."""
+    length, width, height = info.size
+    is_round = info.kind != "box" and bool(np.isclose(length, width)) and height > length
+    is_top = support.owner is not None and not (support.is_container or support.from_front)
+    return is_round and is_top and 2 * float(support.half.min()) < ROLLS * max(info.size)
 
 
 def all_turns(base: Vector) -> list[Vector]:

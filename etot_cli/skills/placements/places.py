@@ -100,13 +100,17 @@ class PlaceFinder:
             kinds: only these, in order.
             skip: asked of every place before it is worked out.
         """
-        found = self._places(kinds, as_held=as_held, skip=skip)
         if not self._request.coming:
-            yield from found
+            yield from self._places(kinds, as_held=as_held, skip=skip)
             return
         company = Company(self._belief, self._request, self._judge.grid())
         scarce: list[Place] = []
-        for place in found:
+
+        def will_not_do(turned: Turned, index: int) -> bool:
+            dealt_with = skip is not None and skip(turned, index)
+            return dealt_with or company.rules_out(turned.points[index])
+
+        for place in self._places(kinds, as_held=as_held, skip=will_not_do, company=company):
             room = company.room_beside(place.pose)
             if room == max(ROOMS):
                 yield place
@@ -115,7 +119,12 @@ class PlaceFinder:
         yield from scarce
 
     def _places(
-        self, kinds: Iterable[Quality], *, as_held: bool, skip: Skip | None
+        self,
+        kinds: Iterable[Quality],
+        *,
+        as_held: bool,
+        skip: Skip | None,
+        company: Company | None = None,
     ) -> Iterator[Place]:
         rehearsed = self._request.rehearsed
         if rehearsed is not None and not as_held:
@@ -133,8 +142,12 @@ class PlaceFinder:
             # Where it may stand at all is told from a few points; the rest waits until it is asked
             # for, which is seldom.
             may_stand = quality < Quality.PILED
+            if may_stand and not self._support.is_even and not self._relief.reserved.any():
+                continue  # on what is uneven nothing stands, nor lies in a door's way
             tables = standing if may_stand else anywhere
             for index, group in enumerate(groups):
+                if company is not None and company.is_hopeless:
+                    return
                 if index == len(tables):
                     table = [
                         judge.judge(turn, judge.may_stand(turn, grid) if may_stand else grid)

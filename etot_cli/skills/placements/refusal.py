@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
@@ -20,6 +21,10 @@ from etot_cli.world.state import CauseKind
 MAX_KNOWN = 2
 """Places with somebody away that are tried again with others away, exactly: height maps keep things
 farther apart than they have to be, so that with fewer away they may show none."""
+
+BESIDE_TRIES = 90
+"""Places beside what is fastened that are looked at exactly, for the same reason: a tenth of a
+second."""
 
 
 class _Again:
@@ -54,6 +59,18 @@ class _Again:
             self._known.append(found.place)
         return as_it_is is None
 
+    def beside(self, fastened: Iterable[str]) -> Placement | None:
+        """A placement that leaves what cannot be taken away where it is, among the best of those
+        that there are without it.
+        """
+        other = replace(self._request, absent=self._request.absent.union(fastened))
+        places = PlaceFinder(self._belief, other, self.stamps).places(as_held=True)
+        looked_at = (
+            placement_at(self._belief, self._request, place)
+            for place in islice(places, BESIDE_TRIES)
+        )
+        return next((found for found in looked_at if found is not None), None)
+
     def guilty(self, suspects: list[str], fastened: list[str]) -> list[str]:
         """The fewest objects without which there is a place: those that can be moved first. Nobody
         where a placement was overlooked.
@@ -61,7 +78,11 @@ class _Again:
         together = len(suspects) > 1 and self.helps(suspects)
         if self.overlooked:
             return []
-        guilty = [one for one in suspects[:MAX_SUSPECTS] if self.helps([one])]
+        # Room for others is looked for in hundreds of places: not by one after the other away where
+        # there was none with all of them away.
+        one_by_one = together or len(suspects) < 2 or not self._request.coming
+        blamed = suspects[:MAX_SUSPECTS] if one_by_one else []
+        guilty = [one for one in blamed if self.helps([one])]
         if together and not guilty:
             guilty = least(suspects, self.helps)
         guilty = guilty or [one for one in fastened[:MAX_SUSPECTS] if self.helps([one])]
@@ -99,6 +120,8 @@ def why_no_place(belief: Belief, request: Request, tally: Tally) -> SkillOutcome
     if again.overlooked:
         return again.overlooked
     if guilty:
+        if set(guilty) <= set(fastened) and (tight := again.beside(guilty)) is not None:
+            return tight
         if tally.obstructed and (missed := _missed(belief, request, tally)) is not None:
             return missed
         return failed(

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from msgspec import Struct
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Thing
+from etot_cli.reasoning.builtin.goal import Grouping, Pick, Place, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side, told_sides
 from etot_cli.reasoning.language.goals.alone import check_alone, check_counted
@@ -70,6 +73,7 @@ from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.manner import HELD
 from etot_cli.reasoning.language.words.places import Prep
+from etot_cli.world.spatial import Nearby
 
 _HOLDS_SOME = Expression(
     r"\b(?:that|which) (?:has|have|holds?|contains?) (?:an?|the|some|one|two|its) \w+(?: \w+)?$"
@@ -86,6 +90,25 @@ def _check_not_torn(group: PutGroup) -> None:
         of_it = [np for np in where.targets if np.pronoun == "it" and not np.modifiers]
         if of_it and _HOLDS_SOME.search(group.things.phrases[-1].text):
             raise ReferenceProblem(group.things.text, "say where it is to go", 2)
+
+
+class _Said(Struct, frozen=True):
+    """How a clause that puts things somewhere is meant."""
+
+    wherever: bool
+    going: bool
+    alone: bool
+    stays: bool
+    """What is spoken of stays where it is, or is there by now."""
+    ruled_out: tuple[Destination, ...]
+    """Where things are not to go."""
+    stance: Nearby | None = None
+    """Whether they are to stand, or to lie, there."""
+
+    @property
+    def in_the_end(self) -> bool:
+        """Whether it says how things are in the end, rather than what is moved."""
+        return self.stays or self.wherever
 
 
 def put(
@@ -114,19 +137,15 @@ def put(
         clause, wherever = replace(clause, stays=False), True
     if clause.stays:
         clause = replace(clause, groups=tuple(map(rest_there, clause.groups)))
+    said = _Said(wherever, going, alone, clause.stays, ruled_out)
     placed: set[Thing | int] = set()
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
     for group in clause.groups:
-        stance = group.stance
-        if add_pairs(context, clause, group, in_the_end=clause.stays or wherever):
-            check_stance(group, stance)
+        if add_pairs(context, clause, group, in_the_end=said.in_the_end):
+            check_stance(group, group.stance)
             continue
-        _check_not_torn(group)
-        for phrase in group.things.phrases:
-            said = {item.prep for item in phrase.modifiers}
-            if phrase.words == ("anything",) and said == {Prep.EXCEPT}:
-                raise AmbiguousReference(phrase.text, ["one thing", "everything"])
+        _check_things(group)
         context.tell_others(group.things, group.destinations)
         away = [*context.places.no_themes(group.destinations), *never_there(context, group)]
         replaced = replaced_by(context, group)
@@ -135,102 +154,153 @@ def put(
         tell_apart(context, group, before, themes)
         before += themes
         own = certain(context, themes)
+        said = replace(said, stance=group.stance)
         if placed & own or things_of(context, themes) <= placed:
             group = set_closer(context, group, clause.groups[0], themes, chosen)
         placed |= own
-        if (
-            any(item.toward in (Toward.HOME, Toward.WITH) for item in group.destinations)
-            or replaced
-        ):
-            check_stance(group, stance)
-        if any(item.toward is Toward.HOME for item in group.destinations):
-            put_back(context, themes, group, ruled_out)
-            continue
-        if not ruled_out and any(w.toward is Toward.WITH for w in group.destinations):
-            context.discourse.last_places = where_is(context, clause, group, themes)
-            add_put(context, themes, context.discourse.last_places, clause.grouping)
-            continue
-        if replaced and not (ruled_out or clause.conditions):
-            context.discourse.last_places = (in_stead(context, group, themes, replaced),)
-            add_put(context, themes, context.discourse.last_places, clause.grouping)
-            continue
-        group, grouping = shared(context, group, themes, clause.grouping)
-        several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
-        if is_different(group) and several == 1:
-            group = elsewhere(group)
-        told = told_sides(group)
-        group, abreast = side_by_side(group)
-        check_no_side(context, group, themes)
-        destinations, grouping = distributed(group, grouping)
-        found = context.places.of(destinations, themes, stays=wherever or clause.stays)
-        places = not_beside(context, found, ruled_out, themes)
-        if clause.stays and is_left(context, group, themes, places):
-            check_stance(group, stance)
-            avoid(context, AvoidClause(Avoid.MOVE, group.things))
-            continue
-        just_put = (s for s in context.done if clause.stays and isinstance(s, Put))
-        if any(s.what == tuple(themes) and s.places == places for s in just_put):
-            continue  # "move the cup to the tray and leave it there"
-        if not (places or abreast):  # "on top", where that is where it was spoken of last
-            raise ReferenceProblem(group.things.text, "say where it is to go", 2)
-        check_contrasted(context, group.things, themes, places)
-        check_not_there(context, group, places)
-        so_many = count_of_places(context, group, places) == several > 1
-        if grouping is Grouping.ANY and so_many:
-            grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
-        check_counted(context, group.things.phrases, places)
-        chosen_from = not (clause.stays or wherever)
-        # "Put just the apple there" is about what is put, not about what is there.
-        only = [np for np in group.things.phrases if np.determiner.split()[:1] != ["just"]]
-        check_alone(
-            context,
-            only if chosen_from else group.things.phrases,
-            themes,
-            places,
-            chosen=chosen_from or going,
-            in_the_end=not chosen_from,
-            nothing_else=alone,
-        )
-        check_taken(context, group, themes, places)
-        note_described(context, group, places, told=wherever)
-        check_poured(context, group, themes, places)
-        if stance is not None:
-            places = with_stance(context, themes, places, stance)
-        if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
-            places = tuple(spread(context, place) for place in places)
-        referents = context.discourse.referents
-        others = [i for i in themes if clause.stays and referents[i].distinct_from]
-        for index in others if wherever else themes:
-            choose_by_place(context, index, places, stays=clause.stays)
-        for index in themes if wherever and clause.stays else ():
-            tell_not_there(context, index, places)
-        if clause.stays:
-            leave_there(context, themes, places)
-        if grouping is Grouping.SEPARATELY:
-            check_enough(context, themes, places)
-        places_of = dict.fromkeys(themes, places)
-        shut = [item for item in clause.conditions if item.word == "closed"]  # in the end
-        for condition in (item for item in clause.conditions if item not in shut):
-            if condition.word or condition.denied:
-                ensure(context, condition)
-            else:
-                place_bystanders(context, condition, themes, places_of)
-        if abreast:
-            put_side_by_side(context, places_of, told)
-        else:
-            add_puts(context, places_of, grouping)
-        for condition in shut:
-            ensure(context, condition)
-        context.discourse.last_places = places
-        where = [place.where for place in places if place.where is not None]
-        last = group.things == clause.groups[-1].things
-        ruled_out = tuple(item for item in ruled_out if item.toward is not Toward.BESIDE)
-        if ruled_out and (last or len(context.discourse.things(*where)) > 1):
-            # What has but one place goes there.
-            rule_out(context, themes, ruled_out, besides=where)
+        told_otherwise = {Toward.HOME, Toward.WITH} & {item.toward for item in group.destinations}
+        if told_otherwise or replaced:
+            check_stance(group, said.stance)
+        if not _put_as_told(context, clause, group, themes, replaced, said):
+            group, grouping = shared(context, group, themes, clause.grouping)
+            _put_there(context, clause, group, themes, grouping, said)
     if chosen:
         text = context.discourse.referents[chosen[-1]].text
         raise ReferenceProblem(text, "say where each of them goes", 2)
+
+
+def _check_things(group: PutGroup) -> None:
+    """Raises a ReferenceProblem where it is not clear what is to go somewhere."""
+    _check_not_torn(group)
+    for phrase in group.things.phrases:
+        said = {item.prep for item in phrase.modifiers}
+        if phrase.words == ("anything",) and said == {Prep.EXCEPT}:
+            raise AmbiguousReference(phrase.text, ["one thing", "everything"])
+
+
+def _put_as_told(
+    context: Context,
+    clause: PutClause,
+    group: PutGroup,
+    themes: Sequence[int],
+    replaced: tuple[int, ...],
+    said: _Said,
+) -> bool:
+    """Adds the step for things whose place is told by where they, or others, were, if it is so."""
+    toward = {item.toward for item in group.destinations}
+    if Toward.HOME in toward:
+        put_back(context, themes, group, said.ruled_out)
+        return True
+    if not said.ruled_out and Toward.WITH in toward:
+        context.discourse.last_places = where_is(context, clause, group, themes)
+    elif replaced and not (said.ruled_out or clause.conditions):
+        context.discourse.last_places = (in_stead(context, group, themes, replaced),)
+    else:
+        return False
+    add_put(context, themes, context.discourse.last_places, clause.grouping)
+    return True
+
+
+def _put_there(
+    context: Context,
+    clause: PutClause,
+    group: PutGroup,
+    themes: Sequence[int],
+    grouping: Grouping,
+    said: _Said,
+) -> None:
+    """Adds the steps for things that go to places that are named."""
+    several = sum(len(context.discourse.referents[index].options[0]) for index in themes)
+    if is_different(group) and several == 1:
+        group = elsewhere(group)
+    told = told_sides(group)
+    group, abreast = side_by_side(group)
+    check_no_side(context, group, themes)
+    destinations, grouping = distributed(group, grouping)
+    found = context.places.of(destinations, themes, stays=said.in_the_end)
+    places = not_beside(context, found, said.ruled_out, themes)
+    if said.stays and is_left(context, group, themes, places):
+        check_stance(group, said.stance)
+        avoid(context, AvoidClause(Avoid.MOVE, group.things))
+        return
+    just_put = (s for s in context.done if said.stays and isinstance(s, Put))
+    if any(s.what == tuple(themes) and s.places == places for s in just_put):
+        return  # "move the cup to the tray and leave it there"
+    if not (places or abreast):  # "on top", where that is where it was spoken of last
+        raise ReferenceProblem(group.things.text, "say where it is to go", 2)
+    if grouping is Grouping.ANY and count_of_places(context, group, places) == several > 1:
+        grouping = Grouping.SPREAD  # "two cans into the two bins" is one into each
+    _check_places(context, group, themes, places, said)
+    if said.stance is not None:
+        places = with_stance(context, themes, places, said.stance)
+    if any(is_distributive(phrase.determiner) for phrase in group.things.phrases):
+        places = tuple(spread(context, place) for place in places)
+    _tell_by_places(context, themes, places, said)
+    if grouping is Grouping.SEPARATELY:
+        check_enough(context, themes, places)
+    places_of = dict.fromkeys(themes, places)
+    shut = [item for item in clause.conditions if item.word == "closed"]  # in the end
+    for condition in (item for item in clause.conditions if item not in shut):
+        if condition.word or condition.denied:
+            ensure(context, condition)
+        else:
+            place_bystanders(context, condition, themes, places_of)
+    if abreast:
+        put_side_by_side(context, places_of, told)
+    else:
+        add_puts(context, places_of, grouping)
+    for condition in shut:
+        ensure(context, condition)
+    context.discourse.last_places = places
+    where = [place.where for place in places if place.where is not None]
+    last = group.things == clause.groups[-1].things
+    ruled_out = tuple(item for item in said.ruled_out if item.toward is not Toward.BESIDE)
+    if ruled_out and (last or len(context.discourse.things(*where)) > 1):
+        # What has but one place goes there.
+        rule_out(context, themes, ruled_out, besides=where)
+
+
+def _check_places(
+    context: Context,
+    group: PutGroup,
+    themes: Sequence[int],
+    places: tuple[Place, ...],
+    said: _Said,
+) -> None:
+    """Raises a ReferenceProblem where things cannot be meant to go to places; notes what was made
+    of how these are described.
+    """
+    check_contrasted(context, group.things, themes, places)
+    check_not_there(context, group, places)
+    check_counted(context, group.things.phrases, places)
+    # "Put just the apple there" is about what is put, not about what is there.
+    only = [np for np in group.things.phrases if np.determiner.split()[:1] != ["just"]]
+    check_alone(
+        context,
+        group.things.phrases if said.in_the_end else only,
+        themes,
+        places,
+        chosen=said.going or not said.in_the_end,
+        in_the_end=said.in_the_end,
+        nothing_else=said.alone,
+    )
+    check_taken(context, group, themes, places)
+    note_described(context, group, places, told=said.wherever)
+    check_poured(context, group, themes, places)
+
+
+def _tell_by_places(
+    context: Context, themes: Sequence[int], places: tuple[Place, ...], said: _Said
+) -> None:
+    """Chooses among several things by where they are to be."""
+    referents = context.discourse.referents
+    others = [i for i in themes if said.stays and referents[i].distinct_from]
+    for index in others if said.wherever else themes:
+        choose_by_place(context, index, places, stays=said.stays)
+    for index in themes if said.wherever and said.stays else ():
+        tell_not_there(context, index, places)
+    if said.stays:
+        leave_there(context, themes, places)
 
 
 def ensure(context: Context, state: State) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from msgspec import Struct
+
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause
 from etot_cli.reasoning.language.grammar.asides.asking_words import (
     BEFORE_NAMES,
@@ -97,113 +99,164 @@ def _is_of_own_body(said: str, is_name: IsName) -> bool:
     return mine and not any(map(is_name, said.split()))
 
 
+class _Place(Struct, frozen=True):
+    """A clause where it stands in its sentence."""
+
+    clauses: Sequence[Clause]
+    at: int
+    is_name: IsName
+
+    @property
+    def clause(self) -> Clause:
+        """The clause itself."""
+        return self.clauses[self.at]
+
+    @property
+    def said(self) -> str:
+        """What it says behind its joint."""
+        return self.clause.said
+
+    @property
+    def behind(self) -> str:
+        """What the next clause says."""
+        after = self.clauses[self.at + 1 : self.at + 2]
+        return after[0].said.removeprefix("then ") if after else ""
+
+    @property
+    def is_last(self) -> bool:
+        """Whether nothing that asks for anything else follows."""
+        polite = all(item.is_polite for item in self.clauses[self.at + 1 :])
+        return polite or is_doing((self.behind.split() or [""])[0])
+
+    @property
+    def trails(self) -> bool:
+        """Whether it follows what is asked for, and nothing but what that goes on with is next."""
+        if self.clause.joint == "where" and not self.is_last:
+            following = self.clauses[self.at + 1]
+            return following.comma and following.said.startswith(_PLACES)
+        return self.at > 0 and self.is_last and not asks_besides(self.said)
+
+    @property
+    def leads(self) -> bool:
+        """Whether it is the first of several."""
+        return self.at == 0 and self.clauses[1:] != []
+
+
 def is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
     """Whether one of a sentence's clauses asks for nothing."""
     clause = clauses[at]
-    behind = "" if at + 1 == len(clauses) else clauses[at + 1].said.removeprefix("then ")
-    last = all(item.is_polite for item in clauses[at + 1 :])
-    last = last or is_doing((behind.split() or [""])[0])
-    trailing = at > 0 and last and not asks_besides(clause.said)
-    if clause.joint == "where" and not last:
-        trailing = clauses[at + 1].comma and clauses[at + 1].said.startswith(_PLACES)
     if clause.is_polite and len(clauses) > 1:
         return not clause.said or clause.kind != "polite"
     if clause.joint in GRANTED:
         return False
     if clause.kind == "anyway" or is_left_open(clause.whole):
         return True
+    if not clause.said or clause.kind == "provided":
+        return False
+    place = _Place(clauses, at, is_name)
     match clause.kind, clause.joint:
-        case _ if not clause.said:
-            return False
-        case "provided", _:
-            return False
         case (("reason" | "meanwhile"), _):
-            reason = (
-                is_reason(clause.said, is_name)
-                or may_befall(clause.said)
-                or lacks_room(clause.said)
-                or bool(told_of_thing(clause.said, is_name))
-                or tells_fact(clause.said, is_name)
-                or goes_there(clause.said, is_name, whose=BEFORE_NAMES)
-            )
-            return reason and (trailing or (at == 0 and clauses[1:] != []))
+            return (place.trails or place.leads) and _gives_a_reason(place)
         case "comment", "who":
             of_somebody = at > 0 and clauses[at - 1].kind == "benefit"
             return of_somebody and is_remark(f"she {clause.said}", is_name)
-        case "benefit", _:
-            _, _, does = clause.said.partition(" who ")
-            if does and not is_remark(f"she {does}", is_name):
-                return False
-            apart = at > 0 and (last or clauses[at + 1].comma or clauses[at + 1].joint == "and")
-            return apart and not any(map(is_name, clause.said.split()))
-        case "purpose", "before":
-            # "…, but before you do that, close it" says when.
-            named = clause.said.startswith("you do ") or any(map(is_name, clause.said.split()))
-            if at == 0 and not all(item.is_polite for item in clauses[1:]):
-                # "Before you do that, …" is about an order.
-                told = not re.match(r"(?:you|we|i)\b", clause.said)
-                return befalls(clause.said) or (
-                    told and not named and is_remark(clause.said, is_name)
-                )
-            return trailing and (befalls(clause.said) or not named)
-        case "purpose", ("so" | "so that" | "where"):
-            where = clause.joint == "where"
-            # "So that you can open it, …" and "so that it stands, …" may ask for that.
-            ahead = at == 0 and clause.joint == "so that" and clauses[1:] != []
-            ahead = ahead and is_of_people(clause.said) and not clause.said.startswith("you ")
-            if clause.joint == "so" and (
-                tells_fact(clause.said, is_name) or is_unused(clause.said)
-            ):
-                return True  # "We had soup, so I am not hungry"
-            return (trailing or ahead) and is_purpose(clause.said, is_name, where=where)
-        case "purpose", _:
-            return trailing and is_warning(clause.said)
         case "comment", _:
             return clause.comma and (
                 is_comment(clause.said, is_name) or tells_fact(_whole_of(clause), is_name)
             )
-    so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
-    planned = so and (
-        is_desk_wish(clause.said)
-        or is_plan(clause.said, is_name)
-        or goes_there(clause.said, is_name)
-        or stranger_is_there(clause.said, is_name)
-    )
-    if at == 0 and exclaims(clause.said, is_name):
-        return True
-    if at + 1 < len(clauses) and goes_to_it(clause.said, behind, first=at == 0):
-        return True
-    if (at or _is_whole(clauses, at)) and goes_with_somebody(clause.said, is_name):
-        return True
-    if _is_whole(clauses, at) and (
-        fears_for(clause.said)
-        or may_befall(clause.said)
-        or goes_there_later(clause.said, is_name)
-        or tells_of_others(clause.said, is_name, before_so=so)
-    ):
-        return True
-    if (
-        trailing
-        and clause.comma
-        and (
-            goes_there(clause.said, is_name)
-            or is_about_to(clause.said, is_name)
-            or there_is_such(clause.said, is_name)
-        )
-    ):
-        return True
-    if dislikes(clause.said) or is_hindering(clause.said):
-        return True
-    if is_not_to_stay(clause.said) and told_of_thing(clause.said, is_name):
-        return True
-    if trailing and is_unspoilt(clause.said):
-        return True
-    if planned or wants_such_a_thing(clause.said, is_name):
-        return True
+        case "benefit", _:
+            return _is_for_somebody(place)
+        case "purpose", "before":
+            return _is_for_later(place)
+        case "purpose", ("so" | "so that" | "where"):
+            return _tells_what_for(place)
+        case "purpose", _:
+            return place.trails and is_warning(clause.said)
+        case _:
+            return _only_tells(place)
+
+
+def _gives_a_reason(place: _Place) -> bool:
+    """Whether a clause behind "because", "as" or "while" says how things are."""
+    said, is_name = place.said, place.is_name
     return (
-        is_remark(clause.said, is_name)
-        or bool(told_of_thing(clause.said, is_name))
-        or tells_fact(clause.said, is_name)
+        is_reason(said, is_name)
+        or may_befall(said)
+        or lacks_room(said)
+        or bool(told_of_thing(said, is_name))
+        or tells_fact(said, is_name)
+        or goes_there(said, is_name, whose=BEFORE_NAMES)
+    )
+
+
+def _is_for_somebody(place: _Place) -> bool:
+    """Whether a clause says no more than for whom something is done, and what that one does."""
+    _, _, does = place.said.partition(" who ")
+    if does and not is_remark(f"she {does}", place.is_name):
+        return False
+    set_off = place.is_last or place.clauses[place.at + 1].comma
+    apart = place.at > 0 and (set_off or place.clauses[place.at + 1].joint == "and")
+    return apart and not any(map(place.is_name, place.said.split()))
+
+
+def _is_for_later(place: _Place) -> bool:
+    """Whether a clause behind "before" tells what comes later; "before you do that, close it" says
+    when something is done.
+    """
+    said = place.said
+    named = said.startswith("you do ") or any(map(place.is_name, said.split()))
+    if place.at == 0 and not all(item.is_polite for item in place.clauses[1:]):
+        # "Before you do that, …" is about an order.
+        told = not re.match(r"(?:you|we|i)\b", said)
+        return befalls(said) or (told and not named and is_remark(said, place.is_name))
+    return place.trails and (befalls(said) or not named)
+
+
+def _tells_what_for(place: _Place) -> bool:
+    """Whether a clause behind "so", "so that" or "where" says what something is done for; "so that
+    you can open it, …" and "so that it stands, …" may ask for that.
+    """
+    said, joint = place.said, place.clause.joint
+    if joint == "so" and (tells_fact(said, place.is_name) or is_unused(said)):
+        return True  # "We had soup, so I am not hungry"
+    ahead = place.leads and joint == "so that"
+    ahead = ahead and is_of_people(said) and not said.startswith("you ")
+    return (place.trails or ahead) and is_purpose(said, place.is_name, where=joint == "where")
+
+
+def _only_tells(place: _Place) -> bool:
+    """Whether a clause without such a joint only tells something."""
+    said, is_name, at, clauses = place.said, place.is_name, place.at, place.clauses
+    first, whole = at == 0, _is_whole(clauses, at)
+    so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
+    wanted_for = so and (is_desk_wish(said) or is_plan(said, is_name))
+    is_there = so and (goes_there(said, is_name) or stranger_is_there(said, is_name))
+    on_the_way = at + 1 < len(clauses) and goes_to_it(said, place.behind, first=first)
+    feared = whole and (fears_for(said) or may_befall(said))
+    of_others = whole and (
+        goes_there_later(said, is_name) or tells_of_others(said, is_name, before_so=so)
+    )
+    added = place.trails and (
+        is_unspoilt(said)
+        or (
+            place.clause.comma
+            and (
+                goes_there(said, is_name)
+                or is_about_to(said, is_name)
+                or there_is_such(said, is_name)
+            )
+        )
+    )
+    return (
+        (wanted_for or is_there or on_the_way or feared or of_others or added)
+        or (first and exclaims(said, is_name))
+        or ((not first or whole) and goes_with_somebody(said, is_name))
+        or dislikes(said)
+        or is_hindering(said)
+        or wants_such_a_thing(said, is_name)
+        or is_remark(said, is_name)
+        or bool(told_of_thing(said, is_name))
+        or tells_fact(said, is_name)
     )
 
 
