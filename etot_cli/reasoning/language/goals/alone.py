@@ -10,7 +10,7 @@ from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thin
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
@@ -89,6 +89,35 @@ def check_alone(
                 return
             why = f"say where to put {others} that would be there, too"
             raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+
+
+def leave_alone_there(context: Context, destinations: Sequence[Destination]) -> None:
+    """Nothing else is to be where something has been put: what is there goes to the desk.
+
+    Raises:
+        ReferenceProblem: nothing has been put there.
+    """
+    text = "nothing else"
+    puts = [step for step in context.done if isinstance(step, Put) and not step.removal]
+    themes = tuple(index for step in puts for index in step.what)
+    places = context.places.of(destinations, themes, stays=True)
+
+    def goes_there(place: Place) -> bool:
+        found = context.discourse.things(*([] if place.where is None else [place.where]))
+        return any({*found} == {*context.discourse.things(at)} for at in where)
+
+    where = [place.where for place in places if place.where is not None]
+    own = [i for step in puts if all(map(goes_there, step.places)) for i in step.what]
+    open_which = any(
+        len(context.discourse.referents[index].options) > 1 and touches(thing, at, context.scene)
+        for index in own
+        for thing in context.discourse.things(index)
+        for at in context.discourse.things(*where)
+    )
+    if not own or open_which:
+        raise ReferenceProblem(text, f"say {'which are' if own else 'what is'} to be there", 3)
+    only = (NounPhrase("only", text=text),)
+    check_alone(context, only, own, places, in_the_end=True, nothing_else=True)
 
 
 def check_counted(context: Context, phrases: Sequence[NounPhrase], places: Sequence[Place]) -> None:

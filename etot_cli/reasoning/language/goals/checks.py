@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from msgspec import structs
 
-from etot_cli.reasoning.builtin.goal import Goal, Keep, Pick, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Pick, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import InTheWay
@@ -128,6 +128,34 @@ def check_shut(goal: Goal, scene: SceneState) -> None:
         ):
             why = "it cannot be taken out of what stays closed; say 'then close it'"
             raise ReferenceProblem(goal.referents[index].text, why, 4)
+
+
+def check_shut_away(goal: Goal, scene: SceneState) -> None:
+    """Whether anything is to be put into or onto what has been put away and shut in before."""
+    within: dict[Thing, set[str]] = {}
+    shut: set[str] = set()
+    for step in goal.steps:
+        (index, *more) = step.what if isinstance(step, Put) else (step.what,)
+        if not isinstance(step, Put):
+            parts = {
+                p.address
+                for t in things_in(goal.referents[index].options)
+                for p in parts_of(scene, t)
+            }
+            shut = shut | parts if isinstance(step, Close) else shut - parts
+            continue
+        (place, *others) = step.places
+        where = None if place.where is None else goal.referents[place.where]
+        at = things_in(where.options) if where else ()
+        if where and not others and all(shut & within.get(thing, set()) for thing in at):
+            why = "it is shut in by then; say whether that is to be opened again"
+            raise ReferenceProblem(where.text, why, 4)
+        around = {p.address for thing in at for p in parts_of(scene, thing)}
+        for thing in things_in(
+            option for i in (index, *more) for option in goal.referents[i].options
+        ):
+            within[thing] = around if place.relation is Relation.INSIDE and not others else set()
+        shut -= around if place.relation is Relation.INSIDE else set()
 
 
 def check_everything(goal: Goal) -> None:

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL
 from etot_cli.reasoning.language.words.categories import is_eaten, is_keeping, is_poured
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
@@ -46,7 +47,9 @@ def check_taken(
             if prep is Prep.FROM and reached & told:
                 raise ReferenceProblem(phrase.text, "it would be taken from where it goes", 3)
             there = {o for o in told if any(touches(o, at, context.scene) for at in reached)}
-            if prep is Prep.CONTRAST and there:
+            # "All the cups, but not the pot" only leaves that out
+            every = quantity_of(phrase.determiner).every and np.head != phrase.head
+            if prep is Prep.CONTRAST and there and not every:
                 context.in_the_way.append(InTheWay(np.text, frozenset(there)))
     for phrase in (np for item in group.destinations for np in item.targets):
         described = any(HERE_BEFORE in item.words for item in phrase.modifiers)

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.goals.checks import (
     check_kept,
     check_run,
     check_shut,
+    check_shut_away,
     check_stays,
     check_swept_away,
     check_turns,
@@ -64,6 +65,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     goal = with_room_made(goal, state.context.in_the_way)
     check_kept(goal, scene)
     check_shut(goal, scene)
+    check_shut_away(goal, scene)
     check_everything(goal)
     check_run(goal)
     check_circle(goal)

@@ -19,7 +19,7 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import bearers, carriers, is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.goals.alone import check_alone
+from etot_cli.reasoning.language.goals.alone import check_alone, leave_alone_there
 from etot_cli.reasoning.language.goals.choosing import leave_among
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.knocked_over import keep_it_standing
@@ -115,6 +115,9 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         return
     _check_moves(context, clause.by)
     if any(np.words in _THE_REST and not np.modifiers for np in things.phrases):
+        if clause.avoid is Avoid.PUT:
+            leave_alone_there(context, clause.destinations)
+            return
         others = _others_like_what_turns(context, things)
         if others is None:
             _avoid_others(context, clause)

@@ -183,6 +183,17 @@ def _goes_on(item: Timed, last: Timed, discourse: Discourse) -> bool:
     return bool((mine & others) - {DESK})
 
 
+def _check_between(before: Sequence[Timed]) -> None:
+    """Whether two things are said to be done one after the other.
+
+    Raises:
+        ReferenceProblem: nothing is "in between".
+    """
+    said = [item.order for item in before[-2:]]
+    if len(said) < 2 or not (said[1] in (Order.THEN, Order.LAST) or said[0] is Order.FIRST):
+        raise ReferenceProblem("in between", "say before or after what", 3)
+
+
 def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     """All steps in the order in which they are to be done.
 
@@ -199,10 +210,13 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
         along = ahead is not None and item.sentence == ahead.sentence and item.order is Order.SAID
         # A door that is named last is rather closed behind all of it.
         along = along and all(isinstance(step, Put) for step in item.steps)
-        if item.order is Order.BEFORE_THAT:
+        if item.order in (Order.BEFORE_THAT, Order.BETWEEN):
             that = said[number - 1] if number else None
-            here = (at for at, other in enumerate(done) if other is that)
-            done.insert(next(here, max(len(done) - 1, 0)), item)
+            if item.order is Order.BETWEEN:
+                _check_between(said[:number])
+            queue = last if any(other is that for other in last) else done
+            here = (at for at, other in enumerate(queue) if other is that)
+            queue.insert(next(here, max(len(queue) - 1, 0)), item)
         elif along:  # "…, but before that take the cup off and put the pen in the box"
             done.insert(next(at for at, other in enumerate(done) if other is ahead) + 1, item)
         elif item.order is Order.FIRST:

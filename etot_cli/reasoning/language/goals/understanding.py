@@ -180,21 +180,22 @@ class Understanding:
         before: Sequence[tuple[Clause, tuple[Step, ...]]],
     ) -> bool:
         """Whether what goes somewhere goes there from where it was put before something was opened
-        ("put the ball aside, open the drawer, put the ball in").
+        ("put the ball aside, open the drawer, put the ball in"), or is taken out from there again.
         """
-        if spoken.order is not Order.SAID or not isinstance(spoken.clause, PutClause):
+        out = isinstance(spoken.clause, RemoveClause)
+        if spoken.order is not Order.SAID or not (out or isinstance(spoken.clause, PutClause)):
             return False
         opened = [at for at, (said, _) in enumerate(before) if isinstance(said, MoveClause)]
-        earlier = before[: opened[-1]] if opened else ()
+        earlier = before if out else before[: opened[-1]] if opened else ()
         put = [step for said, done in earlier if isinstance(said, PutClause) for step in done]
         moved, now = (
             {
                 thing
                 for step in found
-                if isinstance(step, Put) and not step.removal
+                if isinstance(step, Put) and (removed or not step.removal)
                 for thing in self.context.discourse.things(*step.what)
             }
-            for found in (put, steps)
+            for found, removed in ((put, False), (steps, out))
         )
         return bool(moved & now)
 

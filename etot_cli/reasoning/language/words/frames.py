@@ -76,8 +76,8 @@ GREETINGS = f"""
     [just] as a [first|quick|simple|little|short] (warm up|test|exercise|try) [~comma]
 """
 WOULD_BE_NICE = """
-    (i|we) would (be|feel) [very|really|so|most|much|ever so]
-    (glad|happy|happier|grateful|pleased|delighted|thankful|obliged),
+    (i|we) (would|should) (be|feel) [very|really|so|most|much|ever so]
+    (glad|happy|happier|grateful|pleased|delighted|thankful|obliged) [to you],
     (i|we) would [really] (like|love|appreciate|prefer) it,
     [it|that] would be [very|really|so]
     (good|great|nice|nicer|lovely|kind|helpful|perfect|wonderful|better|best|ideal|preferable|tidier)

@@ -33,9 +33,9 @@ _FUNCTION = """
     something everyone nothing apart along plus via per using twice thrice times half halfway
     backwards forwards sideways rather also too just simply could would will may might i'd d ll
     ve re 's whichever upside goes go belong belongs want wants need needs like
-    such only again now hey hi hello ok okay robot let lets alone untouched unmoved except
-    during through across around toward towards against among anyone someone yet still even ever
-    most more less few several many much enough half quite very really almost nearly maybe
+    such only again now hey hi hello ok okay robot let lets alone untouched undisturbed unmoved
+    except during through across around toward towards against among anyone someone yet still even
+    ever most more less few several many much enough half quite very really almost nearly maybe
     anymore perhaps anywhere somewhere otherwise else other others remaining same single exactly
 """
 VERB_WORDS = words_of(

@@ -164,7 +164,7 @@ AS_IT_IS = f"""
     [standing|lying|sitting] [exactly|precisely|right|just] where (it|they|he|she) (was|were),
     [exactly|precisely|just] as (it|they) (is|are) [right] [now],
     [exactly|precisely|just] (like|the way) (it|they) (is|are) [now], as is, alone, untouched,
-    unchanged,
+    undisturbed, unchanged,
     in place, still, unmoved, in its place, like (that|this), that way, so
 """
 AS_FOUND = """
@@ -175,7 +175,7 @@ AS_FOUND = """
 AS_NOW = "[~comma] [exactly|just] (as|like|the way) (it|they) (is|are) [now]"
 """Behind a state that things have."""
 UNTOUCHED = f"""
-    [left|kept] untouched, [left|kept] unmoved, [left|kept] unchanged, not (touched|moved),
+    [left|kept] untouched, [left|kept] (undisturbed|unmoved|unchanged), not (touched|moved),
     [left|kept|staying|remaining] ({WHERE_IT_IS}),
     [left|kept|staying|remaining] [exactly|precisely|just|right] (as|like) (it|they) (is|are) [now],
     (staying|remaining) (put|in place|there),

@@ -50,6 +50,8 @@ NOTHING_GOES = f"""
     [{ENSURE}] (nothing|no (thing|object|item)) (goes|belongs|ends up|lands|gets)
 """
 """Before where nothing more is to go."""
+LEAVING = "leav(e|ing), keep[ing], hav(e|ing), with, allow[ing]"
+"""Before what alone is to be somewhere."""
 _BEING = "standing|lying|sitting|located|resting"
 BEING = f"({_BEING}|being)"
 _MUST = """
@@ -161,7 +163,7 @@ BE = f"""
 LIES = "lie[s], stand[s], sit[s], rest[s]"
 NOT_WANTED = "(i|we) do not (want|need|like)"
 NOT_BE = """
-    (should|must|shall|may|can|had better) (not|no longer)
+    (should|must|shall|may|can|had better) (not|never|no longer) [ever]
     (be|stay|remain|go|lie|stand|(end|finish|wind) up|get)
     [left|kept|put|[left] (lying|standing|sitting)|placed],
     (is|are) not to (be|go|stay|lie|stand|end up) [left|kept|put|placed],
@@ -220,6 +222,8 @@ BE_TAKEN = f"({_MAY}) [ever] ({_BE_TAKEN})"
 NOT_BE_TAKEN = f"({_MAY_NOT}) ({_BE_TAKEN})"
 """Between what stays where it is, none of which does that or which does not, and that."""
 RECEIVE = "[should|must|shall|has to|needs to|is to] [also] (get|gets|receive|receives)"
+NOTHING_ELSE_THERE = f"{MODAL}, {BE}, {LIES}, go[es], stay[s], remain[s], (may|can|could) be [left]"
+"""Between "nothing else" and where."""
 DONE_WITH_IT = BROUGHT.replace(",", "|").strip()
 """The same in one group."""
 DONE = f"[to be] ({BROUGHT}|{_BEING})"

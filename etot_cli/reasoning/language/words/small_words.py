@@ -65,6 +65,7 @@ LEADING_BEFORE = """
     [but] before [doing|you do] (that|this), [but] before (doing|you do) (so|it), [but] beforehand,
     [but] prior to (that|this|doing so)
 """
+LEADING_BETWEEN = "in between"
 LEADING_LAST = f"""
     finally, lastly, last, last of all, last but not least, {_AT_END},
     [as (a|the|your)|the|your] (last|final) (step|thing|task|action) [to do] [is [to]],

@@ -67,7 +67,7 @@ SLIDE = "slid(e|ing), shov(e|ing)"
 """Into or onto a thing it is putting; what is slid elsewhere is to be pushed along."""
 FETCH = "bring[ing], tak(e|ing), fetch[ing], carry[ing], get[ting], mov(e|ing)"
 DISTRIBUTE = """
-    distribut(e|ing), spread[ing] [out], divid(e|ing), split[ting] [up], shar(e|ing) out
+    distribut(e|ing), spread[ing] [out], divid(e|ing), split[ting] [up], shar(e|ing) [out]
 """
 SEPARATE = "separat(e|ing), split[ting] [up], divid(e|ing) [up]"
 """Before things of which it is told next where each of them goes."""

@@ -244,6 +244,12 @@ ENSURE = either(
         build=kept_so,
     ),
     sequence(
+        # "Open the drawer, put the pen in, leave open"
+        verbs.KEEP,
+        OPEN_OR_CLOSED,
+        build=lambda word: kept_so((NounPhrase(pronoun="it", text="it"),), word),
+    ),
+    sequence(
         # "Leave the oven with its door open"
         either(
             sequence(verbs.KEEP, noun_phrase, "with"),

@@ -94,6 +94,27 @@ def _not_falling_off(nps: tuple[NounPhrase, ...], np: NounPhrase) -> Clause:
     return _not_leaving(nps, np)
 
 
+_THE_REST = Things((NounPhrase(words=("the rest",), text="nothing else"),))
+NOTHING_ELSE = sequence(
+    either(
+        sequence(
+            either(
+                sequence(predicates.LEAVING, "nothing else"),
+                sequence("nothing else", optional(predicates.NOTHING_ELSE_THERE)),
+                "there (is to|must|should|shall|may|can) be nothing else",
+            ),
+            DESTINATIONS,
+        ),
+        sequence(
+            "it (should|must|may|is to) (contain|hold|carry|bear|have) nothing else",
+            build=lambda *_: (Destination(Toward.TO, (NounPhrase(pronoun="it", text="it"),)),),
+        ),
+    ),
+    build=lambda *said: AvoidClause(Avoid.PUT, _THE_REST, said[-1], not_left=True),
+)
+"""That what has been put somewhere is to be alone there ("… and nothing else in it")."""
+NOTHING_MORE = phrase("nothing else", AvoidClause(Avoid.MOVE, None))
+"""Behind all that is asked for."""
 AVOID = either(
     AVOIDED,
     quiet(
@@ -117,6 +138,7 @@ AVOID = either(
         DESTINATIONS,
         build=lambda *said: AvoidClause(Avoid.PUT, ANYTHING, said[-1], negated=True),
     ),
+    sequence(optional(verbs.ENSURE), NOTHING_ELSE),
     sequence(optional(verbs.ENSURE), either(NOT_MET, UNHARMED)),
     sequence(
         # "Mind the apple"
@@ -284,7 +306,7 @@ WITHOUT = sequence(
         ),
         sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
         HELD_MEANWHILE,
-        sequence("[and|but] nothing else", build=lambda: AvoidClause(Avoid.MOVE, None)),
+        sequence("[and|but]", NOTHING_MORE),
         AVOIDED,
     ),
 )

@@ -26,22 +26,6 @@ _IN_THERE = (
 )
 
 
-def _nothing_else(there: str) -> str:
-    """That nothing else is to be there."""
-    return (
-        r"(?:and |but |so (?:that )?)?(?:(?:make sure|be sure|ensure|see to it)(?: that)? )?"
-        r"(?:nothing else (?:(?:should|must|may|is to|ought to|can) (?:be|go|lie|stand"
-        rf"|end up|come|get|land|stay|remain|be left)|goes|ends up|comes|gets|lands|is) {there}"
-        rf"|(?:with )?nothing else {there}"
-        rf"|there (?:should|must|may|is to) be nothing else {there}"
-        r"|it (?:should|must|may|is to) (?:contain|hold|carry|bear|have) nothing else"
-        r"(?: (?:in|on) it)?)"
-        r"(?=[.;!]|$)"
-    )
-
-
-_IN_THAT_ONE = rf"(?:{_IN_THERE}|(?:in|on|inside|into) (?:the (?P=noun)|(?P=place)))"
-"""In what was named right before, by the same noun or all its words."""
 _PUT_NOTHING_ELSE = (
     r"(?:and |but )?(?:(?:do not|never) (?:ever )?(?:put|place) (?:anything else|any other things?)"
     r"|(?:put|place) nothing else"
@@ -281,27 +265,11 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:(?:very|really|so) )?(?:nice|lovely|good|great|perfect|ideal|wonderful)(?=[.!]|$)",
         r"\1there should be \2",
     ),
-    # "Put the egg in the bowl; nothing else should be in there"
-    (
-        rf"\b(only [^.;]*? (?:in|on|into|onto|inside) {NAMED}[^.,;]*?)[.;,]? "
-        rf"(?:{_nothing_else(_IN_THERE)}|{_PUT_NOTHING_ELSE})",
-        r"\1",
-    ),
     # What is there already may stay.
     (
         rf"\b(put|place|set|stand|lay) ({_SOME}) ((?:in|on|into|onto|inside) {_SOME})[.;,]? "
         rf"{_PUT_NOTHING_ELSE}",
         r"\1 \2 \3. do not put anything but \2 \3",
-    ),
-    (
-        rf"(^|[.;] |\bplease )(?:(?:put|place|set|stand|lay|leave|keep|{_WISHED}) ({_SOME})"
-        rf"|({_SOME}) (?:(?:should|must|is to|has to) (?:{_BE})|goes|belongs)) "
-        rf"(in|on|into|onto|inside) "
-        rf"(?P<place>{NAMED}(?: \w+){{0,2}}? (?P<noun>\w+)(?: of {_SOME})?)[.;,]? "
-        rf"{_nothing_else(_IN_THAT_ONE)}",
-        lambda said: (
-            f"{said[1]}only {said[2] or said[3]} should be {said[4].removesuffix('to')} {said[5]}"
-        ),
     ),
     # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
     (

@@ -16,10 +16,12 @@ from etot_cli.reasoning.language.words.lexicon import (
     word_set,
 )
 
-_NEW_LINE = Expression(
-    rf"(?<![,\n])(?<!\band)(?<!\bthen)(?<!\bto)\s*\n\s*(?=[A-Z]|(?:{'|'.join(VERB_WORDS)})\b)"
-)
+_LINE = r"(?<![,\n])(?<!\band)(?<!\bthen)(?<!\bto)\s*\n\s*"
+_NEW_LINE = Expression(rf"{_LINE}(?=[A-Z]|(?:{'|'.join(VERB_WORDS)})\b)")
 """Where a new line is a new sentence; elsewhere it is but wrapped."""
+_TERSE_LINE = Expression(_LINE)
+"""The same in a text without any article, which is no prose."""
+_ARTICLE = Expression(r"\b(?:the|an?|my|your|this|that|these|those|it|them)\b", re.IGNORECASE)
 _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
     r"(?: the following| these)? ?(?:steps)?:\s*)?"
@@ -61,7 +63,8 @@ _COUNTED_OFF = Expression(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
     text = _UH.sub(_without_uh, text)
-    text = _listed(_NEW_LINE.sub("\n ", text).casefold().strip())
+    line = _NEW_LINE if _ARTICLE.search(text) else _TERSE_LINE
+    text = _listed(line.sub("\n ", text).casefold().strip())
     text = _WELL.sub(r"\1", _RIGHT.sub(r"\1", text))
     text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))

@@ -8,6 +8,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
     at_end,
     either,
     optional,
@@ -26,6 +28,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     NOUN_WORD,
     OPTIONAL_DETERMINER,
     WORDS,
+    ahead,
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.phrases.comparing import NEAREST_TO, ONE_COMPARED
@@ -141,6 +144,14 @@ def _all_of_them(words: tuple[str, ...], modifiers: Any, said: str) -> NounPhras
 _OF_THEM = sequence(COMMA, phrase("all, both, each, every one"), "of them", either(COMMA, at_end))
 _LEVEL_OF_IT = sequence(LEVEL, either(COMMA, at_end))
 """Behind a comma ("the chest, upper drawer")."""
+_INTO = ("open", "close", "shut", "in", "into", "inside")
+_LEVEL_ALONE = sequence(
+    Parser(lambda given, at: [(at, NOTHING)] if at and given.words[at - 1] in _INTO else []),
+    word(lambda given, text: text in LEVELS),
+    ahead("~comma", "and", "then", ""),
+    build=lambda level: NounPhrase("the", (level,)),
+)
+"""A drawer or board by its level alone ("open upper, pen into upper")."""
 _OR_OTHER = some(sequence(small_words.OR, DESCRIPTIVE), least=1, most=3)
 NAMED = spanned(
     either(
@@ -261,6 +272,7 @@ NAMED = spanned(
             build=lambda side, count: NounPhrase(f"the {count}", (side, "ones")),
         ),
         sequence(DETERMINER, MODIFIERS, build=_nounless),
+        _LEVEL_ALONE,
         sequence(
             OPTIONAL_DETERMINER,
             WORDS,

@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     optional,
     separated,
     sequence,
+    silent,
     some,
     valued,
 )
@@ -44,7 +45,11 @@ _FIRST_OF_THEM = either(
     sequence(manner.STARTING_WITH, noun_phrase, build=lambda np: (np,)),
 )
 _LAST_OF_THEM = sequence(
-    separated(noun_phrase, LIST, most=2), optional(small_words.COMES), "last", build=_named_ones
+    silent(optional("taking, moving, putting")),
+    separated(noun_phrase, LIST, most=2),
+    optional(small_words.COMES),
+    "last",
+    build=_named_ones,
 )
 SWEEP = one_of(manner.SWEEPS)
 _THEN = either(LIST, sequence(OPTIONAL_COMMA, THEN))

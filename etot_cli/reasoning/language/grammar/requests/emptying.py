@@ -18,9 +18,11 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
     variants,
 )
+from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -71,6 +73,12 @@ def emptied(
     # "Empty the box on the right" rather says which box.
     which = all(item.toward is Toward.BESIDE and not item.beside[0].phrases for item in where)
     return replace(put_to(contents, where), far_fetched=2 * which)
+
+
+def _emptied_in_turn(things: Things, where: Any, turn: Any) -> Clause | None:
+    """What takes all out of things, some of it first or last."""
+    clause, turns = emptied(things, where), turns_of((turn,))
+    return replace(clause, turns=turns) if turns and isinstance(clause, PutClause) else None
 
 
 ANYTHING = Things((NounPhrase(words=("anything",), text="anything"),))
@@ -226,6 +234,15 @@ EMPTY = either(
         THINGS,
         optional(DESTINATIONS, None),
         build=emptied,
+    ),
+    sequence(
+        # "Empty the basket into the box, the pear last"
+        f"empty[ing] [out], unload[ing], {verbs.CLEAR}",
+        THINGS,
+        DESTINATIONS,
+        OPTIONAL_COMMA,
+        TURN,
+        build=_emptied_in_turn,
     ),
     sequence(
         either(verbs.BRING, verbs.REMOVE),

@@ -7,6 +7,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
     either,
     optional,
     phrase,
@@ -19,8 +21,10 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     EMPTY_WORDS,
     LIST,
     OPTIONAL_COMMA,
+    ahead,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD
 from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
@@ -63,7 +67,16 @@ def _whatever_opened(text: str) -> MoveClause:
     return MoveClause(things, opens=False, whatever_opened=True)
 
 
+_AHEAD = ((), (COMMA,), ("and",), ("then",), ("please",))
+_CLOSE_IT = sequence(
+    # "Open the drawer, put the pen in, close"
+    Parser(lambda given, at: [(at, NOTHING)] if given.words[:at][-1:] in _AHEAD else []),
+    "close [again], shut [again]",
+    ahead(COMMA, "and", "then", NO_WORD),
+    build=lambda: MoveClause(Things((NounPhrase(pronoun="it", text="it"),)), opens=False),
+)
 _PLAIN_MOVE = either(
+    _CLOSE_IT,
     sequence(
         verbs.CLOSE,
         optional("again"),

@@ -224,7 +224,15 @@ PUT = either(
         build=lambda where: put_to(Things((NounPhrase(pronoun=UNSAID, text="it"),)), (where,)),
     ),
     sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
-    sequence(verbs.DISTRIBUTE, THINGS, places.AMONG, NP_LIST, EXTRAS, build=_spread),
+    sequence(
+        verbs.DISTRIBUTE,
+        THINGS,
+        silent(optional("out, up")),
+        places.AMONG,
+        NP_LIST,
+        EXTRAS,
+        build=_spread,
+    ),
     sequence(
         # "Put the cups in the box and the bin, in any combination"
         f"{verbs.SET}, {verbs.FETCH}",
@@ -249,7 +257,13 @@ PUT = either(
         EXTRAS,
         build=_got,
     ),
-    sequence(forbidden.DO_NOT, verbs.PUT, THINGS, INSTEAD, build=put_to),
+    sequence(
+        either(sequence(forbidden.DO_NOT, verbs.PUT), predicates.NOT_WANTED),
+        THINGS,
+        INSTEAD,
+        build=put_to,
+    ),
+    sequence(ALL_THINGS, predicates.NOT_BE, INSTEAD, build=put_to),
     sequence(verbs.PUT, RESPECTIVE_GROUPS, build=PutClause),
     CARRIED,  # last: of readings alike, the one before it tells how words were taken
 )

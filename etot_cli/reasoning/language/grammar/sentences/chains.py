@@ -5,6 +5,7 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.conditions.left_alone import UNTOUCHED
+from etot_cli.reasoning.language.grammar.conditions.prohibitions import NOTHING_ELSE, NOTHING_MORE
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,
     Parser,
@@ -14,12 +15,14 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     remembered,
     sequence,
+    silent,
     some,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
     EMPTY_WORDS,
     LIST,
+    LIST_COMMA,
     OPTIONAL_COMMA,
     after,
 )
@@ -146,6 +149,11 @@ WITH_MORE_SO = either(
     ),
 )
 """How other things are to be besides ("…, with the door closed")."""
+IN_BETWEEN = plain(
+    sequence(THINGS, silent(optional(small_words.COMES)), "in between", build=_once_more),
+    Order.BETWEEN,
+)
+"""Things that come behind what comes first, and before what comes last."""
 ONCE_MORE = plain(sequence(THINGS, build=_once_more))
 """Things of which the same is asked for as before."""
 _ONCE_MORE_OR_NARRATED = either(ONCE_MORE, plain(NARRATED))
@@ -182,6 +190,7 @@ JOINED = either(
     joint("and", OPTIONAL_COMMA, "and (also|likewise)", plain(sequence(THINGS, build=_also))),
     joint("and", OPTIONAL_COMMA, "and", OPTIONAL_COMMA, plain(PLACE_AHEAD)),
     # "Empty the box and the bag into the bin" empties both
+    joint("turned", LIST_COMMA, PLACED),
     joint("emptied", COMMA, optional(small_words.AND), PLACED),
     joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
@@ -212,6 +221,9 @@ JOINED = either(
         "so that", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))
     ),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(either(IS_EMPTY, STAYING_UPRIGHT))),
+    joint("and", OPTIONAL_COMMA, optional(small_words.SO_THAT), plain(NOTHING_ELSE)),
+    joint("and", OPTIONAL_COMMA, optional("and, but"), plain(NOTHING_MORE)),
+    joint("and", OPTIONAL_COMMA, optional("and, with"), IN_BETWEEN),
     joint("and", COMMA, timed(_SO)),
     joint("and", COMMA, WHICH_IS_MOVED),
     joint("which", COMMA, WHICH_GOES_ON),

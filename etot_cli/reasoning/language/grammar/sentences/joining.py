@@ -164,6 +164,13 @@ def _into_what_is_closed(before: Clause, clause: Clause) -> Clause:
     return before
 
 
+def _is_terse(before: Clause, clause: Clause) -> bool:
+    """Whether what goes somewhere behind what is opened has no article ("open box, pen in box")."""
+    groups = clause.groups if isinstance(clause, PutClause) else ()
+    phrases = [np for group in groups for np in group.things.phrases]
+    return isinstance(before, MoveClause) and all(not np.determiner for np in phrases)
+
+
 def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
@@ -181,6 +188,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
         put = None if isinstance(clause[0].clause, RemoveClause) else put
         if isinstance(put, PutClause) and not any(sources(item.things) for item in put.groups):
             return None  # several things with their places are one clause
+        if said == "turned" and not _is_terse(done[-1].clause, clause[0].clause):
+            return None  # "open the drawer, the box in the cupboard" opens both
         if said == "emptied" and not is_emptying(done[-1].clause):
             return None  # behind another verb that may be said of this, too
         if said.startswith("passive") and not goes_on(done[-1].clause, clause[0].clause):

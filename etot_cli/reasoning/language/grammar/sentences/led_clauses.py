@@ -62,6 +62,7 @@ ORDER_WORDS = sequence(
         {
             Order.FIRST: small_words.LEADING_FIRST,
             Order.BEFORE_THAT: small_words.LEADING_BEFORE,
+            Order.BETWEEN: small_words.LEADING_BETWEEN,
             Order.LAST: small_words.LEADING_LAST,
             Order.THEN: small_words.LEADING_THEN,
         }

@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.sentences.chains import (
     CHAIN,
     ENDING_WITH,
     GOES_ON,
+    IN_BETWEEN,
     JOINED,
     ONCE_MORE,
 )
@@ -102,6 +103,7 @@ SENTENCE = either(
             build=lambda where: AgainClause(None, trailing=True, destinations=where),
         )
     ),
+    IN_BETWEEN,
     sequence(
         optional("but"),
         one_of(

@@ -19,6 +19,8 @@ class Order(StrEnum):
     """After what was said before, in so many words."""
     FIRST = "first"
     BEFORE_THAT = "before that"
+    BETWEEN = "between"
+    """Behind what was said first of the two before it, and before the other one."""
     LAST = "last"
 
 

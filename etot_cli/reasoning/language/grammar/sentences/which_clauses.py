@@ -44,6 +44,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.words import predicates, small_words, verbs
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.places import Prep
 
 WHICH = NounPhrase(pronoun="it", text="which")
 """What was named last; "open" and "close" are only said of what can be."""
@@ -266,6 +267,17 @@ def held_by(before: Clause, clause: Clause) -> Clause | None:
     return named_last(before, clause) if where.targets and not where.denied else None
 
 
+def _is_left_out_behind(things: Things) -> bool:
+    """Whether what is left out is named last ("in the box, but not the cup, which …")."""
+    return any(
+        np.text not in phrase.text
+        for phrase in things.phrases
+        for item in phrase.modifiers
+        if item.prep in (Prep.EXCEPT, Prep.CONTRAST)
+        for np in item.phrases
+    )
+
+
 def named_last(before: Clause, clause: Clause) -> Clause | None:
     """What goes on, with a name for "which": what stands last in the clause before it; None where
     that may be several things, or another one of its kind.
@@ -274,7 +286,7 @@ def named_last(before: Clause, clause: Clause) -> Clause | None:
         case PutClause(groups=(group,)) if len(group.destinations) == 1:
             (where,) = group.destinations
             nps = where.targets or group.things.phrases
-            if where.beside:
+            if where.beside or _is_left_out_behind(group.things):
                 return None
         case PickClause(things=Things(phrases=nps)) | RemoveClause(things=Things(phrases=nps)):
             if isinstance(before, RemoveClause) and before.source is not None:

@@ -57,6 +57,7 @@ _MARK = Expression(
 )
 _ALL_OF_IT = Expression(r"\b(?:never mind|forget|scratch that|on second thoughts?)\b")
 """What takes back a whole clause, whatever comes in its place."""
+_SWAPPED = ("the other way around", "the other way round", "vice versa", "the reverse")
 MOST_WAYS = 5
 """Phrases that may be taken back at once; of more nobody knows which one is."""
 _TOKEN = re.compile(r"\d+\.\d+|[^\s,.!?;]+|[,.!?;\n]")
@@ -111,6 +112,11 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     sentence = after[:stop]
     everything = bool(_ALL_OF_IT.search(mark[0]))
     whole = not start and (everything or "instead" in sentence)
+    if " ".join(said) in _SWAPPED:
+        for exchanged in _exchanged(tail):
+            text = _joined(*before[:start], *exchanged, *rest)
+            yield TakenBack(" ".join(tail), " ".join(exchanged), text)
+        return
     spans = list(_spans(tail, said, sentence, everything=everything, whole=whole))
     if said[-1] in ("one", "ones") and any(map(is_descriptive, said)):
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
@@ -128,8 +134,26 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         if new[-1] == "it" and new[0] in _BEFORE_PLACES:  # "on the tray, no, next to it"
             new = (*new[:-1], *taken[mark_at:])
         for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
-            words = " ".join((*before[:start], *tail[:first], *new, *kept, *more))
-            yield TakenBack(" ".join(taken), " ".join(new), re.sub(r" (?=[,.!?;])", "", words))
+            words = _joined(*before[:start], *tail[:first], *new, *kept, *more)
+            yield TakenBack(" ".join(taken), " ".join(new), words)
+
+
+def _joined(*words: str) -> str:
+    """Words and marks as text."""
+    return re.sub(r" (?=[,.!?;])", "", " ".join(words))
+
+
+def _exchanged(tail: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """A request for two things that go to two places, each to the other one's place."""
+    joints = [at for at, word in enumerate(tail) if word in _JOINTS]
+    begin = next((at for at, word in enumerate(tail) if word in _BEFORE_THINGS), len(tail))
+    where = [at for at, word in enumerate(tail) if at > begin and word in _BEFORE_PLACES]
+    if len(joints) != 1 or len(where) != 2 or tail[joints[0]] != "and":
+        return
+    (joint,), (first, second) = joints, where
+    if begin and first < joint < second and tail[joint + 1] in _BEFORE_THINGS:
+        one, other = tail[begin:first], tail[joint + 1 : second]
+        yield (*tail[:begin], *other, *tail[first : joint + 1], *one, *tail[second:])
 
 
 def _also_told(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
@@ -186,7 +210,11 @@ def _spans(
             if tail[at - 1] not in _BEFORE_PLACES and at > max(joints, default=0)
         )
     elif begin in _BEFORE_THINGS and _BEFORE_PLACES & {*said}:
-        yield from ((at, size) for at in things if not joints)
+        named = said[: min(at for at, word in enumerate(said) if word in _BEFORE_PLACES)]
+        again = [at for at in things if tail[at : at + len(named)] == named]
+        for at in again if joints else things:
+            # "The pen in the cup and the nut in the box, or rather, the nut in the tray"
+            yield (at, min((end for end in joints if end > at), default=size))
     elif begin in _BEFORE_THINGS:
         for at in things:
             yield (at, min((end for end in (*where, *joints, *goes) if end > at), default=size))

@@ -135,6 +135,22 @@ def open_by_now(thing: Thing, discourse: Discourse) -> bool:
     )
 
 
+def is_shut_away(referent: int, discourse: Discourse) -> bool:
+    """Whether something is in what has been closed since it was put there, so that nothing can be
+    put onto it.
+    """
+    places = discourse.placed.get(discourse.things(referent)[0], ())
+    around = {
+        Thing(part.owner, part.name)
+        for place in places
+        if place is not None and place.relation is Relation.INSIDE and place.where is not None
+        for at in discourse.things(place.where)
+        for part in parts_of(discourse.scene, at)
+    }
+    shut = all(discourse.turned.get(part) is False for part in around)
+    return len(places) == 1 and bool(around) and shut
+
+
 def is_off(thing: Thing, discourse: Discourse) -> bool:
     """Whether a thing has been taken from somewhere and waits on the desk."""
     places = discourse.placed.get(thing, (None,))

@@ -13,7 +13,7 @@ from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.grammar.syntax.phrases import Toward
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
-from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, same_noun
+from etot_cli.reasoning.language.words.lexicon import LEVELS, THING_NOUNS, matches_any, same_noun
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
@@ -275,9 +275,10 @@ class Discourse:
 
     def _lends_noun(self, mention: Mention) -> bool:
         """Whether "one" may stand for a noun: not for the desk, nor for what a thing is but told
-        by ("the drawer is occupied": by an object).
+        by ("the drawer is occupied": by an object); "the lower" has none.
         """
         telling = mention.role is Role.ANY and matches_any(mention.noun, THING_NOUNS)
+        telling |= mention.noun in LEVELS
         return not (telling or self.is_desk(mention.referent))
 
     def is_desk(self, referent: int) -> bool:

@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Towa
 from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.geometry.vessels import bears, lies_on
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.by_now import is_shut_away
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.pronouns.coreference import latest_place
@@ -84,7 +85,7 @@ def upon_it(discourse: Discourse, text: str, index: int, themes: Sequence[int]) 
     """
     laid = discourse.things(*themes)
     put_there = (i for i, around in discourse.put_into.items() if around == index)
-    inner = [i for i in put_there if i not in themes]
+    inner = [i for i in put_there if i not in themes and not is_shut_away(i, discourse)]
     around = [discourse.scene.infos.get(thing.name) for thing in discourse.things(index)]
     closed = all(info is not None and info.parts for info in around)
     upon = [i for i in inner if closed and bears(discourse.things(i), laid, discourse.scene)]

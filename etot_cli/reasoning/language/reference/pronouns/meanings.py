@@ -34,6 +34,7 @@ from etot_cli.reasoning.language.reference.pronouns.narrowing import (
 )
 from etot_cli.reasoning.language.words.lexicon import (
     COMMON_NOUNS,
+    LEVELS,
     LIDS,
     ORDINALS,
     THING_NOUNS,
@@ -100,7 +101,14 @@ class Meanings(LentNouns):
             # After "the red_paint", which is one word here, "the blue one" is paint.
             with suppress(ReferenceProblem):
                 return self._meaning(phrase, role, head_of(noun))
-        return self._meaning(phrase, role, noun)
+        with suppress(ReferenceProblem):
+            return self._meaning(phrase, role, noun)
+        # "Open the upper drawer, take the pearl out and put it in the lower": no pearl
+        alone = len(plain.words) == 1 and plain.words[0] in LEVELS and not plain.modifiers
+        spoken = (self.discourse.things(mention.referent) for mention in self.discourse.mentions)
+        opened = any(thing.part for things in spoken for thing in things)
+        opened |= phrase.text in phrase.words
+        return self._meaning(phrase, role, None if alone and opened else noun)
 
     def _meaning(self, phrase: NounPhrase, role: Role, noun_before: str | None) -> Resolved:
         discourse = self.discourse

@@ -8,10 +8,11 @@ from contextlib import suppress
 from msgspec import Struct
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.reference.choosing.modified import names_of_things
 from etot_cli.reasoning.language.reference.geometry.space import is_flat
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.by_now import is_shut_away
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.spoken_of import (
     TARGETS,
@@ -72,12 +73,17 @@ def meant_by_it(
     """
     if role in TARGETS:
         excluded = (*excluded, *discourse.replaced)
+        if role is Role.SURFACE:
+            spoken = dict.fromkeys(mention.referent for mention in discourse.mentions)
+            excluded = (*excluded, *(i for i in spoken if is_shut_away(i, discourse)))
         # "Close the box after putting the cup beside the tray in it": not in the tray.
         told_by = {*telling(discourse)} - {*excluded}
         if told_by:
             with suppress(ReferenceProblem):
                 excluded_too = (*excluded, *told_by)
                 return meant_by_it(discourse, role, text, excluded_too, topmost=topmost)
+    if text == "which" and (spared := _named_out_last(discourse, role)) is not None:
+        return spared
     for clause in clauses_of(discourse):
         if clause in discourse.stacks and role in (Role.SURFACE, Role.PLACE):
             return discourse.stacks[clause][1]
@@ -251,6 +257,14 @@ def _left_out(discourse: Discourse, clause: int) -> tuple[Thing, ...]:
     """What a clause has left out of several things."""
     said = (m.referent for m in discourse.mentions if m.clause == clause and m.role is Role.THEME)
     return tuple(dict.fromkeys(t for index in said for t in discourse.left_out.get(index, ())))
+
+
+def _named_out_last(discourse: Discourse, role: Role) -> int | None:
+    """Of "a drawer other than the top one, which …" the one named last, which is left out."""
+    last = discourse.mentions[-1].referent if discourse.mentions else -1
+    out = discourse.left_out.get(last, ())
+    one = out[0] if len(out) == 1 and can_be(out[0], role, discourse.scene) else None
+    return None if one is None else discourse.alone(one, role)
 
 
 def telling(discourse: Discourse) -> Iterator[int]:
