@@ -290,7 +290,14 @@ _COLOR_SYNONYMS = {
     "teal": "green",
 }  # fmt: skip
 _IRREGULAR = {
-    "shelves": "shelf", "knives": "knife", "loaves": "loaf", "boxes": "box",
+    "shelves": "shelf", "knives": "knife", "loaves": "loaf", "boxes": "box", "leaves": "leaf",
+    "scarves": "scarf", "halves": "half", "wolves": "wolf", "calves": "calf", "elves": "elf",
+    "hooves": "hoof", "dice": "die", "mice": "mouse", "geese": "goose", "teeth": "tooth",
+    "feet": "foot", "children": "child", "oxen": "ox", "cacti": "cactus", "fungi": "fungus",
+    "buses": "bus", "gases": "gas", "heroes": "hero", "quizzes": "quiz",
+    **{f"{who}men": f"{who}man" for who in (
+        "", "wo", "fire", "police", "snow", "post", "space", "milk", "sports",
+    )},
     "canvases": "canvas", "canvas": "canvas", "lenses": "lens", "lens": "lens",
     "cds": "cd", "tvs": "tv",
     **{f"{word}s": word for word in (
