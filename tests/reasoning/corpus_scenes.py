@@ -1968,3 +1968,20 @@ def gallery() -> SceneState:
         item("tray", "box", (0.50, -0.10), size=(0.25, 0.18, 0.02), color="black"),
         cabinet("cabinet", (0.65, 0.45), 0.0, color="white"),
     )
+
+
+def game_shelf() -> SceneState:
+    """Two dice, two toy mice, three wooden men, a dice cup, a box lid."""
+    cube = (0.02, 0.02, 0.02)
+    man = (0.02, 0.02, 0.05)
+    return scene(
+        item("red_die", "box", (0.30, 0.20), size=cube, label="die", color="red"),
+        item("white_die", "box", (0.34, 0.20), size=cube, label="die", color="white"),
+        item("gray_mouse", "capsule", (0.30, 0.00), size=(0.06, 0.03, 0.03), label="toy mouse"),
+        item("brown_mouse", "capsule", (0.36, 0.00), size=(0.06, 0.03, 0.03), label="toy mouse"),
+        item("man_1", "cylinder", (0.30, -0.20), size=man, label="wooden man", color="blue"),
+        item("man_2", "cylinder", (0.36, -0.20), size=man, label="wooden man", color="green"),
+        item("man_3", "cylinder", (0.42, -0.20), size=man, label="wooden man", color="yellow"),
+        cup("dice_cup", (0.50, 0.10), label="dice cup", color="black"),
+        item("lid", "box", (0.50, -0.10), size=(0.20, 0.20, 0.02), label="box lid", color="brown"),
+    )
