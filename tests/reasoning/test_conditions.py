@@ -597,3 +597,31 @@ def test_what_is_to_leave_the_desk_goes_where_a_person_would_put_it() -> None:
     assert places == ["bowl", "scale", "mat", "lid", "nut", "pot"]
     wide = {"not": {"on": ["mat", "desk"]}}
     assert plans(state, wide)[0] == "[PICK UP, mat] [PUT ON, scale]"
+
+
+def test_a_place_that_another_condition_denies_is_not_chosen() -> None:
+    state = scenes.scene(
+        scenes.item("die", at=(0.3, 0.0), size=(0.03, 0.03, 0.03)),
+        scenes.cup("pot", (0.5, -0.1)),
+        scenes.cup("bowl", (0.5, -0.3)),
+    )
+    either = {"any": [{"inside": ["die", "pot"]}, {"inside": ["die", "bowl"]}]}
+    out = {"not": {"inside": ["die", "pot"]}}
+    assert plans(state, either, out) == ["[PICK UP, die] [PUT INTO, bowl]"]
+    assert plans(state, {"not": {"on": ["die", "desk"]}}, out) == [
+        "[PICK UP, die] [PUT INTO, bowl]"
+    ]
+    with pytest.raises(UnsatisfiableError, match="it is to be at pot and not to be there"):
+        plans(state, {"inside": ["die", "pot"]}, out)
+
+
+def test_what_has_to_leave_its_place_does_not_keep_off_the_desk_by_staying() -> None:
+    state = scenes.scene(
+        scenes.cup("pot", (0.5, -0.1)),
+        scenes.item("die", at=(0.5, -0.1), size=(0.03, 0.03, 0.03), on="pot", inside="pot"),
+        scenes.cup("bowl", (0.5, -0.3)),
+    )
+    out = {"not": {"inside": ["die", "pot"]}}
+    assert plans(state, out, {"not": {"on": ["die", "desk"]}}) == [
+        "[PICK UP, die] [PUT INTO, bowl]"
+    ]

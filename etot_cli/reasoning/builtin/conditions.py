@@ -39,7 +39,8 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
         InstructionError: a name is unknown, or no skill can make the conditions true.
         UnsatisfiableError: they contradict each other.
     """
-    alternatives = _conjunctions([_alternatives(item, scene, denied=False) for item in conditions])
+    options = [_alternatives(item, scene, denied=False) for item in conditions]
+    alternatives = _conjunctions(_allowed(options, scene))
     fastened = {name for name, info in scene.infos.items() if not info.movable}
     goals: list[Goal] = []
     objection: InstructionError | None = None
@@ -62,6 +63,29 @@ def goals_of(conditions: Sequence[Condition], scene: SceneState) -> tuple[Goal, 
     if not goals:
         raise objection or InstructionError("goal: no condition is given")
     return tuple(goals)
+
+
+def _allowed(
+    options: Sequence[list[tuple[Atom, ...]]], scene: SceneState
+) -> list[list[tuple[Atom, ...]]]:
+    """The options of conditions, without those that another condition denies in any case: combined
+    with others each of them would only be found out by carrying it out. What has to leave where it
+    is does not keep off the desk by staying there.
+    """
+    certain = [ways[0] for ways in options if len(ways) == 1]
+    denied = {replace(atom, denied=False) for atoms in certain for atom in atoms if atom.denied}
+    leaving = {
+        atom.names[0]
+        for atom in denied
+        for key, relation in (("on", Relation.ON), ("inside", Relation.INSIDE))
+        if atom.key == key and atom.names[0] in scene.states
+        if is_at(scene, atom.names[0], relation, atom.names[1])
+    }
+    staying = {(Atom("on", (name, DESK), denied=True),) for name in leaving}
+    return [
+        [atoms for atoms in ways if denied.isdisjoint(atoms) and atoms not in staying] or ways
+        for ways in options
+    ]
 
 
 def _brought(atoms: Iterable[Atom], *keys: str) -> frozenset[str]:
@@ -112,6 +136,8 @@ def _without_implied(atoms: Sequence[Atom], scene: SceneState) -> list[Atom]:
     held = {atom.names[0] for atom in atoms if atom.key == "in_hand" and not atom.denied}
     for atom in (atom for atom in atoms if atom.denied and atom.key in ("on", "inside")):
         name = atom.names[0]
+        if any(a.key == atom.key and a.names == atom.names for a in places.get(name, ())):
+            raise contradiction(name, f"it is to be at {atom.names[1]} and not to be there")
         goes = name in places or any(owner_of(at) in places for at in _around(name, {}, scene))
         if name in held or (goes and not _ends_up_at(atom, places, scene)):
             implied.append(atom)
