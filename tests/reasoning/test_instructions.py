@@ -220,7 +220,7 @@ REFUSED: dict[str, dict[str, str]] = {
         "Juggle the apples": "juggle the apples",
         "Do not put the apple in the bowl": "not what to do",
         "Put the red apple in the left bowl without delay": "delay",
-        "If the drawer is open, put the bottle in it": "if the drawer",
+        "If the drawer is open, put the bottle in it": "the drawer is open",
         "Put the bottle next to": "something is missing",
         "Put the big bowl upside down on the plate": "upside",
         "Put the apple quickly into the bowl": "quickly",

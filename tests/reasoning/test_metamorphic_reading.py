@@ -78,7 +78,7 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
         return  # "all cups, the not red cup too" are all of them
     if re.search(r"\b(can|may|could) (be|stay|remain)$", " ".join(words[:where])):
         return  # what may stay open and what may stay not open ask for nothing
-    if word == "without" and words[where : where + 1] == ["one."]:
+    if word == "without" and [w.strip(".,;") for w in words[where : where + 1]] == ["one"]:
         return  # "the blue without one" is the one that has none of them
     called = {w for info in SCENES[name].infos.values() for w in info.label.split()}
     of_a_noun = words[max(where - 2, 0)].lower() == "the" and where < len(words)
@@ -96,7 +96,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
         r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
     )
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
-    framed += r"which |when i |end with |as for |with |now |"
+    framed += r"which |when i |end with |as for |with |now |on the |if |unless |"
     framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |"
     framed += r"(\w+ ){0,4}\w+: |right, |\w+, \w+\. |for each |whatever )"
     if re.match(framed, text):

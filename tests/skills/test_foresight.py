@@ -67,7 +67,7 @@ def test_a_lid_goes_back_on_a_tin_before_a_carcass(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("at", [[0.40, -0.22], [0.36, -0.10], [0.38, 0.15], [0.42, 0.0]])
+@pytest.mark.parametrize("at", [[0.40, -0.22], [0.38, 0.15], [0.42, 0.0], [0.36, 0.0]])
 def test_what_is_set_down_for_a_level_hand_is_where_one_gets_at_it(at: list[float]) -> None:
     book = {"kind": "box", "at": at, "size": [0.18, 0.075, 0.02], "mass": 0.2}
     run = episode(shelf=shelf(0.22, 0.62), book=book)

@@ -25,8 +25,8 @@ PLANS = {
         "[CLOSE, chest]", "[CLOSE, locker]",
     ],
     "drawer_to_rack": [
-        "[OPEN, chest]", "[PICK UP, tin]", "[PUT ON, *]", "[PICK UP, tin] (horizontal)",
-        "[PUT ON, rack.low]", "[CLOSE, chest]",
+        "[OPEN, chest]", "[PICK UP, tin] (to put on rack.low)", "[PUT ON, rack.low]",
+        "[CLOSE, chest]",
     ],
     "marker_and_mugs": ["[PICK UP, marker]", "[PUT INTO, pink_mug]"],
     "mugs_in_cupboard": [

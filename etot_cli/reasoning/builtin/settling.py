@@ -25,6 +25,10 @@ from etot_cli.world.state import DESK, SceneState
 _ON_THE_DESK = Referent(((Thing(DESK),),), text=DESK)
 
 
+LONG = 1.5
+"""What is so many times longer than wide is turned to go through a mouth: bottles and pens are."""
+
+
 def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
     """A goal whose steps can be carried out one after the other.
 
@@ -90,8 +94,8 @@ def _check_turned(goal: Goal, steps: Sequence[Step], referent: int, scene: Scene
         for step in said
         for place in (step.places if isinstance(step, Put) else ())
     )
-    infos = [scene.infos[t.name] for t in things_in(goal.referents[referent].options)]
-    if not (inserted and all(info.elongated for info in infos)):
+    sizes = [sorted(scene.infos[t.name].size) for t in things_in(goal.referents[referent].options)]
+    if not (inserted and all(longest >= LONG * wide for _, wide, longest in sizes)):
         raise ReferenceProblem(text, "how it is to be turned cannot be asked for", 3)
 
 

@@ -46,6 +46,8 @@ def placements(
     stamps: Stamps | None = None,
     *,
     closely: int | None = None,
+    apart: float = APART,
+    most: int = MAX_FOUND,
 ) -> Iterator[Placement]:
     """Prepared placements, the best first; worked out as they are asked for.
 
@@ -56,6 +58,8 @@ def placements(
         stamps: undersides known from looking at the same floor before. Whoever has them looks
             again, and more briefly.
         closely: look at so many places, none left out between others.
+        apart: how far apart those are that are offered [m].
+        most: how many are offered.
     """
     finder = PlaceFinder(belief, request, stamps)
     tries = MAX_TRIES if stamps is None else TRIES_AGAIN
@@ -83,9 +87,9 @@ def placements(
         if placement is not None:
             yield placement
             found += 1
-            if found == MAX_FOUND:
+            if found == most:
                 return
-            dealt.add(position[:2], None, APART)
+            dealt.add(position[:2], None, apart)
         elif reached:
             tally.obstructed += 1
             dealt.add(position[:2], rotation, SAME_PLACE)

@@ -11,7 +11,7 @@ from etot_cli.skills.action import Action, Verb
 from etot_cli.skills.belief import Belief
 from etot_cli.skills.outcome import SkillOutcome, failed
 from etot_cli.skills.placements.judging import Preference, Request
-from etot_cli.skills.placements.looking import placements
+from etot_cli.skills.placements.looking import SPREAD, placements
 from etot_cli.skills.placements.orientation import points_down
 from etot_cli.skills.placements.overhang import from_open_side
 from etot_cli.skills.placements.placement import Placement, Tally
@@ -29,6 +29,10 @@ from etot_cli.world.spatial import Nearby
 from etot_cli.world.stance import NO_SIDE, can_lie
 from etot_cli.world.state import CauseKind
 
+MAX_RETAKEN = 16
+"""Placements that are offered for what is to be taken in another way next: from six starts right in
+front of the robot the 8th to 14th was the first where a level hand got at a book."""
+
 
 def put_places(
     belief: Belief, action: Action, name: str, rehearsed: Pose | None = None
@@ -43,7 +47,11 @@ def put_places(
         return
     tally = Tally(belief.world)
     found = False
-    for placement in placements(belief, request, tally):
+    found_by = placements(belief, request, tally)
+    if action.pose is not None:
+        # Where it is not taken as it is to be next, it is not right beside that either.
+        found_by = placements(belief, request, tally, apart=SPREAD, most=MAX_RETAKEN)
+    for placement in found_by:
         found = True
         yield placement
     if not found:
