@@ -20,13 +20,14 @@ from etot_cli.reasoning.builtin.goal import (
 )
 from etot_cli.reasoning.builtin.relations import bearers, is_on
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.world.state import DESK, SceneState
+from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 _ON_THE_DESK = Referent(((Thing(DESK),),), text=DESK)
 
 
 LONG = 2.5
-"""What is so many times longer than wide is turned to go through a mouth: bottles and pens, no vases."""
+"""What is so many times longer than wide, and no vessel, is turned to go through a mouth: bottles
+and pens are."""
 
 
 def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
@@ -94,9 +95,14 @@ def _check_turned(goal: Goal, steps: Sequence[Step], referent: int, scene: Scene
         for step in said
         for place in (step.places if isinstance(step, Put) else ())
     )
-    sizes = [sorted(scene.infos[t.name].size) for t in things_in(goal.referents[referent].options)]
-    if not (inserted and all(longest >= LONG * wide for _, wide, longest in sizes)):
+    infos = [scene.infos[t.name] for t in things_in(goal.referents[referent].options)]
+    if not (inserted and all(map(_is_turned_to_fit, infos))):
         raise ReferenceProblem(text, "how it is to be turned cannot be asked for", 3)
+
+
+def _is_turned_to_fit(info: ObjectInfo) -> bool:
+    _, wide, longest = sorted(info.size)
+    return not info.container and longest >= LONG * wide
 
 
 def _must_be_out(goal: Goal, referent: int, later: Sequence[Step], scene: SceneState) -> bool:
