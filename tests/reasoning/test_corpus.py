@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 import statistics
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -15,16 +14,18 @@ import yaml
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
+from etot_cli.reasoning.builtin.goal import Goal
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.instructions import goal_of
 from etot_cli.skills.action import Verb
-from etot_cli.world.state import owner_of
+from etot_cli.world.state import SceneState, owner_of
 from tests.reasoning import corpus_scenes
 
 CORPUS: dict[str, dict[str, dict[str, str]]] = yaml.load(
     (Path(__file__).parent / "corpus.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader
 )
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
+LIMIT_S = 1.0
 
 
 def cases(kind: str) -> list[Any]:
@@ -35,18 +36,29 @@ def cases(kind: str) -> list[Any]:
     ]
 
 
-@contextmanager
-def in_time() -> Iterator[None]:
-    """What is read takes less than a second, ten times what an idle machine takes at most."""
-    start = time.process_time()
-    yield
-    assert time.process_time() - start < 1.0
+def told(text: str, scene: SceneState) -> Goal | InstructionError:
+    """What a sentence is read as, or why not, in less than a second, twice what an idle machine
+    takes at most; tried twice: a virtual machine that stands still is charged to whoever runs.
+    """
+    for _ in range(2):
+        start = time.process_time()
+        found = goal_or_refusal(text, scene)
+        if time.process_time() - start < LIMIT_S:
+            return found
+    pytest.fail(f"reading it takes longer than {LIMIT_S} s: {text}")
+
+
+def goal_or_refusal(text: str, scene: SceneState) -> Goal | InstructionError:
+    try:
+        return goal_of(text, scene)
+    except InstructionError as error:
+        return error
 
 
 @pytest.mark.parametrize(("name", "text", "wanted"), cases("read"))
 def test_read(name: str, text: str, wanted: str) -> None:
-    with in_time():
-        goal = goal_of(text, SCENES[name])
+    goal = told(text, SCENES[name])
+    assert isinstance(goal, Goal), goal
     assert " | ".join([formal(goal), *goal.notes]) == wanted
 
 
@@ -80,9 +92,9 @@ def test_no_rewording_asks_for_something_else(name: str, text: str) -> None:
 
 @pytest.mark.parametrize(("name", "text", "wanted"), cases("refused"))
 def test_refused(name: str, text: str, wanted: str) -> None:
-    with in_time(), pytest.raises(InstructionError) as raised:
-        goal_of(text, SCENES[name])
-    first, _, reworded, *_ = str(raised.value).splitlines()
+    refusal = told(text, SCENES[name])
+    assert isinstance(refusal, InstructionError), refusal
+    first, _, reworded, *_ = str(refusal).splitlines()
     for part in wanted.split(" | "):
         assert part in first
     head, _, instead = reworded.partition("read: ")

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import etot_cli.reasoning.language.instructions  # noqa: F401 - the whole grammar
+import etot_cli.reasoning.language.otherwise
+import etot_cli.reasoning.language.refusing  # noqa: F401
 from etot_cli.reasoning.language.words.expressions import Expression, _demanded
 
 PIECES = (

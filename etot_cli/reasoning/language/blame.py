@@ -23,8 +23,10 @@ from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import INTO, NEARBY, ONTO, OVER, TO
 from etot_cli.world.state import DESK
 
-MAX_WORK_TRIED = 5000
-"""Work of all ways to mend a sentence that are tried, each as dear as the sentence itself."""
+MAX_EFFORT_TRIED = 3000
+"""Of all ways to mend a sentence that are tried: a third of a second."""
+_TRY = 8
+"""What else a try takes, a millisecond."""
 _PLACE = ("on", "the", DESK)
 """Where anything can go in every scene."""
 _PLACE_COSTS = 2.5
@@ -41,12 +43,12 @@ _BEFORE_VERBS = _JOINTS | {"to", "not", "you", "please", "while", "by"}
 _MISSING = "something is missing, such as into or onto what"
 
 
-def blamed(error: UnreadableError, fits: Callable[[str], bool]) -> UnreadableError:
+def blamed(error: UnreadableError, vain: Callable[[str], int | None]) -> UnreadableError:
     """An error with the words to blame and a reason, where it has neither.
 
     Args:
         error: of an instruction that is not read.
-        fits: whether a text is read in the scene.
+        vain: what it took to read a text in the scene in vain; None where it is read.
     """
     if error.unread is None:
         return error
@@ -56,17 +58,18 @@ def blamed(error: UnreadableError, fits: Callable[[str], bool]) -> UnreadableErr
         words = words[:-1]
         if unread.reached >= len(words):
             return UnreadableError(shown(words), before, known.REASONS["what"])
+    spent = 0
     for start, end, place in _ways(words, unread):
         mended = (*words[:start], *place, *words[end:])
-        if fits(
-            _joined(
-                before,
-                " ".join(mended).replace(f" {COMMA}", ",").replace(f" {COLON}", ":").strip(" ,:"),
-            )
-        ):
+        text = " ".join(mended).replace(f" {COMMA}", ",").replace(f" {COLON}", ":").strip(" ,:")
+        effort = vain(_joined(before, text))
+        if effort is None:
             without = "" if place else spaced(mended).strip(" ,:")
             text, why = _reason(unread, words, start, end, replaced=bool(place))
             return UnreadableError(text, _joined(before, spaced(words[:start])), why, without)
+        spent += _TRY + effort
+        if spent > MAX_EFFORT_TRIED:
+            break
     return _unmended(unread, words, before)
 
 
@@ -90,8 +93,7 @@ def _ways(words: tuple[str, ...], unread: Input) -> Iterator[tuple[int, int, tup
         for at in range(2, many + 1)
         if at == many or (words[at] not in unread.nouns and _ends_phrase(words[at - 1]))
     ]
-    tried = MAX_WORK_TRIED // (unread.work + many)
-    for _, _, start, end, place in sorted([*ways, *places])[:tried]:
+    for _, _, start, end, place in sorted([*ways, *places]):
         yield start, end, place
 
 

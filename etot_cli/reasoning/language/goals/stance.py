@@ -9,9 +9,9 @@ from etot_cli.reasoning.builtin.goal import Constraint, Keep, Near, Pick, Place,
 from etot_cli.reasoning.builtin.relations import can_topple
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.asides.named_in_asides import ASIDE
 from etot_cli.reasoning.language.grammar.syntax.clauses import ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
+from etot_cli.reasoning.language.grammar.text.splitting import ASIDE
 from etot_cli.reasoning.language.reference.geometry.space import is_flat
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world import spatial

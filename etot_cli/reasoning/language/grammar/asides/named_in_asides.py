@@ -14,12 +14,11 @@ from etot_cli.reasoning.language.grammar.asides.told_of_things import (
     is_not_to_stay,
     is_told_apart_by,
 )
+from etot_cli.reasoning.language.grammar.text.splitting import ASIDE
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, JOINT_NOUNS, NUMBERS, singular
 
-ASIDE = "~aside"
-"""Stands behind what a remark names, in its place."""
 _PARTS = frozenset(noun for nouns in JOINT_NOUNS.values() for noun in nouns)
 _LIKED = [["favourite"], ["favorite"], ["best"]]
 _IS_ONE = Expression(

@@ -6,7 +6,6 @@ from functools import partial
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.language.grammar.asides.named_in_asides import ASIDE
 from etot_cli.reasoning.language.grammar.conditions.occupied import ALREADY
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
@@ -25,6 +24,7 @@ from etot_cli.reasoning.language.grammar.sentences.hindrances import HINDRANCE, 
 from etot_cli.reasoning.language.grammar.sentences.spoken import plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import Clause, ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
+from etot_cli.reasoning.language.grammar.text.splitting import ASIDE
 from etot_cli.reasoning.language.words import fillers, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep

@@ -18,6 +18,8 @@ MAX_SENTENCES = 24
 COMMA = "~comma"
 COLON = "~colon"
 """Between what goes where, in a table, in either order."""
+ASIDE = "~aside"
+"""Stands behind what a remark names, in its place."""
 QUESTION = "~question"
 """Behind a question: it may be a request, but not one without a verb."""
 

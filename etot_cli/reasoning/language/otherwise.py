@@ -1,0 +1,230 @@
+"""What an instruction asks for beside what only tells something: a start, a heading, how things
+are, reasons and remarks.
+
+Most instructions ask for all that they say, so this is not even loaded for them.
+"""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+
+from etot_cli.errors import InstructionError
+from etot_cli.reasoning.builtin.goal import Goal
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.goals.plausibility import plans_of
+from etot_cli.reasoning.language.grammar.asides.asides import without_asides
+from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
+from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.grammar.text.splitting import QUESTION, sentences_of, words_in
+from etot_cli.reasoning.language.plainly import is_name, read_plainly, reads
+from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
+from etot_cli.reasoning.language.start_told import without_start
+from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, opening_words
+from etot_cli.reasoning.language.words.lexicon import (
+    DESK_NOUNS,
+    LEVELS,
+    NUMBERS,
+    word_set,
+)
+from etot_cli.reasoning.language.words.nouns import STACK
+from etot_cli.reasoning.language.words.patterns import spellings, words_of
+from etot_cli.reasoning.protocol import ReasonerStopped
+from etot_cli.world.state import SceneState
+
+_HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
+_POLITE = Expression(rf"^(?:kindly )?{ASKED}(?:kindly )?")
+_TABLE_SET = Expression(
+    r"((?:please )?(?:set|lay) the table(?: for [^,.:;!?\n]+)?)[,.]\s+(\S.*)",
+    re.IGNORECASE | re.DOTALL,
+)
+"""Says nothing of what is to stand where, which comes next."""
+_DEPENDING = word_set(
+    "if when unless once until till after before while as except without but not never no none "
+    "neither nor only instead first last end then do t "
+    "forbidden prohibited banned unwanted undesired avoid wrong bad current currently initial "
+    "initially starting present previous old so far example optional maybe perhaps alternatively "
+    "go goes belong belongs stay stays remain remains"
+)
+"""A heading with such a word says something of what stands below it."""
+_REFERRING = word_set(
+    "it its them they their these those this that one ones other others another rest else "
+    "everything anything all both each every any same here there"
+)
+"""Below a heading they may speak of what that is about, which is not read."""
+_SWEEPING = word_set("other others rest else everything anything")
+"""Of a desk."""
+_PUT = words_of((verbs.PUT, verbs.BRING))
+_WITHIN = word_set("in on into onto inside")
+"""A heading by which things are put into or onto others says where, which is to be read."""
+_BUILT = words_of((verbs.BUILD,)) - {"them"} | {"on", "in", "onto"}
+"""With "stack" they say what is to become of things."""
+_ALSO_VERBS = frozenset({"open", "please", "first", "empty", "free", "you"})
+"""They begin a request, too, though things are told by them."""
+_DECLARED = word_set("is are sits sit stands stand lies lie rests rest")
+_OF_ITS_OWN = Expression(
+    r"(?:\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
+    r"|(?<= )(?:all|both) (?=(?:go|are|should|belong|must|need)\b)"
+    r"|(?:when|once|after) (?:you have done (?:that|this|it)|(?:that|this) is done)\b)"
+)
+"""Such words before a noun, or between that and its verb, speak of what it names, or of what was
+asked for before.
+"""
+
+
+_OF_SEVERAL_PARTS = Expression(
+    r"^(?:(?!\bone\b).)*\b(?:board|drawer|shelf|level|compartment)\b"
+    rf"(?:(?!\bone\b).|\b(?:{'|'.join(LEVELS)}) one\b)*$"
+)
+"""After a part was named "the upper one" is another one of these."""
+
+
+def read_otherwise(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal | None:
+    """The goal of an instruction, some of whose words only tell something; None where no way to
+    leave them out leads to one.
+    """
+    for way in (_from_start, _below_heading, _as_end_state, _beside_asides):
+        with suppress(UnreadableError, ReferenceProblem):
+            return way(instruction, scene, vocabulary)
+    return None
+
+
+def _from_start(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What is to be so in the end, where it is told as well how things are at the start: that asks
+    for nothing, and it is noted where it is not so.
+
+    Raises:
+        UnreadableError, ReferenceProblem: no start is told, or the rest is not read.
+    """
+    told = without_start(instruction)
+    if told is None:
+        raise UnreadableError(instruction, "")
+    notes: list[str] = []
+    for sentence in sentences_of(normalized(told.start)):
+        first, *more = sentence.split()
+        asks = first in VERB_WORDS | OTHER_VERBS | _ALSO_VERBS
+        if asks or {"not", "no", "never", "without"} & {first, *more}:
+            raise UnreadableError(sentence, "")  # it asks for, or forbids, something
+        notes += [] if _holds(sentence, scene, vocabulary) else [f"not so at the start: {sentence}"]
+    goal = read_plainly(normalized(told.asked), scene, vocabulary)
+    return replace(goal, notes=(*notes, *goal.notes))
+
+
+def _holds(sentence: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
+    """Whether what is said to be so is.
+
+    Raises:
+        UnreadableError, ReferenceProblem: it is not understood.
+    """
+    try:
+        goal = read_plainly(f"in the end {sentence}", scene, vocabulary)
+    except UnreadableError:
+        goal = read_plainly(sentence, scene, vocabulary)
+    with suppress(InstructionError, ReasonerStopped):
+        return not plans_of(goal, scene, ordered=False)
+    return False
+
+
+def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What a colon announces ("season the salad: put the salt next to it"), where the words before
+    it ask for nothing that could be read, condition nothing and deny nothing; they are noted.
+
+    Raises:
+        UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
+    """
+    said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
+    words = words_in(_POLITE.sub("", normalized(said[1]))) if said else ()
+    # "A stack of three: …", "the tower on the tray: …", "make a pile: …"
+    counted = {*spellings(STACK)} & {*words} and (_BUILT | {*NUMBERS}) & {*words}
+    if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:
+        raise UnreadableError(instruction, "")
+    if words[0] in _PUT and _WITHIN & {*words[1:]} - {*DESK_NOUNS}:
+        raise UnreadableError(instruction, "")  # "put both on the book: the pen on the left, …"
+    on_desk = bool({*DESK_NOUNS} & {*words})
+    named = any(is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
+    heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()
+    below = {*words_in(_OF_ITS_OWN.sub("", normalized(said[2])))}
+    if any(is_name(word, vocabulary) for word in {*words} & {*below, *map(_several, below)}):
+        below -= {"one"}  # "bring the mugs together: put the blue mug next to the red one"
+    if _OF_SEVERAL_PARTS.search(normalized(said[2])):
+        below -= {"one"}  # "restock the shelf: the soup on the top board, the milk on the low one"
+    if not heading or (_REFERRING if named else _SWEEPING if on_desk else set()) & below:
+        raise UnreadableError(said[2], "")
+    if reads(said[1], scene, vocabulary):
+        raise UnreadableError(said[1], "", "say it in a sentence of its own")
+    goal = read_plainly(normalized(said[2]), scene, vocabulary)
+    note = f"{said[1].strip()!r} is a heading: what stands below it is done"
+    return replace(goal, notes=(note, *goal.notes))
+
+
+def _as_end_state(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What is said to be so, of which something is not, and nothing else: that it is to be so; what
+    is "still" so is told of by now.
+
+    Raises:
+        UnreadableError, ReferenceProblem: something else is said, or all of it holds.
+    """
+    sentences = sentences_of(normalized(instruction))
+    for sentence in sentences:
+        first, *more = sentence.split()
+        asked = first in VERB_WORDS | OTHER_VERBS or QUESTION in more
+        if asked or not _DECLARED & {*more} or "still" in more:
+            raise UnreadableError(sentence, "")
+    goal = read_plainly(". ".join(f"in the end {said}" for said in sentences), scene, vocabulary)
+    with suppress(InstructionError, ReasonerStopped):
+        if not plans_of(goal, scene, ordered=False):
+            raise UnreadableError(instruction, "")
+    note = "what is said to be so is taken for what is to be so in the end"
+    return replace(goal, notes=(note, *goal.notes))
+
+
+def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What is asked for beside reasons and remarks, which are noted.
+
+    Raises:
+        UnreadableError, ReferenceProblem: there are none, or the rest is not read.
+    """
+    plain = without_asides(
+        normalized(instruction),
+        partial(is_name, vocabulary=vocabulary),
+        partial(_is_sentence, vocabulary=vocabulary),
+    )
+    if plain is None:
+        raise UnreadableError(instruction, "")
+    goal = read_plainly(plain.text, scene, vocabulary)
+    ways = ("not asked for: the rest is done", "done where it has to be")
+    notes = (
+        f"{_as_written(aside, instruction)!r} is {ways[aside in plain.anyway]}"
+        for aside in plain.asides
+    )
+    return replace(goal, notes=(*notes, *goal.notes))
+
+
+def _several(noun: str) -> str:
+    return f"{noun}s"
+
+
+def _as_written(aside: str, instruction: str) -> str:
+    """An aside in the instruction's own words, so far as these are found in it."""
+    begun = " ".join(aside.split()[:2])
+    # What is named in a clause of its own, and not what is put somewhere in another one
+    names = begun.split()[0] in BEFORE_NAMES
+    own = r"(?:^|[.,:;!?\n]|\b(?:so|but|because|since|as)\b)\s*" if names else ""
+    alike = rf"{own}({re.escape(begun)}\b[^.,:;!?\n]*)"
+    for wanted in (f"({re.escape(aside)})", alike):
+        if found := re.search(wanted, instruction, re.IGNORECASE):
+            return found[1].strip()
+    return aside
+
+
+def _is_sentence(text: str, vocabulary: Vocabulary) -> bool:
+    """Whether the grammar reads a sentence, whatever it is about."""
+    with suppress(UnreadableError):
+        read(vocabulary.joined(text), vocabulary.words())
+        return True
+    return False
