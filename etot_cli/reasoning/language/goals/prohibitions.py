@@ -317,12 +317,19 @@ def _moves_anyway(context: Context, things: Things) -> bool:
 
 
 def _goes_along(context: Context, indices: Sequence[int]) -> bool:
-    """Whether what must not be taken out of something is in what goes elsewhere itself, and so is
-    to be in it there.
+    """Whether what must not be taken out of something is in what goes elsewhere itself, or in what
+    something else is put into, by which it may be moved: it is to be in it then.
     """
-    things = context.discourse.things(*indices)
-    moved = {thing.name for thing in context.discourse.things(*sorted(context.discourse.put))}
-    if not all(moved & carriers(context.scene, thing.name) for thing in things):
+    discourse = context.discourse
+    things, puts = discourse.things(*indices), [s for s in context.done if isinstance(s, Put)]
+    places = (place.where for put in puts for place in put.places)
+    filled = {where for where in places if where is not None}
+    around = {
+        thing.name
+        for thing in discourse.things(*sorted({*discourse.put, *filled}))
+        if thing.name != DESK
+    }
+    if not all(around & carriers(context.scene, thing.name) for thing in things):
         return False
     context.steps += [
         Put((context.single(thing, thing.name),), (context.home(thing),)) for thing in things
