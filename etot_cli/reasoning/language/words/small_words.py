@@ -121,6 +121,11 @@ COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly), 
 """Before what comes next, where something was said to come first."""
 COUNTED = "second, third, fourth, next, then, afterwards, last"
 """Behind what comes next there."""
+NOT_BEFORE = """
+    [but|and] not (before|until) [after], [but|and] not (sooner|earlier) than,
+    [but|and] only after
+"""
+"""Before what goes to the same place earlier; "after the cup" alone may only say when."""
 COMES = "comes, come, goes, go"
 """Between a thing and its turn."""
 ONWARD = "[and] then [finally], [and] after that, and finally"
