@@ -355,6 +355,31 @@ def test_what_lies_in_the_picked_vessel_may_come_along() -> None:
     assert judge("[PICK UP, mug]", record(start, lifted)).outcome is Outcome.SUCCESS
 
 
+@pytest.mark.parametrize(
+    ("rider", "outcome"),
+    [
+        (scenes.ball("egg", (0.4, 0.0), on="mug", z=0.275), Outcome.SUCCESS),
+        (scenes.ball("egg", (0.4, 0.0), on="mug", z=0.295), Outcome.FAILURE),
+        (scenes.item("lid", at=(0.4, 0.0), on="mug", size=(0.1, 0.1, 0.01), z=0.265),
+         Outcome.FAILURE),
+        (scenes.item("pen", "pen", (0.4, 0.0), on="mug", size=(0.01, 0.01, 0.15), z=0.265),
+         Outcome.FAILURE),
+    ],
+    ids=["in its mouth", "on its rim", "over its mouth", "across its mouth"],
+)  # fmt: skip
+def test_what_sits_in_the_mouth_of_the_picked_vessel_may_come_along(
+    rider: scenes.Item, outcome: Outcome
+) -> None:
+    name, (x, y, z) = rider[0].name, rider[1].position
+    start = scenes.scene(scenes.cup("mug", (0.4, 0.0), z=0.22), rider)
+    lifted = changed(
+        start,
+        mug={"in_hand": True, "on": (), "position": (0.4, 0.0, 0.32)},
+        **{name: {"position": (x, y, z + 0.1)}},
+    )
+    assert judge("[PICK UP, mug]", record(start, lifted)).outcome is outcome
+
+
 def test_what_has_to_stay_closed_is_looked_at_after_every_action() -> None:
     start = scenes.scene(
         scenes.drawers("chest", (0.5, 0.0), {"top": 0.0, "low": 0.5}),

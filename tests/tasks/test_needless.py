@@ -86,3 +86,22 @@ def test_a_rod_stays_in_the_beaker_that_has_come_with_it(
     names = picked(objects, goal, 0, tmp_path)
     assert "rod" not in names
     assert names.count("flask") == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mass", [0.08, 0.4])
+@pytest.mark.parametrize("seed", range(2))
+def test_an_egg_stays_in_the_mouth_of_its_cup(mass: float, seed: int, tmp_path: Path) -> None:
+    objects: Objects = {
+        "plate": {"kind": "cylinder", "at": [0.36, -0.20], "diameter": 0.19, "height": 0.014},
+        "egg_cup": {
+            "kind": "cup",
+            "at": [0.30, 0.25],
+            "diameter": 0.055,
+            "height": 0.05,
+            "mass": mass,
+        },
+        "egg": {"kind": "sphere", "on": "egg_cup", "diameter": 0.052, "mass": 0.06},
+    }
+    goal = [{"next_to": ["egg_cup", "plate"]}, {"on": ["egg", "egg_cup"]}]
+    assert picked(objects, goal, seed, tmp_path) == ["egg_cup"]

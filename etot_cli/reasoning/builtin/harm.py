@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from etot_cli.reasoning.builtin.effects import acted_object, carried_along, effect_holds
-from etot_cli.reasoning.builtin.relations import can_topple, contents, enclosing
+from etot_cli.reasoning.builtin.relations import can_topple, contents, enclosing, sits_in_mouth
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.carrying import carried_by
 from etot_cli.world.spatial import Nearby
@@ -151,16 +151,16 @@ def _is_wanted_there(action: Action, record: RolloutRecord) -> bool:
 
 
 def _riders(action: Action, record: RolloutRecord) -> frozenset[str]:
-    """What stood on the acted-on object, not in it, and was moved with it."""
-    acted = acted_object(action, record)
+    """What stood on the acted-on object, not in it nor in its mouth, and was moved with it."""
+    acted, before = acted_object(action, record), record.before
     if acted is None:
         return frozenset()
     inside = {
         name
-        for name in record.before.states
-        if acted in map(owner_of, enclosing(record.before, name))
+        for name in before.states
+        if acted in map(owner_of, enclosing(before, name)) or sits_in_mouth(before, name, acted)
     }
-    moved = (name for name in carried_by(record.before, acted) if displacement(name, record) > FELL)
+    moved = (name for name in carried_by(before, acted) if displacement(name, record) > FELL)
     return frozenset(moved) - inside
 
 

@@ -22,6 +22,10 @@ NOT_OBJECTS = frozenset({"robot", "gripper", "floor", DESK})
 ROLLING_KINDS = frozenset({"sphere", "capsule", "pen"})
 """Kinds without an upright pose: their orientation says nothing about harm."""
 
+SEATED = 0.005
+"""What reaches so far below a vessel's rim sits in its mouth [m]; a thing that stands on the rim
+sinks in by less than 1 mm."""
+
 
 def is_open(scene: SceneState, part: PartInfo) -> bool:
     """Whether a part counts as open."""
@@ -60,6 +64,17 @@ def sinks(info: ObjectInfo, vessel: ObjectInfo) -> bool:
         return False
     across = (math.hypot if info.kind == "box" else max)(*info.size[:2])
     return (info.foot or across) < vessel.mouth
+
+
+def sits_in_mouth(scene: SceneState, name: str, vessel: str) -> bool:
+    """Whether something lies on a vessel's rim and reaches below it, as an egg does in an egg cup:
+    it stays there when the vessel is moved, as what is in it does.
+    """
+    state, info, around = scene.states[name], scene.infos[name], scene.infos[vessel]
+    if not around.mouth or state.on != (vessel,) or state.inside is not None:
+        return False
+    rim = scene.states[vessel].position[2] + around.size[2] / 2
+    return state.position[2] - min(info.size) / 2 < rim - SEATED
 
 
 def container_parts(info: ObjectInfo) -> tuple[PartInfo, ...]:
