@@ -9,6 +9,8 @@ NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 """What a named thing begins with, as a regular expression."""
 WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 """What a place begins with, as a regular expression."""
+AND_NO_MORE = "and nothing else, but nothing else"
+"""Behind what alone is to be somewhere."""
 ALL_ALONG = """
     at all times, at any (time|point|moment|stage),
     (during|throughout) the [whole|entire]
