@@ -20,7 +20,12 @@ from etot_cli.reasoning.builtin.goal import (
 def formal(goal: Goal) -> str:
     """The goal's steps in their order and its constraints: ``inside: [pen, cup or mug]; …``."""
     told: set[int] = set()
-    steps = [_step(step, goal, told) for step in goal.steps]
+    steps: list[str] = []
+    latest: dict[tuple[int, ...], str] = {}  # of every thing
+    for step in goal.steps:
+        what, said = step.what if isinstance(step, Put) else (step.what,), _step(step, goal, told)
+        steps += [said] * (said != latest.get(what, ""))
+        latest[what] = said
     kept = []
     for item in goal.constraints:
         names = ", ".join(item.names)
@@ -33,8 +38,7 @@ def formal(goal: Goal) -> str:
         else:
             turned = item.keep in (Keep.OPEN, Keep.CLOSED)
             kept.append(f"{'stays ' * turned}{item.keep.value}: {names}")
-    said = dict.fromkeys(item for item in (*steps, *kept) if item)
-    return "; ".join(said) or "nothing to do"
+    return "; ".join([*steps, *dict.fromkeys(kept)]) or "nothing to do"
 
 
 def _step(step: Step, goal: Goal, told: set[int]) -> str:

@@ -63,10 +63,12 @@ LEADING_FIRST = f"""
     (start|begin) [off] by,
     [as (a|the|your)|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
-LEADING_BEFORE = """
+_MOVING_IT = "before (you (move|touch)|moving|touching) (it|them)"
+"""Whatever "it" is of what was just asked for."""
+LEADING_BEFORE = f"""
     [but|though] before (that|this), [but|though] before (doing (so|it|that|this)),
     [but|though] before you do [so|it|that|this], [but] beforehand,
-    [but] prior to (that|this|doing (so|that|this))
+    [but] prior to (that|this|doing (so|that|this)), [but|though] {_MOVING_IT}
 """
 LEADING_BETWEEN = "in between"
 LEADING_LAST = f"""

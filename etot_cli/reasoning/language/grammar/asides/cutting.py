@@ -50,10 +50,14 @@ from etot_cli.reasoning.language.grammar.asides.told_of_things import (
 )
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import lacks_room, wants_such_a_thing
 from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import all_words
 
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
+
+_DOES_WITH_IT = Expression(r"you \w+ (?:up )?(?:it|them|either|both|any|anything)\b")
+"""What the robot does comes later than what is done before it."""
 
 
 def is_no_phrase(aside: Clause, is_name: IsName) -> bool:
@@ -204,7 +208,8 @@ def _is_for_later(place: _Place) -> bool:
     when something is done.
     """
     said = place.said
-    named = f"{said} ".startswith("you do ") or any(map(place.is_name, said.split()))
+    does = f"{said} ".startswith("you do ") or _DOES_WITH_IT.match(said)
+    named = does or any(map(place.is_name, said.split()))
     if place.at == 0 and not all(item.is_polite for item in place.clauses[1:]):
         # "Before you do that, …" is about an order.
         told = not re.match(r"(?:you|we|i)\b", said)
