@@ -221,7 +221,7 @@ def _put_there(
     places = not_beside(context, found, said.ruled_out, themes)
     if said.stays and is_left(context, group, themes, places):
         check_stance(group, said.stance)
-        avoid(context, AvoidClause(Avoid.MOVE, group.things))
+        avoid(context, AvoidClause(Avoid.MOVE, group.things, left=True))
         return
     just_put = (s for s in context.done if said.stays and isinstance(s, Put))
     if any(s.what == tuple(themes) and s.places == places for s in just_put):

@@ -206,4 +206,4 @@ def rest_all_along(context: Context, rests: Things, first: int) -> None:
                 why = "it moves with what it is in; say only where it is to be in the end"
                 raise ReferenceProblem(thing.name, why, 3)
     del context.steps[first:]
-    avoid(context, AvoidClause(Avoid.MOVE, rests))
+    avoid(context, AvoidClause(Avoid.MOVE, rests, left=True))

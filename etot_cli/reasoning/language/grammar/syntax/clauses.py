@@ -256,6 +256,8 @@ class AvoidClause(Struct, frozen=True):
     """It need not be done, but may be."""
     as_it_is: bool = False
     """They are left as they are, with what is in and on them."""
+    left: bool = False
+    """They are said to stay where they are, rather than that nothing may move them."""
     taken: bool = False
     """They must not be taken out of or off what they are in or on, with which they may go."""
     over: bool = False
