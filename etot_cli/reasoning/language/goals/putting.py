@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.counting import check_enough, count_of_places, counted
 from etot_cli.reasoning.language.goals.described import note_described
 from etot_cli.reasoning.language.goals.homes import (
+    go_back,
     in_stead,
     never_there,
     put_back,
@@ -188,7 +189,7 @@ def _put_as_told(
 ) -> bool:
     """Adds the step for things whose place is told by where they, or others, were, if it is so."""
     toward = {item.toward for item in group.destinations}
-    if Toward.HOME in toward:
+    if Toward.HOME in toward or go_back(context, group, themes):
         put_back(context, themes, group, said.ruled_out)
         return True
     if not said.ruled_out and Toward.WITH in toward:
