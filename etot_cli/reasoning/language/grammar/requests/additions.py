@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
     some,
+    valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, NOUN_WORD, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.being_so import SO, state_of
@@ -28,6 +29,7 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
     one_not_both,
     with_all,
 )
+from etot_cli.reasoning.language.grammar.phrases.of_which import OF_WHICH, told_apart
 from etot_cli.reasoning.language.grammar.phrases.turns import ONE_BEFORE_ANOTHER, TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
@@ -121,6 +123,7 @@ _EXTRA = sequence(
         manner.FITTING,
         sequence(optional("but, and, with"), either(GROUPING, TURN)),
         BY_COLOR,
+        valued(OF_WHICH, lambda parts: ("of which", parts)),
         sequence("including, even", noun_phrase, build=lambda np: ("including", np)),
         phrase(manner.ONE_EACH, ("each", ())),
         sequence(
@@ -209,6 +212,11 @@ def put_of(
         if all_told is None:
             return None
         groups = (replace(groups[0], things=replace(groups[0].things, phrases=all_told)),)
+    for parts in (parts for name, parts in said if name == "of which"):
+        told = told_apart(groups[0].things.phrases[0], parts)
+        if told is None or groups[1:] or groups[0].things.phrases[1:]:
+            return None
+        groups = (replace(groups[0], things=replace(groups[0].things, phrases=told)),)
     turns = turns_of(said)
     named = {item[0] for item in said}
     if each := next((words for name, words in said if name == "apart" and words), ()):
