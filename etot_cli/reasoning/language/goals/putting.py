@@ -152,6 +152,8 @@ def put(
         replaced = replaced_by(context, group)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
         themes = without_riders(context, themes)
+        if group.along and {*context.discourse.put} & {*themes}:
+            raise ReferenceProblem(group.things.text, "it was put elsewhere; say where it goes", 3)
         tell_apart(context, group, before, themes)
         before += themes
         own = certain(context, themes)

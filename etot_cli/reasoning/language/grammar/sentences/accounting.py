@@ -330,8 +330,9 @@ def _said(node: object) -> Iterator[str]:
         case PutClause():
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
-            if all(np.determiner in NUMBERS for np in phrases):  # "three cubes, two of them red"
-                total = sum(NUMBERS[np.determiner] for np in phrases[1:] and phrases)
+            if phrases[1:] and all(np.determiner in NUMBERS for np in phrases):
+                # "Three cubes, two of them red"
+                total = sum(NUMBERS[np.determiner] for np in phrases)
                 yield from (said for said, count in NUMBERS.items() if count == total)
             yield from ("either", "any", "both") if either else ()
             yield from ("both", "all", _ORDER) if len(phrases) > 1 else ()

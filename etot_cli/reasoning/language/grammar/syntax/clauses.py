@@ -53,6 +53,8 @@ class PutGroup(Struct, frozen=True):
 
     things: Things
     destinations: tuple[Destination, ...]
+    along: bool = False
+    """It is but named as what goes there before or after the rest."""
     back: bool = False
     """They are put back there."""
 
