@@ -1985,3 +1985,45 @@ def game_shelf() -> SceneState:
         cup("dice_cup", (0.50, 0.10), label="dice cup", color="black"),
         item("lid", "box", (0.50, -0.10), size=(0.20, 0.20, 0.02), label="box lid", color="brown"),
     )
+
+
+def clubroom() -> SceneState:
+    """A chessboard with a king on it, two pawns, things with British names, a teapot, a dustpan."""
+    return scene(
+        item("chessboard", "box", (0.45, 0.0), size=(0.24, 0.24, 0.02), color="brown"),
+        item("king", "cylinder", (0.45, 0.0), size=(0.03, 0.03, 0.08), color="black",
+             on="chessboard"),
+        item("pawn_1", "cylinder", (0.25, 0.20), size=(0.03, 0.03, 0.05), label="white pawn",
+             color="white"),
+        item("pawn_2", "cylinder", (0.30, 0.25), size=(0.03, 0.03, 0.05), label="white pawn",
+             color="white"),
+        item("doughnut", "cylinder", (0.30, -0.20), size=(0.08, 0.08, 0.03), color="pink"),
+        item("lever", "pen", (0.20, 0.0), size=(0.12, 0.02, 0.01), label="tyre lever",
+             color="blue"),
+        item("jewels", "bowl", (0.40, -0.40), size=(0.16, 0.16, 0.08), label="jewellery dish",
+             color="white"),
+        item("teapot", "cylinder", (0.60, 0.30), size=(0.10, 0.10, 0.10), color="green"),
+        item("dustpan", "box", (0.60, -0.30), size=(0.20, 0.16, 0.02), color="red"),
+        item("pineapple", "sphere", (0.25, 0.40), size=(0.10, 0.10, 0.10), color="yellow"),
+    )  # fmt: skip
+
+
+def den() -> SceneState:
+    """A shelf with two boards, a chessboard, a clipboard in an open drawer, an axe, a mould."""
+    return scene(
+        item("shelf", "shelf", (0.68, 0.35), size=(0.25, 0.30, 0.3), boards=("lower", "upper")),
+        item("vase", "cup", (0.68, 0.35), size=(0.06, 0.06, 0.1), on="shelf.lower", color="white"),
+        item("radio", "box", (0.68, 0.35), size=(0.10, 0.06, 0.06), on="shelf.upper",
+             color="gray"),
+        drawers("chest", (0.65, -0.35), {"top": 0.9, "bottom": 0.0}),
+        item("chessboard", "box", (0.40, 0.0), size=(0.24, 0.24, 0.02), color="brown"),
+        item("queen", "cylinder", (0.25, 0.20), size=(0.03, 0.03, 0.07), color="white"),
+        item("axe", "pen", (0.20, 0.0), size=(0.16, 0.04, 0.02), color="gray"),
+        item("mould", "bowl", (0.35, 0.35), size=(0.14, 0.14, 0.08), label="jelly mould",
+             color="blue"),
+        item("red_block", "box", (0.60, -0.35), size=CUBE, label="block", color="red",
+             inside="chest.top"),
+        item("green_block", "box", (0.30, -0.25), size=CUBE, label="block", color="green"),
+        item("blue_block", "box", (0.40, 0.05), size=CUBE, label="block", color="blue",
+             on="chessboard"),
+    )  # fmt: skip

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
     AvoidClause,
@@ -71,6 +72,7 @@ def again(context: Context, clause: AgainClause) -> None:
         themes = context.phrases.things(clause.things, Role.THEME)
         there = certain(context, step.what)
         _check_another(context, clause.things, themes)
+        _check_not_elsewhere(context, clause.things, themes)
         # "All toys into the box, the bear too": it is one of them.
         themes = [i for i in themes if not {*context.discourse.things(i)} <= there]
         if not (themes or clause.trailing):  # "…, followed by the cup on the desk" is another one
@@ -108,6 +110,18 @@ def _check_another(context: Context, things: Things, themes: Sequence[int]) -> N
     for phrase, theme in zip(things.phrases, themes, strict=False):
         if phrase.is_elliptic and theme in context.discourse.put:
             raise ReferenceProblem(phrase.text, "it has been put somewhere; say what is meant", 3)
+
+
+def _check_not_elsewhere(context: Context, things: Things, themes: Sequence[int]) -> None:
+    """Whether what goes there before something else has not been put somewhere: "not before the
+    cup" may only say when ("put the cup on the tray; put the pen in the box, but not before …").
+
+    Raises:
+        ReferenceProblem: it has.
+    """
+    done = {*context.discourse.things(*context.discourse.put, *context.discourse.lifted)}
+    if context.order is Order.BEFORE_THAT and done & {*context.discourse.things(*themes)}:
+        raise ReferenceProblem(things.text, "it has been put somewhere; say what is meant", 3)
 
 
 def _onward(context: Context, clause: AgainClause, before: Sequence[Step]) -> None:

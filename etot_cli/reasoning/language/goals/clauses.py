@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.goals.so_in_the_end import (
     filled_first,
     had_to_be_opened,
     put_on_closed,
+    taken_out_first,
     told_by_contents,
 )
 from etot_cli.reasoning.language.goals.stance import reorient
@@ -164,6 +165,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             clause, first = filled_first(context, clause)
             for filling in first:
                 put(context, filling)
+            clause, out = taken_out_first(context, clause)
+            for taking in out:
+                remove(context, taking)
             clause, so = put_on_closed(context, clause)
             put(context, clause, wherever=clause.wherever)
             _check_not_wanted(context, clause, moved)

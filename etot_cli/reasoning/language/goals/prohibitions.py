@@ -17,12 +17,18 @@ from etot_cli.reasoning.builtin.goal import (
     Put,
     Thing,
 )
-from etot_cli.reasoning.builtin.relations import bearers, carriers, is_closed, is_open, parts_of
+from etot_cli.reasoning.builtin.relations import carriers, is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import check_alone, leave_alone_there
 from etot_cli.reasoning.language.goals.choosing import leave_among
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.knocked_over import keep_it_standing
+from etot_cli.reasoning.language.goals.left_alone import (
+    boards_left_alone,
+    in_part,
+    is_of_boards,
+    what_is_there,
+)
 from etot_cli.reasoning.language.goals.ruled_out import is_not_chosen, rule_out_things
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -36,6 +42,7 @@ from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import leaves_noun_out
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
+    LEVELS,
     THING_NOUNS,
     matches_any,
     singular,
@@ -225,7 +232,8 @@ def _names_of_kept(
             names = tuple(f"{part.owner}.{part.name}" for part in shut) or names
     if DESK in names:
         raise ReferenceProblem("desk", "the desk cannot be left untouched", 2)
-    if clause.avoid is Avoid.TOUCH and (board := next((t for t in kept if t.board), None)):
+    board = next((t for t in kept if t.board), None)
+    if clause.avoid is Avoid.TOUCH and board and not is_of_boards(clause, kept):
         why = "one board alone is not kept from being touched; say that nothing is put on it"
         raise ReferenceProblem(board.address, why, 2)
     return names
@@ -241,6 +249,9 @@ def _as_constraints(
     """How things are kept as they are; a drawer moves by being opened or closed, not with its
     chest.
     """
+    if is_of_boards(clause, kept):
+        yield from boards_left_alone(context, kept, _KEEPS[clause.avoid])
+        return
     joints = sum(JOINT_NOUNS.values(), ())
     drawers = all(np.words and matches_any(np.head, joints) for np in things.phrases)
     moving = {t: parts_of(context.scene, t) for t in kept if t.part or drawers}
@@ -255,9 +266,11 @@ def _as_constraints(
             yield Constraint(Keep.OPEN if way is True else Keep.CLOSED, (address,))
         if clause.avoid is Avoid.TOUCH:
             yield Constraint(Keep.UNTOUCHED, addresses)
+        if clause.as_it_is and (inside := in_part(context, addresses)):
+            yield Constraint(Keep.UNMOVED, inside)
         return
     names = addresses if turning else names  # one that is ajar, not its chest
-    there = _what_is_there(context, names) if clause.as_it_is else ()
+    there = what_is_there(context, names) if clause.as_it_is else ()
     yield Constraint(_KEEPS[clause.avoid], (*names, *there))
 
 
@@ -276,15 +289,6 @@ def _check_moves(context: Context, by: Sequence[NounPhrase]) -> None:
         context.discourse.mentions = before
 
 
-def _what_is_there(context: Context, names: Sequence[str]) -> tuple[str, ...]:
-    """What is in or on furniture that is left as it is."""
-    infos, scene = context.scene.infos, context.scene
-    fixed = {name for name in names if name in infos and not infos[name].movable}
-    moved = {thing.name for thing in context.discourse.things(*context.discourse.put)}
-    inside = (name for name in infos if infos[name].movable and name in scene.states)
-    return tuple(n for n in inside if bearers(scene, n) & fixed and n not in moved)
-
-
 def _role_of_one(context: Context, things: Things) -> Role:
     """What "the red one" is among: it speaks of what was moved rather than of where to, unless that
     is moved anyway.
@@ -292,12 +296,24 @@ def _role_of_one(context: Context, things: Things) -> Role:
     if isinstance(context.last, MoveClause):
         return Role.PART
     if not _moves_anyway(context, things):
-        return Role.THEME
+        return Role.PLACE if _is_of_places(context, things) else Role.THEME
     with suppress(ReferenceProblem):
         for np in things.phrases:
             context.phrases.meaning(np, Role.PART)
         return Role.PART
     return Role.PLACE
+
+
+def _is_of_places(context: Context, things: Things) -> bool:
+    """Whether "the upper one" is a board or drawer, as it is none of what could be put anywhere."""
+    if not all({*np.words} & LEVELS.keys() for np in things.phrases):
+        return False
+    with suppress(ReferenceProblem):
+        themes = [context.phrases.meaning(np, Role.THEME) for np in things.phrases]
+        found = [thing for theme in themes for option in theme.options for thing in option]
+        if not any(thing.part or thing.board for thing in found):
+            return False
+    return True
 
 
 def _moves_anyway(context: Context, things: Things) -> bool:
@@ -317,12 +333,19 @@ def _moves_anyway(context: Context, things: Things) -> bool:
 
 
 def _goes_along(context: Context, indices: Sequence[int]) -> bool:
-    """Whether what must not be taken out of something is in what goes elsewhere itself, and so is
-    to be in it there.
+    """Whether what must not be taken out of something is in what goes elsewhere itself, or in what
+    something else is put into, by which it may be moved: it is to be in it then.
     """
-    things = context.discourse.things(*indices)
-    moved = {thing.name for thing in context.discourse.things(*sorted(context.discourse.put))}
-    if not all(moved & carriers(context.scene, thing.name) for thing in things):
+    discourse = context.discourse
+    things, puts = discourse.things(*indices), [s for s in context.done if isinstance(s, Put)]
+    places = (place.where for put in puts for place in put.places)
+    filled = {where for where in places if where is not None}
+    around = {
+        thing.name
+        for thing in discourse.things(*sorted({*discourse.put, *filled}))
+        if thing.name != DESK
+    }
+    if not all(around & carriers(context.scene, thing.name) for thing in things):
         return False
     context.steps += [
         Put((context.single(thing, thing.name),), (context.home(thing),)) for thing in things

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     MoveClause,
     PutClause,
+    RemoveClause,
     put_to,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -125,6 +126,36 @@ def filled_first(context: Context, clause: PutClause) -> tuple[PutClause, list[P
             phrases.append(plain)
         groups.append(replace(group, things=replace(group.things, phrases=tuple(phrases))))
     return replace(clause, groups=tuple(groups)) if first else clause, first
+
+
+def taken_out_first(context: Context, clause: PutClause) -> tuple[PutClause, list[RemoveClause]]:
+    """What goes somewhere "without the apple", which is in or on it by now, and what takes that
+    away first.
+    """
+    groups, first = [], list[RemoveClause]()
+    for group in clause.groups:
+        phrases = []
+        for np in group.things.phrases:
+            plain = _told_by_lack(context, np)
+            out = [m.phrases for m in np.modifiers if m not in plain.modifiers]
+            first += (RemoveClause(Things(nps), plain, without=True) for nps in out)
+            phrases.append(plain)
+        groups.append(replace(group, things=replace(group.things, phrases=tuple(phrases))))
+    return replace(clause, groups=tuple(groups)) if first else clause, first
+
+
+def _told_by_lack(context: Context, np: NounPhrase) -> NounPhrase:
+    """A phrase for one thing without that something is not in or on it, where it is."""
+    lacking = [m for m in np.modifiers if m.denied and m.prep in (*_HOLDING, Prep.WITH)]
+    if not (len(lacking) == len(np.modifiers) == 1 and all(map(_is_the_one, lacking[0].phrases))):
+        return np
+    try:
+        context.phrases.meaning(np, Role.THEME)
+    except ReferenceProblem:
+        plain = np.without_modifier(lacking[0])
+        if [len(option) for option in context.phrases.meaning(plain, Role.THEME).options] == [1]:
+            return plain
+    return np
 
 
 def put_on_closed(context: Context, clause: PutClause) -> tuple[PutClause, list[State]]:

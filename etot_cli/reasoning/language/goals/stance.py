@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from etot_cli.reasoning.builtin.goal import Constraint, Keep, Near, Pick, Place, Put, Relation
+from etot_cli.reasoning.builtin.goal import Constraint, Keep, Near, Pick, Place, Put, Relation, Step
 from etot_cli.reasoning.builtin.relations import can_topple
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import ReorientClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
 from etot_cli.reasoning.language.grammar.text.splitting import ASIDE
 from etot_cli.reasoning.language.reference.geometry.space import is_flat
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world import spatial
 from etot_cli.world.spatial import Nearby, Whereabouts
@@ -69,13 +70,14 @@ def reorient(context: Context, clause: ReorientClause) -> None:
             if clause.remark != ASIDE:  # that is told anyway
                 context.discourse.notes.append(f"not checked: {clause.remark}")
         return
+    step: Step | None
     again = clause.meanwhile and all(np.pronoun for np in clause.things.phrases)
     step = context.done[-1] if again and context.done else None
     themes: Sequence[int]
     if isinstance(step, Put):  # "put it in the holder, rotating it as needed": what goes there
         themes = step.what if clause.stance else ()
     else:
-        themes = context.phrases.things(clause.things, Role.THEME)
+        themes = _to_be_turned(context, clause)
     for index in themes:
         lying = clause.stance is Nearby.LYING
         if clause.stance is None or not (lying or can_stand(context, index)):
@@ -87,7 +89,8 @@ def reorient(context: Context, clause: ReorientClause) -> None:
         if lying:
             _check_lying(context, index)
         if index in context.discourse.put:
-            context.steps.append(_being_there(context, index, clause.stance))
+            step = _being_there(context, index, themes, clause.stance)
+            context.steps += [] if step in context.steps else [step]
             continue
         if clause.meanwhile:
             text = context.discourse.referents[index].text
@@ -114,15 +117,37 @@ def reorient(context: Context, clause: ReorientClause) -> None:
                 context.steps.append(Put((context.single(thing, thing.name),), (place,)))
 
 
-def _being_there(context: Context, index: int, stance: Nearby) -> Put:
-    """What was put somewhere, standing or lying there ("put it on the tray; it should be upright").
+def _to_be_turned(context: Context, clause: ReorientClause) -> Sequence[int]:
+    """What is to stand or lie: "it" is rather what was just put somewhere than what it was put on
+    or into, if it can ("put the jar on the box and make sure it stands upright").
+    """
+    try:
+        return context.phrases.things(clause.things, Role.THEME)
+    except AmbiguousReference:
+        it = [np.pronoun for np in clause.things.phrases] == ["it"]
+        step = context.done[-1] if context.done else None
+        if not (it and clause.stance and isinstance(step, Put)):
+            raise
+        said = [m for m in context.discourse.mentions if m.role is Role.THEME]
+        moved = {m.referent for m in said if m.clause == said[-1].clause}
+        (index, *more) = step.what
+        turns = can_stand(context, index) or _is_rod(context, index)
+        if more or moved != {index} or not turns:
+            raise
+        context.discourse.mention_again(index, Role.THEME)
+        return (index,)
+
+
+def _being_there(context: Context, index: int, themes: Sequence[int], stance: Nearby) -> Put:
+    """What was put somewhere, be it with other ``themes``, standing or lying there ("put it on the
+    tray; it should be upright").
 
     Raises:
         ReferenceProblem: something else was asked for since.
     """
     for step in context.done:
-        if isinstance(step, Put) and step.what == (index,):
-            return replace(step, places=with_stance(context, (index,), step.places, stance))
+        if isinstance(step, Put) and index in step.what and {*step.what} <= {*themes}:
+            return replace(step, places=with_stance(context, step.what, step.places, stance))
     text = context.discourse.referents[index].text
     how = "lie" if stance is Nearby.LYING else "stand"
     word = "upright" if stance is Nearby.UPRIGHT else ""

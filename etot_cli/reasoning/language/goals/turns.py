@@ -8,7 +8,7 @@ from itertools import combinations
 
 from msgspec import Struct, structs
 
-from etot_cli.reasoning.builtin.goal import Pick, Put, Step, Thing, referents_of
+from etot_cli.reasoning.builtin.goal import Close, Pick, Put, Step, Thing, referents_of
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -194,6 +194,21 @@ def _check_between(before: Sequence[Timed]) -> None:
         raise ReferenceProblem("in between", "say before or after what", 3)
 
 
+def _asked_again(item: Timed, later: Sequence[Timed], discourse: Discourse) -> bool:
+    """Whether what is to be done or closed is named again behind what comes before it ("close the
+    box, but before you close it, put the pen in").
+    """
+
+    def things(one: Timed) -> set[Thing]:
+        steps = [(s.what if isinstance(s, Put) else (s.what,)) for s in one.steps]
+        return {thing for what in steps for thing in discourse.things(*what)}
+
+    kinds = all(isinstance(step, Put | Close) for step in item.steps)
+    again = (n for n, o in enumerate(later) if o.order is Order.THEN and o.steps == item.steps)
+    at = next(again, 0) if item.steps and kinds else 0
+    return at > 0 and not any(things(item) & things(other) for other in later[:at])
+
+
 def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     """All steps in the order in which they are to be done.
 
@@ -203,6 +218,7 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     and the green one on the blue one"); what was said before what goes ahead of it is not of that
     one's run.
     """
+    said = [s for n, s in enumerate(said) if not _asked_again(s, said[n + 1 :], discourse)]
     done: list[Timed] = []
     last: list[Timed] = []
     ahead: Timed | None = None

@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.reference.pronouns.coreference import anteceden
 from etot_cli.reasoning.language.reference.pronouns.meanings_by_now import MeaningsByNow
 from etot_cli.reasoning.language.reference.pronouns.narrowing import part_around
 from etot_cli.reasoning.language.reference.pronouns.plural_pronouns import the_two_named
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 _BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my two",
@@ -108,7 +108,34 @@ class Referents(MeaningsByNow):
             resolved, phrase.text, role, several=several, whatever=whole, collective=mass
         )
         self._note_landmarks(phrase, resolved.options)
+        if role is Role.THEME and {*self.discourse.things(index)} & self.discourse.cleared:
+            self._note_emptied_before()
+        elif role is Role.THEME and resolved.every:
+            self._note_emptied(phrase, index)
         return (index,)
+
+    def _note_emptied_before(self) -> None:
+        """Where what has just been cleared away goes ("clear the plate: the bun goes on the rack"),
+        which "there" may mean then as well as what is empty now.
+        """
+        (emptied, clause) = (self.discourse.emptied_of, self.discourse.clause)
+        emptied[clause] = dict.fromkeys(emptied.get(clause - 1, ()), Prep.ON)
+
+    def _note_emptied(self, phrase: NounPhrase, index: int) -> None:
+        """What "everything in the bowl" leaves empty, when that is moved."""
+        (usual, discourse) = (usual_form(phrase), self.discourse)
+        (told, *more) = usual.modifiers or (None,)
+        if told is None or more or told.denied or not matches_any(usual.head, THING_NOUNS):
+            return
+        if told.prep not in (Prep.IN, Prep.ON, Prep.FROM) or len(usual.words) > 1:
+            return
+        last = max(i for i, m in enumerate(discourse.mentions) if m.referent == index)
+        held = [m.referent for m in discourse.mentions[last + 1 :]]
+        for np in told.phrases:
+            if np.pronoun:
+                with suppress(ReferenceProblem):
+                    held += antecedents(discourse, np.pronoun, Role.ANY, np.text, (index,))
+        discourse.emptied_of[discourse.clause] = dict.fromkeys(held, told.prep)
 
     def _around_itself(self, phrase: NounPhrase, role: Role) -> NounPhrase:
         """A phrase with itself for the pronoun in "the nut out of the cup it is in", where that is

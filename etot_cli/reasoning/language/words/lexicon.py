@@ -68,24 +68,53 @@ TWINS: tuple[tuple[str, ...], ...] = (
     ("tv cabinet", "telly cabinet", "television cabinet"), ("stove", "cooker", "hob"),
     ("dish towel", "tea towel", "dishcloth"), ("candy", "sweet"), ("tape", "sellotape"),
     ("eggplant", "aubergine"), ("zucchini", "courgette"), ("diaper", "nappy"),
+    ("ladybird", "ladybug"), ("pacifier", "dummy"), ("backpack", "rucksack"),
+    ("cotton bud", "cotton swab"), ("clothes peg", "clothespin"), ("drawing pin", "thumbtack"),
+    ("paper towel", "kitchen towel", "kitchen roll"), ("cling film", "plastic wrap"),
+    ("hex key", "allen key", "hex wrench", "allen wrench"), ("beetroot", "beet"),
+    ("bell pepper", "capsicum"), ("spring onion", "scallion", "green onion"), ("prawn", "shrimp"),
+    ("nail polish", "nail varnish"), ("band aid", "sticking plaster"), ("popsicle", "ice lolly"),
     ("trash can", "trash bin", "garbage can", "garbage bin", "rubbish bin", "waste bin",
      "waste container", "wastepaper bin", "wastepaper basket", "dustbin", "wastebasket", "trash",
      "garbage"),
 )  # fmt: skip
 """Everyday names of one and the same thing, in whichever English."""
+_SPELLINGS = """
+    tyre/tire mould/mold doughnut/donut yoghurt/yogurt fibre/fiber aluminium/aluminum
+    jewellery/jewelry pyjama/pajama plough/plow moustache/mustache cosy/cozy litre/liter axe/ax
+    omelette/omelet sulphur/sulfur chilli/chili/chile whisky/whiskey liquorice/licorice
+    ketchup/catsup calliper/caliper vice/vise woollen/woolen disc/disk racquet/racket dryer/drier
+    catalogue/catalog armour/armor carburettor/carburetor mitre/miter barbecue/barbeque
+    hairdryer/hairdrier
+"""
+SPELLINGS = tuple(tuple(words.split("/")) for words in _SPELLINGS.split())
+"""One word in the spellings of either English, without endings."""
 SORTS: dict[str, str] = {
-    **dict.fromkeys(("textbook", "schoolbook", "storybook", "cookbook", "novel"), "book"),
-    **dict.fromkeys(("hardback", "hardcover", "thriller", "dictionary", "encyclopedia"), "book"),
-    **dict.fromkeys(("notebook", "atlas"), "book"),
-    **dict.fromkeys(("walnut", "hazelnut", "chestnut", "peanut", "cashew", "pecan"), "nut"),
-    **dict.fromkeys(("teaspoon", "tablespoon", "soupspoon", "dessertspoon"), "spoon"),
-    **dict.fromkeys(("penknife", "pocketknife"), "knife"), "wineglass": "glass", "saucepan": "pan",
-    **dict.fromkeys(("teapot", "flowerpot"), "pot"), "handbag": "bag", "paperback": "book",
-    **dict.fromkeys(("toothbrush", "paintbrush", "hairbrush"), "brush"),
-    **dict.fromkeys(("lunchbox", "toolbox", "matchbox"), "box"),
-    **dict.fromkeys(("football", "basketball", "baseball", "softball", "volleyball"), "ball"),
+    word: noun
+    for noun, words in {
+        "ball": "football basketball baseball softball volleyball",
+        "board": "chessboard checkerboard breadboard clipboard pegboard whiteboard blackboard "
+        "chalkboard corkboard pinboard",
+        "book": "textbook schoolbook storybook cookbook novel hardback hardcover paperback "
+        "thriller dictionary encyclopedia notebook atlas workbook sketchbook scrapbook guidebook",
+        "nut": "walnut hazelnut chestnut peanut cashew pecan",
+        "spoon": "teaspoon tablespoon soupspoon dessertspoon",
+        "berry": "strawberry blueberry raspberry blackberry cranberry gooseberry",
+        "knife": "penknife pocketknife", "glass": "wineglass", "cup": "teacup", "pan": "saucepan",
+        "pot": "teapot flowerpot coffeepot stockpot", "case": "suitcase briefcase",
+        "bag": "handbag schoolbag toolbag", "basket": "breadbasket", "melon": "watermelon",
+        "brush": "toothbrush paintbrush hairbrush nailbrush", "cake": "cheesecake fruitcake",
+        "box": "lunchbox toolbox matchbox shoebox breadbox toybox",
+        "cloth": "washcloth tablecloth dishcloth", "mat": "placemat doormat bathmat",
+        "paper": "newspaper", "card": "postcard flashcard", "clip": "paperclip hairclip",
+        "pin": "pushpin hairpin", "watch": "wristwatch stopwatch", "coat": "raincoat overcoat",
+        "phone": "smartphone", "chair": "armchair", "truck": "firetruck", "bike": "motorbike",
+        "boat": "sailboat speedboat rowboat lifeboat tugboat", "saw": "hacksaw handsaw",
+    }.items()
+    for word in words.split()
 }  # fmt: skip
-"""Nouns in one word, and the noun of which they are a sort."""
+"""Nouns in one word, and the noun of which they are a sort. Many that end alike are none: a
+cupboard is no board, a dustpan no pan, a pineapple no apple."""
 RUBBISH = word_set("trash rubbish garbage waste litter recycling")
 """What is put where it belongs, called by the same word."""
 REFUSE = ("trash", "garbage")
@@ -166,8 +195,8 @@ is not also called by a noun for its mere shape (an apple is no ball)."""
 HELPING_NOUNS = word_set(
     """
     holder stand rack caddy organizer tray plate basket bag bucket bin pouch purse sack tub tank
-    tube pack set kit bundle roll dispenser machine clip case cover cap lid stopper plug hook peg
-    hanger strap cord lace charger cable key ring bell end stop board mat rest shade stick stump
+    lever tube pack set kit bundle roll dispenser machine clip case cover cap lid stopper plug hook
+    peg hanger strap cord lace charger cable key ring bell end stop board mat rest shade stick stump
     brush knife fork spoon scoop ladle spatula whisk tongs scissors press mill grinder grater
     opener peeler slicer cutter corer sharpener punch roller timer remover cleaner shaker
     """

@@ -219,7 +219,8 @@ BY_COLOR = """
     by [their] (color|colors|colour|colours), sorted by (color|colour), matched by (color|colour),
     according to [their] (color|colors|colour|colours)
 """
-STARTING_WITH = "starting with, beginning with"
+STARTING_WITH = "(starting|beginning) [off] with"
+ENDING_WITH = "(ending|finishing) [up|off] with"
 _SIZES = (
     ("largest", "smallest"), ("biggest", "smallest"), ("tallest", "shortest"),
     ("longest", "shortest"), ("widest", "narrowest"), ("heaviest", "lightest"),

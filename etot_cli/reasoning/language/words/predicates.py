@@ -41,9 +41,11 @@ NOTHING_MAY_BE = """
 BROUGHT = """
     put|placed|moved|brought|taken|took|set|stored|stowed|dropped|inserted|transferred|laid|parked|left|kept|
     put away|put down|put back|set down|laid down|stowed away|tucked away|filed away|served up|
-    set out|laid out|lowered|collected|gathered|tidied|tidied away|tidied up
-""" + "".join(f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved"))
-"""What was taken from one place is then, to another one."""
+    set out|laid out|lowered|collected|gathered|tidied|tidied away|tidied up|cleared away
+""" + "".join(
+    f"|{done}" for done in participles(SET_DOWN) if done not in ("put", "set", "moved", "cleared")
+)
+"""What was taken from one place is then, to another one; what is cleared somewhere is emptied."""
 NOTHING_GOES = f"""
     (nothing|no (thing|object|item)) (should|must|may|can|shall|is to|has to)
     (be (put|placed|moved|brought|set|laid|dropped|stored|deposited)|go|come|move|end up|land|get),

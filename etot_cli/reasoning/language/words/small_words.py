@@ -9,6 +9,8 @@ NAMED = r"(?:the|a|an|my|our|your|all|both|every|this|that|these|those)\b"
 """What a named thing begins with, as a regular expression."""
 WHERE = r"(?:in|on|to|next|inside|onto|into|from|off|out)\b"
 """What a place begins with, as a regular expression."""
+AND_NO_MORE = "and nothing else, but nothing else"
+"""Behind what alone is to be somewhere."""
 ALL_ALONG = """
     at all times, at any (time|point|moment|stage),
     (during|throughout) the [whole|entire]
@@ -62,8 +64,9 @@ LEADING_FIRST = f"""
     [as (a|the|your)|the|your] first (step|thing|task|action) [to do] [is [to]], first things first
 """
 LEADING_BEFORE = """
-    [but] before [doing|you do] (that|this), [but] before (doing|you do) (so|it), [but] beforehand,
-    [but] prior to (that|this|doing so)
+    [but|though] before (that|this), [but|though] before (doing (so|it|that|this)),
+    [but|though] before you do [so|it|that|this], [but] beforehand,
+    [but] prior to (that|this|doing (so|that|this))
 """
 LEADING_BETWEEN = "in between"
 LEADING_LAST = f"""
@@ -73,12 +76,13 @@ LEADING_LAST = f"""
 """
 _THAT_DONE = """
     (once|when|after|as soon as) (that|it|this) (is|has been) [all] done, [with] (that|this) done,
-    having done (that|this|so), (once|when) you (are|have) done [with] (that|this)
+    having done (that|this|so), (once|when|after) you are done [with] (that|this|it),
+    (once|when|after|as soon as) (you have done (that|this|so|it)|you do [so|that|this])
 """
 LEADING_THEN = f"""
     then, next, after [all [of]] (that|this), afterwards, afterward, after which,
     second, secondly, third, thirdly,
-    after doing so,
+    after doing (so|that|this),
     [the|as (a|the|your)] (next|second|third|fourth) (step|thing|task|action) [to do] [is [to]],
     the (next|second|third|fourth) is to,
     {_THAT_DONE}, {_WHEN_DONE}, and then, subsequently, later
@@ -119,6 +123,11 @@ COUNTED_JOINTS = "[and] [then] (second|secondly|third|thirdly|fourth|fourthly), 
 """Before what comes next, where something was said to come first."""
 COUNTED = "second, third, fourth, next, then, afterwards, last"
 """Behind what comes next there."""
+NOT_BEFORE = """
+    [but|and] not (before|until) [after], [but|and] not (sooner|earlier) than,
+    [but|and] only after
+"""
+"""Before what goes to the same place earlier; "after the cup" alone may only say when."""
 COMES = "comes, come, goes, go"
 """Between a thing and its turn."""
 ONWARD = "[and] then [finally], [and] after that, and finally"

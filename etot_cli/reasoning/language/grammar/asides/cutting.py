@@ -204,7 +204,7 @@ def _is_for_later(place: _Place) -> bool:
     when something is done.
     """
     said = place.said
-    named = said.startswith("you do ") or any(map(place.is_name, said.split()))
+    named = f"{said} ".startswith("you do ") or any(map(place.is_name, said.split()))
     if place.at == 0 and not all(item.is_polite for item in place.clauses[1:]):
         # "Before you do that, …" is about an order.
         told = not re.match(r"(?:you|we|i)\b", said)

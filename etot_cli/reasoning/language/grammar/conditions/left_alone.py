@@ -82,9 +82,16 @@ _FINE = (
 _OF_ONE = word_set("stays remains keeps retains")
 
 
+_WHERE_PUT = (" stay", " stays", " remain", " remains", " there", " standing")
+"""Behind "it" this is said of what has just been put somewhere, not of what was there."""
+
+
 def _in_number(text: str, clause: AvoidClause) -> AvoidClause | None:
     """What stays as it is; of "then the pen, and the cup stays where it is" the cup alone does."""
     things = clause.things
+    it = things is not None and all(np.pronoun == "it" for np in things.phrases)
+    if it and text.endswith(_WHERE_PUT):
+        return None
     several = things is not None and len(things.phrases) > 1 and not things.either
     return None if several and _OF_ONE & {*text.split()} else clause
 

@@ -23,6 +23,8 @@ from etot_cli.reasoning.language.grammar.conditions.forbidden_acts import (
 )
 from etot_cli.reasoning.language.grammar.conditions.instruments import MEETING, NOT_MET
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
     either,
     one_of,
     optional,
@@ -35,7 +37,12 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, WORDS, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.being_so import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
+    AHEAD_OF_PLACES,
+    ALL_THINGS,
+    NP_LIST,
+    THINGS,
+)
 from etot_cli.reasoning.language.grammar.requests.arrangements import HELD_MEANWHILE
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -115,6 +122,10 @@ NOTHING_ELSE = sequence(
 """That what has been put somewhere is to be alone there ("… and nothing else in it")."""
 NOTHING_MORE = phrase("nothing else", AvoidClause(Avoid.MOVE, None))
 """Behind all that is asked for."""
+_NO_PLACE_NEXT = Parser(
+    lambda given, at: [] if {*given.ahead[at + 1 : at + 2]} & AHEAD_OF_PLACES else [(at, NOTHING)]
+)
+"""In "the cup, and nothing else, on the tray" it is said of what goes there."""
 AVOID = either(
     AVOIDED,
     quiet(
@@ -306,7 +317,7 @@ WITHOUT = sequence(
         ),
         sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
         HELD_MEANWHILE,
-        sequence("[and|but]", NOTHING_MORE),
+        sequence("[and|but]", NOTHING_MORE, _NO_PLACE_NEXT),
         AVOIDED,
     ),
 )

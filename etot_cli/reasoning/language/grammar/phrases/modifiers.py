@@ -70,6 +70,18 @@ _matching = either(
     ),
     phrase(nouns.OTHER_COLOR, Modifier(Prep.MATCHING, denied=True)),
 )
+UNSAID_SO = ("so",)
+"""The words of a modifier that leaves out what is so, as it was said of another thing before."""
+_UNSAID = sequence(
+    after("one", "ones"),
+    "that, which",
+    either(
+        phrase("(is|are|do|does) not", Modifier(Prep.QUALITY, words=UNSAID_SO, denied=True)),
+        phrase("is, are, does, do", Modifier(Prep.QUALITY, words=UNSAID_SO)),
+    ),
+    ahead("~comma", "and", "but", "then", "into", "onto", "in", "on", "to", "next", "beside", ""),
+)
+"""In "the block that is in the box on the one that is not"."""
 MODIFIER = Rule()
 
 
@@ -147,6 +159,7 @@ _modifier = either(
     PLAIN_MODIFIER,
     CONTENTS,
     _matching,
+    _UNSAID,
     sequence(nouns.RELATIVE, DESCRIBED),
     sequence(
         "(that|which) (has|have) (fallen|toppled|tipped) [over|down]",

@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     LIST_COMMA,
     OPTIONAL_COMMA,
     WORDS,
+    ahead,
     alternatives,
     exceptions,
     noun_phrase,
@@ -41,7 +42,13 @@ from etot_cli.reasoning.language.grammar.phrases.naming import NAMED
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, predicates, small_words
 from etot_cli.reasoning.language.words.categories import MASS_NOUNS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, is_descriptive, same_noun, singular
+from etot_cli.reasoning.language.words.lexicon import (
+    NUMBERS,
+    is_descriptive,
+    same_noun,
+    singular,
+    word_set,
+)
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.patterns import openings_of
 
@@ -163,9 +170,35 @@ _COORDINATION = sequence(_LIST, build=lambda nps: None if _out_of(nps) else nps)
 _NEITHER = sequence(alternatives(noun_phrase, 3), build=lambda nps: nps if nps[1:] else None)
 noun_phrase.define(NAMED)
 exceptions.define(either(_COORDINATION, ONES_OF_A_COLOR, _NEITHER))
+AHEAD_OF_PLACES = word_set("in on into onto inside to")
+"""What a place of what alone goes there begins with."""
+
+
+_KNOWN_ONES = [[word] for word in (*THE_WORDS, "both", "all")]
+
+
+def _and_nothing_else(nps: tuple[NounPhrase, ...]) -> tuple[NounPhrase, ...] | None:
+    """What alone is to be somewhere ("the cup and nothing else"); behind a phrase that tells where
+    its thing is, that may be said of what goes there.
+    """
+    (first, *more) = nps
+    told = any(np.modifiers or np.pronoun for np in nps)
+    if told or first.determiner.split()[:1] not in _KNOWN_ONES:
+        return None
+    return (replace(first, determiner=f"only {first.determiner}"), *more)
+
+
 NP_LIST = Rule(
     either(
         _PARTS,
+        sequence(
+            _COORDINATION,
+            OPTIONAL_COMMA,
+            small_words.AND_NO_MORE,
+            OPTIONAL_COMMA,
+            ahead(*AHEAD_OF_PLACES),
+            build=_and_nothing_else,
+        ),
         sequence(optional(phrase("both"), None), _COORDINATION, build=_both),
         _INCLUDING,
         COLORS_ALONE,

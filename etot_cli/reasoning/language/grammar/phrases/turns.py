@@ -44,12 +44,15 @@ _FIRST_OF_THEM = either(
     sequence("first", separated(noun_phrase, LIST, most=2), build=_named_ones),
     sequence(manner.STARTING_WITH, noun_phrase, build=lambda np: (np,)),
 )
-_LAST_OF_THEM = sequence(
-    silent(optional("taking, moving, putting")),
-    separated(noun_phrase, LIST, most=2),
-    optional(small_words.COMES),
-    "last",
-    build=_named_ones,
+_LAST_OF_THEM = either(
+    sequence(
+        silent(optional("taking, moving, putting")),
+        separated(noun_phrase, LIST, most=2),
+        optional(small_words.COMES),
+        "last",
+        build=_named_ones,
+    ),
+    sequence(manner.ENDING_WITH, noun_phrase, build=lambda np: (np,)),
 )
 SWEEP = one_of(manner.SWEEPS)
 _THEN = either(LIST, sequence(OPTIONAL_COMMA, THEN))

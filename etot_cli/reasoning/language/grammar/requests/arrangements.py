@@ -232,7 +232,10 @@ REORIENT = either(
             sequence(ALL_THINGS, predicates.STAY),
             sequence(verbs.ENSURE, ALL_THINGS, predicates.STAY),
         ),
-        either(phrase(manner.ERECT, Nearby.UPRIGHT), phrase(manner.LAID, Nearby.LYING)),
+        either(
+            phrase(f"{manner.ERECT}, standing [up]", Nearby.UPRIGHT),
+            phrase(manner.LAID, Nearby.LYING),
+        ),
         silent(optional(manner.ON_THE_WAY)),
         build=_staying_so,
     ),

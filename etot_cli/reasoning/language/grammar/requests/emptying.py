@@ -183,15 +183,22 @@ _OF_ALL_ON_IT = f"""
 _ALL_THAT_IS = "[all] the contents of, (everything|all) (in|inside), what is (in|inside)"
 
 
+_IS_TO_BE = either(
+    sequence(ALL_THINGS, predicates.MODAL),
+    sequence(verbs.ENSURE, ALL_THINGS, predicates.BE),
+    sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
+    sequence("let, have", ALL_THINGS, "be"),
+)
 TO_BE_EMPTY = either(
+    sequence(
+        either(_IS_TO_BE, sequence(ALL_THINGS, "is, are, (has|have) been")),
+        "emptied [out], cleared [out], unloaded",
+        DESTINATIONS,
+        build=emptied,
+    ),
     variants(
         sequence(
-            either(
-                sequence(ALL_THINGS, predicates.MODAL),
-                sequence(verbs.ENSURE, ALL_THINGS, predicates.BE),
-                sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
-                sequence("let, have", ALL_THINGS, "be"),
-            ),
+            _IS_TO_BE,
             optional(phrase("both, all"), ""),
             manner.EMPTIED,
             silent(optional(_OF_ALL_ON_IT)),

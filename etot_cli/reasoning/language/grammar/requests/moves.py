@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     quiet,
     sequence,
+    silent,
     valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
@@ -26,6 +27,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 )
 from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD
 from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
+from etot_cli.reasoning.language.grammar.phrases.contents import WITH_IN_IT
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
@@ -33,6 +35,7 @@ from etot_cli.reasoning.language.grammar.requests.doors import SET_TO_STATE
 from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, MoveClause, Turns
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
+    Modifier,
     NounPhrase,
     State,
     Things,
@@ -40,6 +43,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.words import manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
+from etot_cli.reasoning.language.words.places import Prep
 
 
 def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
@@ -60,6 +64,14 @@ def _lifted(things: Things) -> MoveClause:
     """What swings up when it is opened: rather taken, and "it" is what was taken hold of."""
     again = all(np.pronoun for np in things.phrases)
     return MoveClause(things, opens=True, far_fetched=1 + again)
+
+
+def _shut_with(np: NounPhrase, inside: Modifier) -> MoveClause | None:
+    """What is shut with something in it, told as in "close the drawer with the pen in it"."""
+    text = f"{np.text} with {inside.phrases[0].text} in it"
+    told = replace(np.told_by(inside), text=text)
+    shut = inside.prep is Prep.CONTAINING and not np.pronoun
+    return MoveClause(Things((told,)), opens=False) if shut else None
 
 
 def _whatever_opened(text: str) -> MoveClause:
@@ -98,6 +110,15 @@ _PLAIN_MOVE = either(
             ),
             (f"{verbs.CLOSE}, (push[ing]|slid(e|ing)|eas(e|ing)|shov(e|ing)) [back] in", False),
         )
+    ),
+    sequence(
+        # "Slide the drawer shut with the pen in it"
+        verbs.PUSH_SHUT,
+        noun_phrase,
+        manner.CLOSED_STATE,
+        silent(optional("again")),
+        WITH_IN_IT,
+        build=_shut_with,
     ),
     *(
         sequence(

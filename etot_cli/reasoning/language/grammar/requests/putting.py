@@ -103,8 +103,8 @@ def _stacked(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
     nested = where.toward is Toward.INSIDE and singular(np.head) == np.head and not more
     put = put_of(groups, extras) if nested or extras or len(groups) > 1 else None
     # "Stack the cups on the tray, the blue one first" lays none beside another.
-    beside = put is not None and put.turns != Turns() and groups[0].things.may_be_several
-    return None if beside else put
+    in_turn = put is not None and (put.ordered or put.turns != Turns())
+    return None if in_turn and groups[0].things.may_be_several else put
 
 
 def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutClause | None:

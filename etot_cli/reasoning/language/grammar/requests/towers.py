@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
+    COLON,
     COMMA,
     LIST,
     OPTIONAL_COMMA,
@@ -140,6 +141,18 @@ def _rising(lowest: Any, more: Any) -> tuple[NounPhrase, ...] | None:
     return nps[::-1] if begun == "top" else nps
 
 
+def _one_by_one(turn: Any) -> tuple[NounPhrase, ...] | None:
+    """All of a tower in the order in which it is built."""
+    order, said = turn
+    return said if order == "all" else None
+
+
+def _as_named(things: Things, base: Any) -> TowerClause | None:
+    """A tower of what is named in the order in which it is built."""
+    several = len(things.phrases) > 1 and not things.either
+    return TowerClause(things, upward=True, base=base) if several else None
+
+
 def _of_these(things: Things, base: Any, nps: tuple[NounPhrase, ...]) -> TowerClause | None:
     """A tower of those of several things that are named in their order."""
     (np, *more) = things.phrases
@@ -182,19 +195,23 @@ _ORDER = sequence(OPTIONAL_COMMA, manner.IN_THE_ORDER, OPTIONAL_COMMA)
 _IN_ORDER = either(
     sequence(_ORDER, _IN_A_ROW, _UPWARD, build=lambda nps, up: nps if up else nps[::-1]),
     sequence(
-        either(sequence(_ORDER, _UPWARD, COMMA), sequence(_UPWARD, _ORDER)),
+        either(
+            sequence(_ORDER, _UPWARD, COMMA),
+            sequence(_UPWARD, _ORDER),
+            sequence(_UPWARD, either(COLON, COMMA)),
+        ),
         _IN_A_ROW,
         build=lambda up, nps: nps if up else nps[::-1],
     ),
+    sequence(_ORDER, either(_IN_A_ROW, FIRST_TO_LAST)),
 )
-"""All of a tower in an order whose direction is said, from the bottom up."""
+"""All of a tower from the bottom up; it is stacked in the order that is said."""
 _LAYERS = valued(
     either(
         sequence(_LAYER, _MORE_LAYERS, build=_rising),
         ONE_ON_THE_OTHER,
         FIRST_TO_LAST,
         sequence(_IN_A_ROW, _UPWARD, build=lambda nps, up: nps if up else nps[::-1]),
-        sequence(_UPWARD, COMMA, _IN_A_ROW, build=lambda up, nps: nps if up else nps[::-1]),
         _IN_ORDER,
     ),
     _with_nouns,
@@ -331,12 +348,23 @@ _TOWER = either(
     ),
     sequence(
         # "Stack the blocks on the tray from bottom to top in the order red, blue"
+        either(
+            sequence(verbs.STACK, THINGS, optional("up")),
+            sequence(THINGS, predicates.MODAL, "(stacked|piled) [up]"),
+            sequence(verbs.BUILD, verbs.OUT_OF, THINGS),
+        ),
+        optional(DESTINATIONS, ()),
+        either(_IN_ORDER, sequence(OPTIONAL_COMMA, TURN, build=_one_by_one)),
+        build=_of_these,
+    ),
+    sequence(
+        # "Stack the red cup and the blue one on the tray, in that order"
         verbs.STACK,
         THINGS,
-        optional("up"),
         optional(DESTINATIONS, ()),
-        _IN_ORDER,
-        build=_of_these,
+        OPTIONAL_COMMA,
+        manner.IN_THIS_ORDER,
+        build=_as_named,
     ),
 )
 

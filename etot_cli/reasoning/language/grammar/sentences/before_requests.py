@@ -48,6 +48,7 @@ from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
 from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
 from etot_cli.reasoning.language.grammar.sentences.named_ahead import NAMED_AHEAD
 from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, Spoken, plain
+from etot_cli.reasoning.language.grammar.sentences.taking_turns import by_turns
 from etot_cli.reasoning.language.grammar.sentences.told_with import WITH_SO
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
@@ -70,6 +71,8 @@ from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, singular
 
 def _started_with(first: NounPhrase, done: Reading) -> Reading | None:
     """What is done with several things, the first of which is told before."""
+    if several := by_turns(done, Turns(first=(first,))):
+        return several
     clause = done[0].clause
     if not isinstance(clause, PutClause | MoveClause) or clause.turns != Turns():
         return None

@@ -98,6 +98,12 @@ def _once_more(things: Things) -> AgainClause | None:
     return None if begins_like_a_verb(things.phrases[0]) else AgainClause(things)
 
 
+def _ahead(nps: tuple[NounPhrase, ...]) -> AgainClause | None:
+    """What goes there before what was said to."""
+    named = not any(np.pronoun or begins_like_a_verb(np) for np in nps)
+    return AgainClause(Things(nps)) if named else None
+
+
 def _another(things: Things) -> AgainClause | None:
     """What comes second; "the apple on the plate" rather goes there."""
     placed = any(item.prep in (Prep.IN, Prep.ON) for np in things.phrases for item in np.modifiers)
@@ -194,6 +200,13 @@ JOINED = either(
     joint("emptied", COMMA, optional(small_words.AND), PLACED),
     joint("passive", timed(THEN_PLACED, THEN_TURNED, THEN_HELD, ALSO_DONE)),
     joint("passive, then", timed(BEFORE_PLACED)),
+    joint(
+        # "Put the cup on the tray, but not before the plate"
+        "and",
+        OPTIONAL_COMMA,
+        small_words.NOT_BEFORE,
+        plain(sequence(NP_LIST, build=_ahead), Order.BEFORE_THAT),
+    ),
     joint(
         # "…, but first the cup on the tray", "…, but before that the cup"
         "and",

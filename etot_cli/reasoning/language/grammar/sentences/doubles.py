@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from msgspec.structs import replace
+
 from etot_cli.reasoning.language.grammar.conditions.ensuring import ENSURE
 from etot_cli.reasoning.language.grammar.conditions.prohibitions import WITHOUT
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
@@ -15,6 +17,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     separated,
     sequence,
+    silent,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
     COMMA,
@@ -25,6 +28,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
 from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.requests.emptying import contents_of
 from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -41,17 +45,54 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State, Things, Toward
 from etot_cli.reasoning.language.words import forbidden, manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.places import Prep
+
+
+def _its(np: NounPhrase) -> NounPhrase:
+    """The lid for "its lid", as there is one."""
+    return replace(np, determiner="the") if np.determiner == "its" else np
+
+
+LEFT_BEHIND = either(
+    sequence(
+        "[but] without",
+        NP_LIST,
+        silent(optional("[still] (in|inside|on) (it|there), inside")),
+        build=lambda nps: tuple(map(_its, nps)),
+    ),
+    phrase("[but] without its contents", Prep.OF),
+    sequence(
+        """
+        [but] without (anything|everything|whatever|whatever is|what is|that is) [still|left],
+        [but] with nothing [left]
+        """,
+        one_of({Prep.IN: "in, inside", Prep.ON: "on"}),
+        "it",
+        build=lambda prep: prep,
+    ),
+)
+"""Behind what goes somewhere, what of that does not; where all that is not is."""
 
 
 def bared(
-    orders: tuple[Order | bool, ...], put: tuple[int, PutClause], out: tuple[NounPhrase, ...]
+    orders: tuple[Order | bool, ...], put: tuple[int, PutClause], out: tuple[NounPhrase, ...] | Prep
 ) -> Reading | None:
-    """Who puts a mug somewhere "without the pen" takes the pen out of it first."""
+    """Who puts a mug somewhere "without the pen" takes the pen out of it first; what is to be on a
+    tray "with nothing in it" is rather empty itself than on a tray that is.
+    """
     at, clause = put
     (theme, *more) = clause.groups[0].things.phrases
-    if orders or more or clause.groups[1:]:
+    if {*orders} - {Order.THEN} or more or clause.groups[1:]:
         return None
-    return (Spoken(RemoveClause(Things(out), theme, without=True), at), Spoken(clause, at))
+    if isinstance(out, Prep):
+        held = Things((contents_of(theme, Prep.ON if out is Prep.ON else Prep.FROM),))
+        taken = RemoveClause(held, without=True, by_then=True)
+        upon = all(item.toward is Toward.ON for item in clause.groups[0].destinations)
+        rather = out is Prep.IN and upon
+        clause = replace(clause, far_fetched=clause.far_fetched - rather)
+    else:
+        taken = RemoveClause(Things(out), theme, without=True)
+    return (Spoken(taken, at, Order.THEN if orders else Order.SAID), Spoken(clause, at))
 
 
 def with_others(
@@ -146,16 +187,31 @@ def _so_in_turn(
 IN_TURN = so_in_turn(NP_LIST)
 
 
-PARENTHETIC = located(
-    sequence(
-        # "Move the pen, without touching the book, to the tray"
-        either(sequence(verbs.SET_DOWN, THINGS), sequence(ALL_THINGS, predicates.MODAL)),
-        WITHOUT,
-        COMMA,
-        DESTINATIONS,
-        build=lambda things, avoided, where: (put_to(things, where), avoided),
+PARENTHETIC = either(
+    located(
+        sequence(
+            # "Move the pen, without touching the book, to the tray"
+            either(sequence(verbs.SET_DOWN, THINGS), sequence(ALL_THINGS, predicates.MODAL)),
+            WITHOUT,
+            COMMA,
+            DESTINATIONS,
+            build=lambda things, avoided, where: (put_to(things, where), avoided),
+        ),
+        lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
     ),
-    lambda at, clauses: tuple(Spoken(clause, at) for clause in clauses),
+    located(
+        sequence(
+            # "Move the mug, without the pen in it, to the tray"
+            verbs.SET_DOWN,
+            THINGS,
+            COMMA,
+            LEFT_BEHIND,
+            COMMA,
+            DESTINATIONS,
+            build=lambda things, out, where: (put_to(things, where), out),
+        ),
+        lambda at, said: bared((), (at, said[0]), said[1]),
+    ),
 )
 
 

@@ -19,7 +19,11 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, LIST, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.phrases.states import STATE, states
-from etot_cli.reasoning.language.grammar.requests.emptying import IS_EMPTY, NOTHING_THERE
+from etot_cli.reasoning.language.grammar.requests.emptying import (
+    IS_EMPTY,
+    NOTHING_THERE,
+    is_emptying,
+)
 from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN, WITH_MORE_SO
 from etot_cli.reasoning.language.grammar.sentences.headlines import HEADLINE, PLACED
@@ -28,6 +32,7 @@ from etot_cli.reasoning.language.grammar.sentences.spoken import Reading, plain
 from etot_cli.reasoning.language.grammar.sentences.topics import NAMED
 from etot_cli.reasoning.language.grammar.sentences.wishes import TOLD_APART
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
     AvoidClause,
     EnsureClause,
     PutClause,
@@ -57,14 +62,17 @@ def _swapped(things: Things, rest: Reading) -> Reading | None:
 
 
 def _all_wanted(wanted: Reading) -> Reading | None:
-    """What is wanted off something, and what goes where besides ("the pen from the cup" may go
-    there, too); or how several things are to be, the first of which with something in it (alone, it
-    may be wanted itself).
+    """What is wanted off something, or empty, and what goes where besides ("the pen from the cup"
+    may go there, too); or how several things are to be, the first of which with something in it
+    (alone, it may be wanted itself).
     """
     first = wanted[0].clause
     match first:
         case RemoveClause():
-            so = bool(first.source or {"off", "out"} & {*first.things.text.split()})
+            said = {*first.things.text.split()}
+            so = bool(first.source or {"off", "out"} & said) or is_emptying(first)
+        case AvoidClause(avoid=Avoid.PUT, not_left=True):
+            so = True
         case EnsureClause():
             so = all(
                 isinstance(said.clause, EnsureClause | AvoidClause | RemoveClause)

@@ -171,6 +171,13 @@ def _is_terse(before: Clause, clause: Clause) -> bool:
     return isinstance(before, MoveClause) and all(not np.determiner for np in phrases)
 
 
+def _is_of_nothing_else(clause: Clause) -> bool:
+    """Whether what has been put somewhere is to be alone there."""
+    if not isinstance(clause, AvoidClause) or not clause.not_left or clause.things is None:
+        return False
+    return [np.text for np in clause.things.phrases] == ["nothing else"]
+
+
 def chained(first: Reading, more: Joined) -> Reading | None:
     """Clauses in the order in which they are to be done, by what joins them."""
     done = first
@@ -197,6 +204,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
         before = done[-1].clause
         if said == "by" and isinstance(clause[0].clause, PickClause):
             return None  # "put it there by gripping it from above" says how it is held meanwhile
+        wanted = isinstance(before, PickClause) and before.wanted
+        if wanted and _is_of_nothing_else(clause[0].clause):
+            return None  # "I want the cup and nothing else on the tray" does not ask to hold it
         if said == "purpose" and isinstance(before, PickClause) and before.wanted:
             return None  # "I want the box to have the cup in it" does not ask for the box
         if said == "while" and not any(

@@ -22,13 +22,13 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA
 from etot_cli.reasoning.language.grammar.parsers.input import NO_WORD, Input, Result
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.requests.flanking import FLANKED
 from etot_cli.reasoning.language.grammar.requests.putting import PUT
 from etot_cli.reasoning.language.grammar.sentences.clauses import CLAUSE, INSTEAD
 from etot_cli.reasoning.language.grammar.sentences.doubles import (
     BOTH_WAYS,
     IN_TURN,
+    LEFT_BEHIND,
     NEITHER,
     ONLY_THESE,
     PARENTHETIC,
@@ -185,8 +185,7 @@ LED_CLAUSE = Rule(
             LEAD,
             located(PUT, lambda at, clause: (at, clause)),
             OPTIONAL_COMMA,
-            "without",
-            NP_LIST,
+            LEFT_BEHIND,
             build=bared,
         ),
     )

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.parsers.trees import reading_cost
 from etot_cli.reasoning.language.grammar.sentences.accounting import unaccounted
 from etot_cli.reasoning.language.grammar.sentences.sentences import readings
 from etot_cli.reasoning.language.grammar.sentences.spoken import Reading
+from etot_cli.reasoning.language.grammar.sentences.unsaid_predicates import spelled_out
 from etot_cli.reasoning.language.grammar.text.spelling import (
     Correction,
     corrected,
@@ -181,6 +182,7 @@ def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -
     except TooManyReadings:
         why = "this can be read in too many ways; make it several sentences"
         raise UnreadableError(shown(words), before, why) from None
+    found = [reading for said in found if (reading := spelled_out(said)) is not None]
     if not found:
         raise UnreadableError(shown(words), before, unread=given)
     over = {reading: unaccounted(words, reading) for reading in found}

@@ -48,6 +48,7 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
 from etot_cli.reasoning.language.grammar.sentences.joining import Joined, chained, joint
 from etot_cli.reasoning.language.grammar.sentences.led_clauses import LEAD, ORDER_WORDS
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.taking_turns import taking_turns
 from etot_cli.reasoning.language.grammar.sentences.topics import SAID
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AgainClause,
@@ -166,6 +167,7 @@ WHOLE = either(
     sequence(as_things_are(SENTENCE), _END, optional(QUESTION)),
     sequence(SENTENCE, COMMA, small_words.TRAILING_LAST, _END, build=_in_the_end),
     sequence(SENTENCE, COMMA, manner.IN_THIS_ORDER, _END, build=_in_sequence),
+    sequence(taking_turns(SENTENCE), _END, optional(QUESTION)),
     sequence(_BY_THEN, OPTIONAL_COMMA, small_words.SOMEBODY_COMES, _END),
     sequence(_GREETING, small_words.SOMEBODY_COMES, OPTIONAL_COMMA, _BY_THEN, _END),
     sequence(

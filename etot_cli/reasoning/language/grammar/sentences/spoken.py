@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import Parser, located
 from etot_cli.reasoning.language.grammar.syntax.clauses import Clause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Condition
+from etot_cli.reasoning.language.grammar.syntax.phrases import Condition, NounPhrase
 
 
 class Order(StrEnum):
@@ -40,6 +40,8 @@ class Spoken(Struct, frozen=True):
     """
     far_fetched: int = 0
     """What says when ("first", "second") may rather say which ("the second drawer")."""
+    turn_of: tuple[NounPhrase, ...] = ()
+    """What is named again to say when it is to be done ("…, the cup first")."""
     only_if: Condition | None = None
     """How things have to be now, so that it is asked for."""
 

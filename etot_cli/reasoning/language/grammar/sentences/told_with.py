@@ -126,8 +126,8 @@ WITH_SO = either(
         noun_phrase,
         one_of(
             {
-                Toward.INSIDE: "[already|safely] (in|inside) it, [safely] inside",
-                Toward.ON: "[already|safely] on [top of] it, on top",
+                Toward.INSIDE: "[already|safely|still] (in|inside) it, [safely|still] inside",
+                Toward.ON: "[already|safely|still] on [top of] it, [still] on top",
             }
         ),
         COMMA,

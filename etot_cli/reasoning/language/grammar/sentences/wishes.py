@@ -232,7 +232,6 @@ _WHAT_GOES = either(
     ),
 )
 """What is there, or alone is there (True), be it of its sort (:data:`_ONE`)."""
-_NO_MORE = "and nothing else, but nothing else"
 _IT_IS = "it is, it 's"
 _IS = f"{predicates.BE}, should be, must be, has to be, needs to be, shall be"
 
@@ -283,7 +282,14 @@ TOLD_APART = either(
     sequence(
         # "The cup and nothing else should be on the tray", "there should only be the cup"
         either(
-            sequence(ALL_THINGS, OPTIONAL_COMMA, _NO_MORE, OPTIONAL_COMMA, predicates.MODAL),
+            sequence(
+                _ENSURED,
+                ALL_THINGS,
+                OPTIONAL_COMMA,
+                small_words.AND_NO_MORE,
+                OPTIONAL_COMMA,
+                f"{predicates.MODAL}, {predicates.BE}",
+            ),
             sequence(predicates.THERE_BE_ONLY, ALL_THINGS),
             sequence("mak(e|ing)", ALL_THINGS, f"the only {_THING}", _LEFT),
         ),

@@ -112,7 +112,7 @@ def matched(
         found = {entry.thing: entry for part in parts for entry in part.entries}
         notes = tuple(note for part in parts for note in part.notes)
         entries = tuple(entry for entry in every.entries if entry.thing in found)
-        return Match(entries, plural=True, notes=notes)
+        return replace(every, entries=entries, notes=notes)
     both = tuple(e for e in every.entries if all(e.has_word(word) for word in adjectives))
     if not both:
         raise ReferenceProblem(phrase.text, f"no {head} is called both {' and '.join(adjectives)}")

@@ -14,6 +14,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import Toward
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.words.lexicon import LEVELS, THING_NOUNS, matches_any, same_noun
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, PartInfo, SceneState
 
@@ -70,6 +71,8 @@ class Discourse:
     """Number of the latest clause after which something is to be empty."""
     cleared: frozenset[Thing] = frozenset()
     """What the clause before took out of what it empties."""
+    emptied_of: dict[int, dict[int, Prep]] = field(default_factory=dict)
+    """Number of a clause → what it takes everything out of or off, and the word that says so."""
     roomy: int | None = None
     """The referent of what room is made on or in, which "there" means then."""
     told_at: tuple[int, Toward | None, int] = (-1, None, -1)
@@ -100,6 +103,7 @@ class Discourse:
             fitting=dict(self.fitting),
             among=dict(self.among),
             sides=dict(self.sides),
+            emptied_of=dict(self.emptied_of),
         )
 
     def each(self, referent: int) -> tuple[int, ...]:

@@ -244,6 +244,15 @@ def _pools(
     objects, parts, boards = vocabulary.objects, vocabulary.parts, vocabulary.boards
     if not adjectives and head in DESK_NOUNS and all(e.grade(head) == CONTENT for e in fitting):
         return [[vocabulary.desk], objects]  # whatever a table tennis ball is called
+    levels = [entry for entry in (*parts, *boards) if entry.grade(head) is not None]
+    if (
+        levels
+        and fitting
+        and all(e.is_sort_named(head) and e.grade(head) == GENERIC for e in fitting)
+    ):
+        # Beside a shelf "the board" may be one of its boards as well as a chessboard.
+        leveled = any(word in LEVELS or word in ORDINALS for word in adjectives)
+        return [parts, boards] if leveled else [[*fitting, *levels]]
     if upon or any(entry.info is not None and entry.info.boards for entry in fitting):
         # "The top shelf" is a board of the shelf before it is a drawer of something else.
         parts, boards = boards, parts

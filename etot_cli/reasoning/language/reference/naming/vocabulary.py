@@ -40,6 +40,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     OPEN_VESSELS,
     PURPOSES,
     RUBBISH,
+    SPELLINGS,
     STATES,
     TWINS,
     basic_color,
@@ -229,6 +230,7 @@ class Vocabulary:
         """Normalized text in which names and labels that no noun phrase could be ("mug a", "carton
         of milk", "yellow and white mug") stand as one word each, in either number.
         """
+        text = self._spelled(text)
         for before in dict.fromkeys(w for entry in self.objects for w in entry.numbered()):
             # "Box two" where boxes have numbers; "the box one by one" is none of them, nor is "the
             # orange one".
@@ -263,6 +265,17 @@ class Vocabulary:
             pattern = r"(?<!\w)" + r"[ ,]*\s".join(spelled) + r"(?!\w)"
             text = re.sub(pattern, lambda found: re.sub(r"[ ,]+", "_", found[0]), text)
         return _lettered(text, [words for words in odd if re.fullmatch(r"\D", words[-1])])
+
+    def _spelled(self, text: str) -> str:
+        """Text with the words that the scene has in another spelling ("tire" of a tyre)."""
+        for group in SPELLINGS:
+            for said in group:
+                ending = r"(?=(?:e?s)?(?![a-z]))"
+                if said in text and re.search(rf"(?<![a-z]){said}{ending}", text):
+                    own = next((word for word in group if self.is_known(word)), said)
+                    if not self.is_known(said):
+                        text = re.sub(rf"(?<![a-z]){said}{ending}", own, text)
+        return text
 
     def _portioned(self, said: re.Match[str]) -> str:
         """The noun of "roll of tape", in the number of the roll."""

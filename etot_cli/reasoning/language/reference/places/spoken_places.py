@@ -16,7 +16,7 @@ from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
 from etot_cli.reasoning.language.reference.pronouns.coreference import latest_place
 from etot_cli.reasoning.language.words.patterns import spellings
-from etot_cli.reasoning.language.words.places import ON_IT, THEREIN
+from etot_cli.reasoning.language.words.places import ON_IT, THEREIN, Prep
 
 _ROLES = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
 
@@ -45,7 +45,9 @@ def where_they_are(
 def around_them(
     discourse: Discourse, destination: Destination, themes: Sequence[int]
 ) -> tuple[Place, ...]:
-    """After "put the mug in the box" the brush that is left "in it" stays in the mug."""
+    """After "put the mug in the box" the brush that is left "in it" stays in the mug; "on it" is
+    not where most things are, on the desk.
+    """
     relations = {Toward.INSIDE: Relation.INSIDE, Toward.ON: Relation.ON}
     relation = relations.get(destination.toward)
     (np, *more) = destination.targets
@@ -53,6 +55,8 @@ def around_them(
     if relation is None or not it or {*themes} & discourse.put:
         return ()
     found = where_they_are(discourse, relation, themes)
+    if any(place.where is not None and discourse.is_desk(place.where) for place in found):
+        return ()
     for place in found:
         if place.where is not None:
             discourse.mention_again(place.where, _ROLES[destination.toward])
@@ -133,6 +137,25 @@ def as_before(discourse: Discourse, place: Place, themes: Sequence[int], *, here
     return place
 
 
+def _emptied_there(discourse: Discourse) -> int | None:
+    """What the clause before has emptied onto the desk, which "there" means then.
+
+    Raises:
+        AmbiguousReference: it may as well be what all that went into or onto.
+    """
+    emptied = discourse.emptied_of.get(discourse.clause - 1, {})
+    own = discourse.things(*emptied)
+    where = {p.where for p in discourse.last_places if p.where is not None}
+    where = {index for index in where if discourse.things(index) != own}
+    if len(emptied) != 1 or not where:
+        return None
+    ((held, word),) = emptied.items()
+    if word is not Prep.FROM or not all(map(discourse.is_desk, where)):
+        named = [discourse.referents[i].text for i in (held, *where)]
+        raise AmbiguousReference("there", named)
+    return held
+
+
 def places_here(discourse: Discourse, word: str, themes: Sequence[int]) -> tuple[Place, ...]:
     """Which places "there", "in it" or "on top" mean.
 
@@ -146,6 +169,9 @@ def places_here(discourse: Discourse, word: str, themes: Sequence[int]) -> tuple
         return tuple(in_or_on(discourse, toward, mark, themes))
     if word == "there" and discourse.roomy is not None:
         return tuple(in_or_on(discourse, Toward.TO, discourse.roomy, themes))
+    emptied = _emptied_there(discourse) if word == "there" else None
+    if emptied is not None:
+        return tuple(in_or_on(discourse, Toward.TO, emptied, themes))
     if word in ("there", "the same place") and discourse.last_places:
         return discourse.last_places
     if word == "the same place":

@@ -91,6 +91,7 @@ def meant_by_it(
         said = _Said(discourse, clause, role, text, *mentioned, (*excluded,), topmost)
         meant = _stacked(said)
         meant = _beyond_doubt(said) if meant is None else meant
+        meant = _emptied(said) if meant is None else meant
         if meant is not None:
             return meant
         found = _one_thing(said) if len(said.acted_on) == 1 else _none_or_several(said)
@@ -141,6 +142,35 @@ def _beyond_doubt(said: _Said) -> int | None:
     if discourse.returning and role is Role.CONTAINER:
         return acted_on[0]  # "take the bowl out of the oven, put the egg in it, put it back"
     return None
+
+
+def _emptied(said: _Said) -> int | None:
+    """What a clause has emptied into or onto something else: who clears a plate onto the desk and
+    puts the bun on it has room on the plate then.
+
+    Raises:
+        AmbiguousReference: it may as well be what all that went into or onto.
+    """
+    discourse, role = said.discourse, said.role
+    known = discourse.emptied_of.get(said.clause, ())
+    emptied = [i for i in known if i not in said.excluded and fits(discourse, i, role)]
+    moved = said.acted_on and role not in TARGETS  # rather that than what it was in
+    if len(emptied) != 1 or not said.places or moved:
+        return None
+    places = (i for i in said.places if not discourse.is_desk(i))
+    either = (*said.acted_on, *emptied, *places)
+    if role is Role.SURFACE:  # on the tray that a bowl is emptied onto; a shelf is as good as that
+        supports = tuple(i for i in either if _is_support(discourse, i))
+        either = supports if len(supports) == 1 else either
+    if len(either) > 1:
+        raise AmbiguousReference(said.text, [discourse.referents[i].text for i in either])
+    return either[0]
+
+
+def _is_support(discourse: Discourse, referent: int) -> bool:
+    """Whether something is to put things on: flat, or a piece of furniture."""
+    infos = [discourse.scene.infos[thing.name] for thing in discourse.things(referent)]
+    return all(not i.movable or (is_flat(i) and not i.container) for i in infos)
 
 
 def _one_thing(said: _Said) -> tuple[int, ...]:

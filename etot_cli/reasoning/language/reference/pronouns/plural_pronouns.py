@@ -82,16 +82,8 @@ def the_two_named(
 
 def emptied_by(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:
     """What a clause took everything out of or off, where it is several things."""
-    said = [mention for mention in discourse.mentions if mention.clause == clause]
-    texts = [discourse.referents[m.referent].text for m in said if m.role is Role.THEME]
-    return tuple(
-        mention.referent
-        for mention in said
-        if mention.role is Role.ANY
-        and all(text.startswith("everything in ") for text in texts)
-        and len(discourse.things(mention.referent)) > 1
-        and fits(discourse, mention.referent, role)
-    )
+    emptied = discourse.emptied_of.get(clause, ())
+    return tuple(i for i in emptied if len(discourse.things(i)) > 1 and fits(discourse, i, role))
 
 
 def acted_on(discourse: Discourse, mentions: Sequence[Mention], role: Role) -> tuple[int, ...]:
