@@ -8,7 +8,6 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import optional, se
 from etot_cli.reasoning.language.grammar.parsers.common import LIST
 from etot_cli.reasoning.language.grammar.phrases.descriptions import quality_alone
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
-from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, basic_color, singular
 
 _NUMBER = word(lambda given, text: text in NUMBERS)
@@ -33,12 +32,10 @@ def told_apart(
     """So many of such a sort, and the rest of another one; None where it is not of so many of any
     that it is said, or one thing could be of two of the sorts.
     """
-    quantity = quantity_of(np.determiner)
-    rest = (quantity.count or 0) - sum(NUMBERS[number] for number, _ in parts)
-    known = quantity.definite or quantity.every or quantity.among or not np.words
+    rest = NUMBERS.get(np.determiner, 0) - sum(NUMBERS[number] for number, _ in parts)
     apart = all(len(said.words) == 1 for _, said in parts)
     apart &= len(parts) == 1 or all(basic_color(said.words[0]) is not None for _, said in parts)
-    if known or rest < 0 or not apart or np.determiner not in NUMBERS:
+    if rest < 0 or not (apart and np.words):
         return None
     found = [_so_many(np, number, (said,)) for number, said in parts]
     if rest:
