@@ -70,11 +70,10 @@ def _goes_back(context: Context, group: PutGroup, removed: frozenset[int]) -> bo
             the other has nothing to do with where the first was taken from.
     """
     toward = {where.toward for where in group.destinations}
-    here = group.back and toward == {Toward.HERE}
-    if group.things.phrases[0].pronoun not in ("it", "them") or not (
-        here or toward == {Toward.HOME}
-    ):
+    home = toward == {Toward.HOME} or (group.back and toward == {Toward.HERE})
+    if group.things.phrases[0].pronoun not in ("it", "them") or not home:
         return False
+    here = {where.word for where in group.destinations} <= {*_BACK_THERE}
     discourse, puts = context.discourse, [s for s in context.done if isinstance(s, Put)]
     (*_, last) = puts
     if here or {*last.what} & removed:
@@ -104,6 +103,8 @@ def go_back(context: Context, group: PutGroup, themes: Sequence[int]) -> bool:
     taken = {*context.discourse.things(*context.taken)}
     things = {*context.discourse.things(*themes)}
     if things <= taken and things & context.discourse.moved_on:
+        if any(isinstance(s, Put) and {*themes} & {*s.what} for s in context.done):
+            return False  # "put it in, take it out and put it back in": where it was last
         raise ReferenceProblem(group.things.text, "it has been in several places by then", 3)
     if things <= taken and _relations(context, *themes) == {_BACK_THERE[where.word]}:
         return True
