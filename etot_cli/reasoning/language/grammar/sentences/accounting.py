@@ -91,7 +91,7 @@ _FIXED = f"""
     (on|at) the far (left|right), (from|off|off of) the top of,
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|beside|next|where), put back,
-    back on [the] top of, right (next|by|behind|beside|in front|after|once|when),
+    back on [the] top of, back there, right (next|by|behind|beside|in front|after|once|when),
     right (into|onto|on top|(in|inside|on|at|to) (the|a|an|its|my|our|your)),
     not both [of them], (as|so) long as,
     right (above|below|under|underneath|beneath),
