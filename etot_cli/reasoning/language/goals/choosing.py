@@ -15,9 +15,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
+
+_LONGEST_DETERMINER = 3
+"""Words that may say how many things are meant ("all of the cups", "the other two cups")."""
 
 
 def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, stays: bool) -> None:
@@ -70,20 +74,30 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
                 discourse.notes.append(f"{around.text!r} is one that it is not at yet ({names})")
 
 
-def leave_among(context: Context, themes: Sequence[int]) -> None:
+def leave_among(context: Context, themes: Sequence[int], *, but_for_counted: bool = False) -> None:
     """What is left somewhere is none of those that the clause before puts elsewhere ("put the
     vegetables in the fridge, but leave the potato in the pot", "one of them").
+
+    ``but_for_counted``: "both cups", "all the cups" are all of them, whatever is said behind.
     """
     referents = context.discourse.referents
     ways = [things_in(way) for way in product(*(referents[index].options for index in themes))]
     chosen = tuple(index for index in themes if len(referents[index].options) > 1)
     for index in (i for step in context.done if isinstance(step, Put) for i in step.what):
         (every, *others) = referents[index].options
+        if but_for_counted and _is_counted(referents[index].text):
+            continue
         kept = tuple(tuple(thing for thing in every if thing not in left) for left in ways)
         if all(kept) and not others:
             options = tuple(dict.fromkeys(kept))
             apart = (*referents[index].distinct_from, *chosen)
             referents[index] = replace(referents[index], options=options, distinct_from=apart)
+
+
+def _is_counted(text: str) -> bool:
+    """Whether a phrase says how many things it means ("the two cups", "both", "every cup")."""
+    quantity = quantity_of(" ".join(text.split()[:_LONGEST_DETERMINER]))
+    return quantity.every or (quantity.count or 0) > 1
 
 
 def tell_not_there(context: Context, theme: int, places: Sequence[Place]) -> None:

@@ -84,6 +84,8 @@ class Context:
         """Of the clause that is being read."""
         self.done: tuple[Step, ...] = ()
         """Of the last clause that asked for something."""
+        self.taken: frozenset[int] = frozenset()
+        """What was taken off or out of something so far."""
         self.in_the_way: list[InTheWay] = []
         self.cleared: list[Put] = []
         """What the clause before took out of what it empties."""

@@ -7,7 +7,7 @@ from contextlib import suppress
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Place, Put, Thing, things_in
+from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
@@ -22,11 +22,13 @@ from etot_cli.reasoning.language.reference.geometry.space import carries, touche
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.known import REASONS
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
-from etot_cli.reasoning.language.words.places import WAS_THERE
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, LIDS, matches_any
+from etot_cli.reasoning.language.words.places import ON_IT, WAS_THERE
 
 _ITS_PLACE = "back to its place"
 _WAS_THERE = "where it was"
+_BACK_THERE = {ON_IT: Relation.ON, "in": Relation.INSIDE, "inside": Relation.INSIDE}
+"""Behind "back": on or in what it was on or in before it was taken off or out."""
 
 
 def never_there(context: Context, group: PutGroup) -> list[int]:
@@ -44,14 +46,71 @@ def never_there(context: Context, group: PutGroup) -> list[int]:
         return any(touches(thing, place, context.scene) for thing in things for place in at)
 
     moved = discourse.put | discourse.lifted
-    removed = {i for s in context.done if isinstance(s, Put) and s.removal for i in s.what}
+    removed = context.taken
     upon = [np.pronoun for item in group.destinations for np in item.targets]
     if group.back and removed and upon and all(upon):
         # "Take the pens off the tray, wash it, and put them back on it"
         return [index for index in range(len(discourse.referents)) if index not in removed]
+    if removed and not group.things.phrases[1:] and _goes_back(context, group, removed):
+        was = _BACK_THERE.get(group.destinations[0].word)
+        fit = frozenset(i for i in removed if was in (None, *_relations(context, i)))
+        removed = fit or removed
+        return [index for index in range(len(discourse.referents)) if index not in removed]
     if not group.back or not any(map(was_there, moved)):
         return []
     return [index for index in range(len(discourse.referents)) if not was_there(index)]
+
+
+def _goes_back(context: Context, group: PutGroup, removed: frozenset[int]) -> bool:
+    """Whether "it" that goes "back", "back in" or "back on" is what was taken off or out before,
+    rather than what has been put somewhere since.
+
+    Raises:
+        AmbiguousReference: it may be either: it goes back to where it was, wherever that is, and
+            the other has nothing to do with where the first was taken from.
+    """
+    toward = {where.toward for where in group.destinations}
+    home = toward == {Toward.HOME} or (group.back and toward == {Toward.HERE})
+    if group.things.phrases[0].pronoun not in ("it", "them") or not home:
+        return False
+    here = {where.word for where in group.destinations} <= {*_BACK_THERE}
+    discourse, puts = context.discourse, [s for s in context.done if isinstance(s, Put)]
+    (*_, last) = puts
+    if here or {*last.what} & removed:
+        return True
+    taken = discourse.things(*removed)
+    where = discourse.things(*(p.where for p in last.places if p.where is not None))
+    if any(at in taken or touches(t, at, context.scene) for at in where for t in taken):
+        return True
+    meant = [discourse.referents[index].text for index in (*sorted(removed), *last.what)]
+    raise AmbiguousReference(group.things.text, meant)
+
+
+def _relations(context: Context, *themes: int) -> set[Relation]:
+    """Whether things are in or on what they are at before they are moved."""
+    return {context.home(thing).relation for thing in context.discourse.things(*themes)}
+
+
+def go_back(context: Context, group: PutGroup, themes: Sequence[int]) -> bool:
+    """Whether things go "back on" or "back in" what they were taken off or out of before.
+
+    Raises:
+        ReferenceProblem: "it" that goes back on was not taken off anything.
+    """
+    (where, *more) = group.destinations
+    if not group.back or more or where.toward is not Toward.HERE or where.word not in _BACK_THERE:
+        return False
+    taken = {*context.discourse.things(*context.taken)}
+    things = {*context.discourse.things(*themes)}
+    if things <= taken and things & context.discourse.moved_on:
+        if any(isinstance(s, Put) and {*themes} & {*s.what} for s in context.done):
+            return False  # "put it in, take it out and put it back in": where it was last
+        raise ReferenceProblem(group.things.text, "it has been in several places by then", 3)
+    if things <= taken and _relations(context, *themes) == {_BACK_THERE[where.word]}:
+        return True
+    if where.word != ON_IT or all(matches_any(np.head, LIDS) for np in group.things.phrases):
+        return False
+    raise ReferenceProblem(group.things.text, "say what it is to be on", 2)
 
 
 def put_back(

@@ -174,7 +174,7 @@ def _keep(context: Context, clause: AvoidClause, things: Things) -> None:
         return
     one_way = all(len(context.discourse.referents[index].options) == 1 for index in indices)
     if clause.avoid is Avoid.MOVE and role is not Role.PART and one_way:
-        leave_among(context, indices)
+        leave_among(context, indices, but_for_counted=not clause.left)
     if all(is_not_chosen(context, index) for index in indices) and role is not Role.PART:
         if clause.avoid in _LEAVING:
             context.constraints += (

@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.counting import check_enough, count_of_places, counted
 from etot_cli.reasoning.language.goals.described import note_described
 from etot_cli.reasoning.language.goals.homes import (
+    go_back,
     in_stead,
     never_there,
     put_back,
@@ -151,6 +152,8 @@ def put(
         replaced = replaced_by(context, group)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
         themes = without_riders(context, themes)
+        if group.along and {*context.discourse.put} & {*themes}:
+            raise ReferenceProblem(group.things.text, "it was put elsewhere; say where it goes", 3)
         tell_apart(context, group, before, themes)
         before += themes
         own = certain(context, themes)
@@ -188,7 +191,7 @@ def _put_as_told(
 ) -> bool:
     """Adds the step for things whose place is told by where they, or others, were, if it is so."""
     toward = {item.toward for item in group.destinations}
-    if Toward.HOME in toward:
+    if Toward.HOME in toward or go_back(context, group, themes):
         put_back(context, themes, group, said.ruled_out)
         return True
     if not said.ruled_out and Toward.WITH in toward:
@@ -221,7 +224,7 @@ def _put_there(
     places = not_beside(context, found, said.ruled_out, themes)
     if said.stays and is_left(context, group, themes, places):
         check_stance(group, said.stance)
-        avoid(context, AvoidClause(Avoid.MOVE, group.things))
+        avoid(context, AvoidClause(Avoid.MOVE, group.things, left=True))
         return
     just_put = (s for s in context.done if said.stays and isinstance(s, Put))
     if any(s.what == tuple(themes) and s.places == places for s in just_put):

@@ -71,16 +71,20 @@ def had_to_be_opened(context: Context, text: str) -> tuple[Thing, ...]:
 
 
 def as_found(context: Context, state: State) -> State:
-    """What is to be as it was at the start: open, or closed.
+    """What is to be as it was at the start: open, or closed; of "both drawers" each of them.
 
     Raises:
-        ReferenceProblem: it is neither, or both.
+        ReferenceProblem: it is neither, or it may be one of several of which some are open.
     """
     if state.word != AS_FOUND:
         return state
-    options = [o for np in state.subjects for o in context.phrases.meaning(np, Role.PART).options]
+    meant = [context.phrases.meaning(np, Role.PART).options for np in state.subjects]
+    options = sum(meant, ())
     parts = [part for o in options for thing in o for part in parts_of(context.scene, thing)]
     so = {is_closed(context.scene, part) for part in parts}
+    each = all(quantity_of(np.determiner).definite for np in state.subjects)
+    if len(so) > 1 and each and len(options) == len(meant) and not (state.denied or state.kept):
+        return state
     if len(so) != 1:
         raise ReferenceProblem(state.subjects[0].text, "say whether it is to be open or closed", 3)
     word = "closed" if so == {True} else "open"
@@ -237,4 +241,4 @@ def rest_all_along(context: Context, rests: Things, first: int) -> None:
                 why = "it moves with what it is in; say only where it is to be in the end"
                 raise ReferenceProblem(thing.name, why, 3)
     del context.steps[first:]
-    avoid(context, AvoidClause(Avoid.MOVE, rests))
+    avoid(context, AvoidClause(Avoid.MOVE, rests, left=True))

@@ -28,7 +28,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import so_many_turned
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.ruled_out import is_not_chosen
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, State
+from etot_cli.reasoning.language.grammar.syntax.phrases import AS_FOUND, NounPhrase, State
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import singular
@@ -176,6 +176,9 @@ def _leave_out(context: Context, index: int, word: str) -> None:
 
 def ensure_turned(context: Context, state: State) -> None:
     """Adds the steps after which something is open, or closed, as it is said to be."""
+    if state.word == AS_FOUND:
+        _turn_as_found(context, state)
+        return
     opens = state.word == "open"
     for phrase in state.subjects:
         so, others = so_many_turned(context, phrase, opens=opens)
@@ -217,6 +220,17 @@ def ensure_turned(context: Context, state: State) -> None:
                 if thing not in context.discourse.things(index):
                     other = context.single(thing, thing.part or thing.name)
                     context.steps.append(_made(other, opens=not opens))
+
+
+def _turn_as_found(context: Context, state: State) -> None:
+    """Adds the steps after which each of several things is open, or closed, as it was."""
+    found = [o for np in state.subjects for o in context.phrases.meaning(np, Role.PART).options]
+    for part in (p for option in found for t in option for p in parts_of(context.scene, t)):
+        opens = not is_closed(context.scene, part)
+        index = context.single(Thing(part.owner, part.name), part.address)
+        context.steps.append(_made(index, opens=opens))
+        so = "open" if opens else "closed"
+        context.discourse.notes.append(f"{part.address!r} is {so} at the start")
 
 
 def _not_instead(context: Context, phrase: NounPhrase, index: int, *, opens: bool) -> None:

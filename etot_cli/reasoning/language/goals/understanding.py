@@ -105,6 +105,7 @@ class Understanding:
         other.context.toppling = set(self.context.toppling)
         other.context.grasps = list(self.context.grasps)
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
+        other.context.taken = self.context.taken
         other.context.in_the_way = list(self.context.in_the_way)
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)

@@ -14,12 +14,13 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
     spanned,
+    valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIER
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.emptying import stays_empty
-from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause
+from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, Clause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
@@ -72,7 +73,7 @@ OTHERS_STILL = sequence(
 UNTOUCHED = either(
     sequence(_ALL_ELSE, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
     phrase("nothing else (moved|touched|changed)", AvoidClause(Avoid.MOVE, _THE_REST)),
-    sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
+    sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE, left=True)),
 )
 """The same without a verb ("bolts untouched")."""
 _FINE = (
@@ -95,11 +96,15 @@ def _in_number(text: str, clause: AvoidClause) -> AvoidClause | None:
     return None if several and _OF_ONE & {*text.split()} else clause
 
 
+def _said_to_stay(clause: Clause) -> Clause:
+    return replace(clause, left=True) if isinstance(clause, AvoidClause) else clause
+
+
 _STAYS_EMPTY = either(
     sequence(noun_phrase, predicates.LEFT_THERE, "empty"),
     sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
 )
-KEEP_STILL = either(
+_KEPT_STILL = either(
     sequence(_STAYS_EMPTY, build=stays_empty),
     sequence(
         spanned(
@@ -158,3 +163,4 @@ KEEP_STILL = either(
         build=partial(AvoidClause, Avoid.TOUCH),
     ),
 )
+KEEP_STILL = valued(_KEPT_STILL, _said_to_stay)

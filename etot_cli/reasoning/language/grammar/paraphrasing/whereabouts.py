@@ -125,7 +125,6 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"\b((?:that|which) (?:is|are)) inside(?= (?:and|then)\b| {WHERE}|[,.;!?]|$)",
         r"\1 in it",
     ),
-    (r"\bback (?=(?:(?:in|on) )?there\b)", ""),
     (r"\bhidden (?=(?:in|inside|behind) )", ""),
     (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
     (

@@ -108,11 +108,16 @@ def of_the_things(clause: Clause, said: Modifier) -> Clause | None:
     return replace(found, far_fetched=1) if isinstance(found, PutClause | EnsureClause) else found
 
 
-def but_some(clause: PutClause, group: PutGroup) -> Clause | None:
-    """All of them go to one place but for some that go to another."""
+def but_some(clause: PutClause, group: PutGroup, *, set_off: bool) -> Clause | None:
+    """All of them go to one place but for some that go to another. Where no comma sets these off,
+    "everything on the shelf but the cup" may as well be what is on the shelf.
+    """
     out = excepting(group.things.phrases)
     found = None if out is None or group.things.either else excluding(clause, out)
-    return replace(found, groups=(*found.groups, group)) if isinstance(found, PutClause) else None
+    if not isinstance(found, PutClause):
+        return None
+    doubt = found.far_fetched + (not set_off)
+    return replace(found, groups=(*found.groups, group), far_fetched=doubt)
 
 
 def _is_one(np: NounPhrase) -> bool:

@@ -17,8 +17,14 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
     some,
+    valued,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import COMMA, NOUN_WORD, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    NOUN_WORD,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.phrases.being_so import SO, state_of
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.descriptions import PLAIN_MODIFIER, quality_alone
@@ -28,6 +34,7 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
     one_not_both,
     with_all,
 )
+from etot_cli.reasoning.language.grammar.phrases.of_which import OF_WHICH, told_apart
 from etot_cli.reasoning.language.grammar.phrases.turns import ONE_BEFORE_ANOTHER, TURN, turns_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
@@ -121,6 +128,9 @@ _EXTRA = sequence(
         manner.FITTING,
         sequence(optional("but, and, with"), either(GROUPING, TURN)),
         BY_COLOR,
+        sequence("last", OPTIONAL_COMMA, "after", NP_LIST, build=lambda nps: ("behind", nps)),
+        sequence("first", OPTIONAL_COMMA, "before", NP_LIST, build=lambda nps: ("ahead", nps)),
+        valued(OF_WHICH, lambda parts: ("of which", parts)),
         sequence("including, even", noun_phrase, build=lambda np: ("including", np)),
         phrase(manner.ONE_EACH, ("each", ())),
         sequence(
@@ -192,6 +202,21 @@ def _each_of(whole: NounPhrase, words: tuple[str, ...]) -> NounPhrase:
     return NounPhrase("the", several, (Modifier(Prep.OF, (whole,)),), text=" ".join(several))
 
 
+def _going_along(
+    groups: tuple[PutGroup, ...], nps: tuple[NounPhrase, ...]
+) -> tuple[PutGroup, ...] | None:
+    """What goes to the same place before or after something ("in the oven last, after the pie");
+    None where that may be another place, or it is not told what that is.
+    """
+    targets = [np for group in groups for item in group.destinations for np in item.targets]
+    known = all(np.words and np.determiner in THE_WORDS and not np.is_elliptic for np in nps)
+    others = any({*np.words} & {"others", "rest"} for np in nps)
+    same = len(targets) == 1 and all(np.pronoun or np.determiner in THE_WORDS for np in targets)
+    if groups[1:] or others or not (known and same):
+        return None
+    return tuple(replace(groups[0], things=Things((np,)), along=True) for np in nps)
+
+
 def put_of(
     groups: tuple[PutGroup, ...], extras: Any, grouping: Grouping = Grouping.ANY
 ) -> PutClause | None:
@@ -209,8 +234,19 @@ def put_of(
         if all_told is None:
             return None
         groups = (replace(groups[0], things=replace(groups[0].things, phrases=all_told)),)
-    turns = turns_of(said)
+    for parts in (parts for name, parts in said if name == "of which"):
+        told = told_apart(groups[0].things.phrases[0], parts)
+        if told is None or groups[1:] or groups[0].things.phrases[1:]:
+            return None
+        groups = (replace(groups[0], things=replace(groups[0].things, phrases=told)),)
     named = {item[0] for item in said}
+    for name, nps in (item for item in said if item[0] in ("ahead", "behind")):
+        others = _going_along(groups, nps)
+        if others is None:
+            return None
+        groups = (*groups, *others) if name == "ahead" else (*others, *groups)
+        named.add("ordered")
+    turns = turns_of(said)
     if each := next((words for name, words in said if name == "apart" and words), ()):
         groups = tuple(group.going_to(partial(_each_of, words=each)) for group in groups)
     if "apart" in named and not groupings and len(groups) == 1:

@@ -43,12 +43,18 @@ from etot_cli.reasoning.language.words.lexicon import matches_any, singular
 from etot_cli.reasoning.language.words.nouns import BODY_NOUNS
 from etot_cli.reasoning.language.words.places import ON_IT, Prep
 
+_UPON_IT = (Destination(Toward.HERE, word=ON_IT),)
+
 
 def _lidded(lids: Things) -> PutClause | None:
     """What was filled gets its lid ("put the lid on")."""
-    here = (Destination(Toward.HERE, word=ON_IT),)
     named = all(np.words and singular(np.words[-1]) == "lid" for np in lids.phrases)
-    return put_to(lids, here) if named else None
+    return put_to(lids, _UPON_IT) if named else None
+
+
+def _back_on(things: Things) -> PutClause:
+    """What was taken off something goes back on that."""
+    return PutClause((PutGroup(things, _UPON_IT, back=True),))
 
 
 def _filled(toward: Toward, np: NounPhrase, things: Things) -> PutClause:
@@ -174,7 +180,8 @@ FILL = quiet(
 
 
 COVER = either(
-    sequence(verbs.PLACE, THINGS, "[back] on", build=_lidded),
+    sequence(verbs.PLACE, THINGS, "on", build=_lidded),
+    sequence(verbs.PLACE, THINGS, "back on [again], on again", build=_back_on),
     sequence(verbs.COVER, THINGS, "with", THINGS, build=CoverClause),
     sequence(verbs.COVER, THINGS, optional("with (its|their|a) lid"), build=CoverClause),
     sequence(verbs.UNCOVER, ALL_THINGS, build=partial(emptied, held=Prep.ON)),

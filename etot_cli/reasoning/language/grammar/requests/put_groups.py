@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import STANCE
 from etot_cli.reasoning.language.grammar.phrases.gapping import lending_nouns
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
+from etot_cli.reasoning.language.grammar.phrases.of_which import OF_WHICH, told_apart
 from etot_cli.reasoning.language.grammar.phrases.where_not import WHERE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -119,10 +120,17 @@ def _none_so(things: Things, denied: Modifier) -> Things | None:
     return replace(things, phrases=(np.told_by(denied),)) if several else None
 
 
+def _of_which(things: Things, parts: tuple[tuple[str, Modifier], ...]) -> Things | None:
+    """Several things of which so many are of some sort."""
+    told = None if things.phrases[1:] else told_apart(things.phrases[0], parts)
+    return None if told is None else replace(things, phrases=told)
+
+
 _PUT_GROUP = sequence(
     either(
         THINGS,
         sequence(THINGS, COMMA, NONE_OF_THEM, COMMA, build=_none_so),
+        sequence(THINGS, COMMA, OF_WHICH, COMMA, build=_of_which),
         sequence(
             THINGS,
             silent(optional("away")),

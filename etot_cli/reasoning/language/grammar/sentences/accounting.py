@@ -91,7 +91,7 @@ _FIXED = f"""
     (on|at) the far (left|right), (from|off|off of) the top of,
     on [the] top [of], on top, to the top, from the (top|side|front|left|right), from (top|above),
     (in|at|by|to) the (top|back), back (in|on|into|onto|to|inside|beside|next|where), put back,
-    back on [the] top of, right (next|by|behind|beside|in front|after|once|when),
+    back on [the] top of, back there, right (next|by|behind|beside|in front|after|once|when),
     right (into|onto|on top|(in|inside|on|at|to) (the|a|an|its|my|our|your)),
     not both [of them], (as|so) long as,
     right (above|below|under|underneath|beneath),
@@ -330,6 +330,10 @@ def _said(node: object) -> Iterator[str]:
         case PutClause():
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
+            if phrases[1:] and all(np.determiner in NUMBERS for np in phrases):
+                # "Three cubes, two of them red"
+                total = sum(NUMBERS[np.determiner] for np in phrases)
+                yield from (said for said, count in NUMBERS.items() if count == total)
             yield from ("either", "any", "both") if either else ()
             yield from ("both", "all", _ORDER) if len(phrases) > 1 else ()
         case _:

@@ -215,7 +215,12 @@ CLAUSE = located(
                 build=of_the_things,
             ),
             sequence(
-                PUT, OPTIONAL_COMMA, either(sequence("but", PUT_GROUP), _ELSEWHERE), build=but_some
+                PUT,
+                either(
+                    sequence(optional(phrase("~comma", True), False), "but", PUT_GROUP),
+                    sequence(OPTIONAL_COMMA, _ELSEWHERE, build=lambda group: (True, group)),
+                ),
+                build=lambda clause, found: but_some(clause, found[1], set_off=found[0]),
             ),
             sequence(PUT, _WHICH_GOES, build=_making_room),
             sequence(

@@ -53,6 +53,8 @@ class PutGroup(Struct, frozen=True):
 
     things: Things
     destinations: tuple[Destination, ...]
+    along: bool = False
+    """It is but named as what goes there before or after the rest."""
     back: bool = False
     """They are put back there."""
 
@@ -256,6 +258,8 @@ class AvoidClause(Struct, frozen=True):
     """It need not be done, but may be."""
     as_it_is: bool = False
     """They are left as they are, with what is in and on them."""
+    left: bool = False
+    """They are said to stay where they are, rather than that nothing may move them."""
     taken: bool = False
     """They must not be taken out of or off what they are in or on, with which they may go."""
     over: bool = False
