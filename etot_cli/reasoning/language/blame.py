@@ -180,6 +180,8 @@ def _cause(unread: Input, words: tuple[str, ...], index: int) -> str:
     begins = not before or before[0] in _BEFORE_VERBS or (acted and before[0] not in known.LINKS)
     if word in unread.nouns:
         return known.NO_SKILL if acted and not index else ""
+    if word == "do" and acted:  # "do the dishes", and no question
+        return known.NO_SKILL
     told = not {"is", "are"} & {word} or not known.VERB_WORDS & {*words[:index]}
     *_, last = (word, *takewhile(lambda item: item not in _JOINTS, words[index + 1 :]))
     for text in (" ".join((word, *following)), f"{word} {last}", word) if told else ():

@@ -67,7 +67,7 @@ _MOVING_IT = "before (you (move|touch)|moving|touching) (it|them)"
 """Whatever "it" is of what was just asked for."""
 LEADING_BEFORE = f"""
     [but|though] before (that|this), [but|though] before (doing (so|it|that|this)),
-    [but|though] before you do [so|it|that|this], [but] beforehand,
+    [but|though] before you do (so|it|that|this|~comma), [but] beforehand,
     [but] prior to (that|this|doing (so|that|this)), [but|though] {_MOVING_IT}
 """
 LEADING_BETWEEN = "in between"
