@@ -68,13 +68,15 @@ def check_alone(
                 for name in own
                 for at in context.discourse.things(*where)
             )
-            gone = all(_goes(context, name) for name in there)
+            gone = all(_goes(context, name, where) for name in there)
+            if gone and not in_the_end:
+                continue
             told = stays or gone or nothing_else
             if in_the_end and chosen and not told:
                 # "Only the pen goes into the box": nothing else, or nothing else for now?
                 raise ReferenceProblem(phrase.text, f"say whether {others} is to stay there", 4)
             if in_the_end and all(thing.name != DESK for thing in context.discourse.things(*where)):
-                alone = [name for name in there if not _goes(context, name)]
+                alone = [name for name in there if not _goes(context, name, where)]
                 rest = tuple(context.single(Thing(name), name) for name in alone)
                 desk = (context.places.on_the_desk(),)
                 for index in rest:
@@ -181,7 +183,17 @@ def so_many_turned(
     return so, tuple(thing for thing in every if thing not in so)
 
 
-def _goes(context: Context, name: str) -> bool:
-    """Whether something else that is asked for takes a thing away."""
-    gone = (i for step in context.done if isinstance(step, Put) for i in step.what)
-    return any(thing.name == name for thing in context.discourse.things(*gone))
+def _goes(context: Context, name: str, where: Sequence[int]) -> bool:
+    """Whether what else is asked for takes a thing away from somewhere."""
+    things = context.discourse.things
+    puts = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
+    last = next((p for p in reversed(puts) if name in {t.name for t in things(*p.what)}), None)
+    if last is None:
+        return False
+    to = {
+        thing.address
+        for place in last.places
+        if place.where is not None
+        for thing in things(place.where)
+    }
+    return not to & {thing.address for thing in things(*where)}

@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Condition,
+    Destination,
     NounPhrase,
     Things,
     Toward,
@@ -28,6 +29,8 @@ from etot_cli.reasoning.language.reference.geometry.space import is_flat, lies_i
 from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.world.state import DESK, SceneState
 
+_HOLDS = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
+"""What something is in, or on."""
 _HOLDS_UNSEEN = frozenset({"cup"})
 """Kinds of vessels that may hold what no scene knows of, so that who knows if they are empty."""
 
@@ -115,24 +118,50 @@ def _holds(state: Understanding, condition: Condition) -> bool:
     attempt = state.copy()
     scene = attempt.context.scene
     subjects = _meant(attempt, condition.subjects)
-    places = _meant(attempt, condition.place.targets) if condition.place else ()
+    places = _holders(attempt, condition.place) if condition.place else ()
     about = (*subjects, *places)
     touched = _touched(state)
     if any(
         _overlap(at, other) for thing in about for at in _around(thing, scene) for other in touched
     ):
         raise ReferenceProblem(condition.text, "what is done before it may change that", 3)
-    so = {_is_so(condition, thing, places, scene) for thing in subjects}
+    ways = [{_is_so(condition, t, at, scene) for t in subjects} for at in places or (None,)]
+    if any(way != ways[0] for way in ways):
+        raise ReferenceProblem(condition.text, "say what it is in or on", 3)
+    (so, *_) = ways
     if len(so) != 1:
         raise ReferenceProblem(condition.text, "that is so of some of them only", 3)
     return so == {not condition.denied}
 
 
-def _meant(state: Understanding, phrases: tuple[NounPhrase, ...]) -> tuple[Thing, ...]:
+def _holders(state: Understanding, place: Destination) -> tuple[Thing, ...]:
+    """What something may be in or on, as far as it can be.
+
+    Raises:
+        ReferenceProblem: it is not clear, or nothing of it can hold anything.
+    """
+    role = _HOLDS.get(place.toward, Role.ANY)
+    if not place.targets[1:]:
+        return _meant(state, place.targets, role)
+    found: list[Thing] = []
+    problem: ReferenceProblem | None = None
+    for np in place.targets:
+        try:
+            found += _meant(state.copy(), (np,), role)
+        except ReferenceProblem as error:
+            problem = error
+    if not found and problem is not None:
+        raise problem
+    return tuple(found)
+
+
+def _meant(
+    state: Understanding, phrases: tuple[NounPhrase, ...], role: Role = Role.ANY
+) -> tuple[Thing, ...]:
     """The things that are meant for sure."""
     discourse = state.context.discourse
     found: list[Thing] = []
-    for index in state.context.phrases.things(Things(phrases), Role.ANY):
+    for index in state.context.phrases.things(Things(phrases), role):
         (*options,) = discourse.referents[index].options
         if len(options) != 1:
             raise ReferenceProblem(discourse.referents[index].text, "say which one", 3)
@@ -140,13 +169,13 @@ def _meant(state: Understanding, phrases: tuple[NounPhrase, ...]) -> tuple[Thing
     return tuple(found)
 
 
-def _is_so(condition: Condition, thing: Thing, places: Sequence[Thing], scene: SceneState) -> bool:
+def _is_so(condition: Condition, thing: Thing, place: Thing | None, scene: SceneState) -> bool:
     """Whether it holds of one thing.
 
     Raises:
         ReferenceProblem: that cannot be told of it.
     """
-    if condition.place is None:
+    if condition.place is None or place is None:
         info = scene.infos.get(thing.name)
         known = info is not None and bool(info.parts)
         if info is not None and condition.word == "empty":
@@ -165,7 +194,6 @@ def _is_so(condition: Condition, thing: Thing, places: Sequence[Thing], scene: S
         if not known:
             raise ReferenceProblem(condition.text, "that cannot be told by the scene", 3)
         return state_holds(condition.word, thing, scene)
-    (place,) = places
     how = {Toward.INSIDE: lies_in, Toward.ON: rests_on}.get(condition.place.toward, touches)
     if how(thing, place, scene):
         return True

@@ -308,7 +308,7 @@ _IF_NEEDED = (
 )
 ON_THE_WAY = """
     the (whole|entire) (time|way|while), all the (way|time), throughout, at all times,
-    on the way [(there|over|down|up|across)], all along, always, all the while,
+    (on|along) the way [(there|over|down|up|across)], as you go, all along, always, all the while,
     (while|as|when) you (move|carry|lift|put|lower|bring|do|are moving|are carrying)
     [(it|them|so|that)] [over|down|up|there],
     (while|when) (moving|carrying|lifting|lowering) (it|them) [over|down|up|there],

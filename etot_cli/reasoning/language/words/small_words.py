@@ -66,7 +66,7 @@ LEADING_FIRST = f"""
 _MOVING_IT = "before (you (move|touch)|moving|touching) (it|them)"
 """Whatever "it" is of what was just asked for."""
 LEADING_BEFORE = f"""
-    [but|though] before (that|this), [but|though] before (doing (so|it|that|this)),
+    [but|though] [even] before (that|this), [but|though] before (doing (so|it|that|this)),
     [but|though] before you do (so|it|that|this|~comma), [but] beforehand,
     [but] prior to (that|this|doing (so|that|this)), [but|though] {_MOVING_IT}
 """
@@ -90,7 +90,7 @@ LEADING_THEN = f"""
     {_THAT_DONE}, {_WHEN_DONE}, and then, subsequently, later
 """
 TRAILING_FIRST = f"""
-    first, before, beforehand, before that, prior to (that|this|doing so), {BEFORE_ALL},
+    first, before, beforehand, [even] before that, prior to (that|this|doing so), {BEFORE_ALL},
     as [the|your|a] first (thing|step|action), before you do [so|that|this],
     before doing (so|that|this)
 """
@@ -164,3 +164,5 @@ IF_NOT = """
 """
 IF_SO = "if (it|that|this) is, if they are, if so, if (it|that|this) is (so|the case)"
 """Before what is asked for where what a condition says is not so, or is so for all that."""
+IN_THAT_CASE = "in (which|that) case"
+"""The same behind "unless", of all that it says, be it denied or not."""

@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIER
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.emptying import stays_empty
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, Clause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things, Toward
 from etot_cli.reasoning.language.words import manner, predicates, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.places import Prep
@@ -100,12 +100,13 @@ def _said_to_stay(clause: Clause) -> Clause:
     return replace(clause, left=True) if isinstance(clause, AvoidClause) else clause
 
 
+_BARE = "[completely|totally|entirely] (empty|clear|bare), free"
 _STAYS_EMPTY = either(
-    sequence(noun_phrase, predicates.LEFT_THERE, "empty"),
-    sequence("leav(e|ing), keep[ing]", noun_phrase, "empty"),
+    sequence(noun_phrase, predicates.LEFT_THERE, _BARE),
+    sequence("leav(e|ing), keep[ing]", noun_phrase, _BARE),
 )
 _KEPT_STILL = either(
-    sequence(_STAYS_EMPTY, build=stays_empty),
+    sequence(_STAYS_EMPTY, build=partial(stays_empty, toward=Toward.TO)),
     sequence(
         spanned(
             sequence(

@@ -85,6 +85,12 @@ def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination | 
     return build
 
 
+def _upon(said: str, targets: tuple[NounPhrase, ...]) -> Destination | None:
+    """On what things go; "on the way" tells when."""
+    when = any(np.text == "the way" for np in targets)
+    return None if when else Destination(Toward.ON, targets, TOP if TOP in said else "")
+
+
 _RIGHT = optional("right")
 """Before where something goes it is no side ("right into the far corner")."""
 INTO = sequence(_RIGHT, places.INTO, TARGETS, build=_toward(Toward.INSIDE))
@@ -92,7 +98,7 @@ ONTO = sequence(
     _RIGHT,
     phrase(places.ONTO),
     either(TARGETS, ONE_OF_A_COLOR),
-    build=lambda said, targets: Destination(Toward.ON, targets, TOP if TOP in said else ""),
+    build=_upon,
 )
 
 

@@ -48,6 +48,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 from etot_cli.reasoning.language.words import nouns, predicates, small_words
 
 _EMPTY = "empty"
+_THAT_CASE = "that case"
 _NOW = optional("still, already, now, currently, at the moment, right now, at present")
 _THERE = (Toward.INSIDE, Toward.ON, Toward.TO)
 
@@ -136,19 +137,32 @@ def _named(clause: Clause) -> tuple[NounPhrase, ...]:
     return (*_themes(clause), *(np for item in where for np in item.targets))
 
 
+def _held_by(nps: tuple[NounPhrase, ...], condition: Condition) -> Condition:
+    """The same of what is in or on one of several things."""
+    place = condition.place
+    return condition if place is None else replace(condition, place=replace(place, targets=nps))
+
+
 def _of_what_was_named(said: tuple[Reading, Condition]) -> list[tuple[Reading, Condition]]:
     """A condition behind what is asked for, with what its pronoun may mean: whatever fits its
-    state, or what is to go elsewhere from where it is.
+    state, or what is to go elsewhere from where it is. "Its door" is that of whatever has one.
     """
     reading, condition = said
     clause = reading[0].clause
     if len(reading) > 1 or reading[0].order is not Order.SAID or not _themes(clause):
         return []
-    if not condition.subjects[0].pronoun:
-        return [said]
+    (about, *more) = condition.subjects
+    if about.determiner == "its" and about.owner is None and not more:
+        whose = (np for np in _named(clause) if not (np.pronoun or np.modifiers or np.owner))
+        parts = (replace(about, determiner="the", owner=np) for np in whose)
+        return [(reading, replace(condition, subjects=(part,))) for part in parts]
+    if not about.pronoun:
+        it = condition.place is not None and condition.place.targets[0].pronoun
+        holders = tuple(np for np in _named(clause) if not np.pronoun and np != about)
+        return [(reading, _held_by(holders, condition))] if it and holders else [said]
     meant = _themes(clause) if condition.place else _named(clause)
     open_to = condition.place or condition.word == _EMPTY
-    if condition.subjects[1:] or (open_to and meant[1:]):
+    if more or (open_to and meant[1:]):
         return []
     return [(reading, replace(condition, subjects=(np,))) for np in meant if not np.pronoun]
 
@@ -170,7 +184,7 @@ def _or_else(condition: Condition, reading: Reading, otherwise: Any) -> Reading 
     if otherwise is None:
         return _only_if(condition, reading)
     said, instead = otherwise
-    if said is not None and said is (condition.so != condition.denied):
+    if said is (condition.so != condition.denied) or (said == _THAT_CASE and condition.so):
         return None  # "if it is open …, if it is …"
     if not (isinstance(instead, tuple) and isinstance(instead[0], Spoken)):
         clause = _another_way(reading[0].clause, instead) if len(reading) == 1 else None
@@ -189,11 +203,18 @@ def as_things_are(sentence: Parser) -> Parser:
     otherwise = sequence(
         OPTIONAL_COMMA,
         optional("and, but, or"),
-        one_of({None: small_words.OTHERWISE, False: small_words.IF_NOT, True: small_words.IF_SO}),
+        one_of(
+            {
+                None: small_words.OTHERWISE,
+                False: small_words.IF_NOT,
+                True: small_words.IF_SO,
+                _THAT_CASE: small_words.IN_THAT_CASE,
+            }
+        ),
         OPTIONAL_COMMA,
         optional("then"),
         either(sentence, DESTINATIONS, THINGS),
-        build=lambda said, instead: (None if isinstance(said, str) else said, instead),
+        build=lambda said, instead: (said, instead),
     )
     behind = variants(
         sequence(

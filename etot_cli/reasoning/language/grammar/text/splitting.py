@@ -50,7 +50,10 @@ _OF_A_CHOICE = Expression(
 )
 """What is said of one of several things that was left to choose; no state ends in "one"."""
 _IF = Expression(r"\b(?:if|unless|provided)\b")
-_ELSE = spellings(f"{small_words.OTHERWISE}, {small_words.IF_NOT}, {small_words.IF_SO}")
+_ELSE = spellings(
+    f"{small_words.OTHERWISE}, {small_words.IF_NOT}, {small_words.IF_SO}, "
+    f"{small_words.IN_THAT_CASE}"
+)
 _OTHERWISE = Expression(
     rf"(?:(?:but|and) )?(?:{'|'.join(sorted(_ELSE, key=len, reverse=True))})"
     r"(?:,|\b(?! (?:open|closed|in|on|empty)\b))"
