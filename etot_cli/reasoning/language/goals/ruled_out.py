@@ -59,6 +59,9 @@ def rule_out_things(context: Context, clause: AvoidClause) -> None:
     for at in indices if clause.not_left else ():
         things = [thing for thing in context.discourse.things(at) if thing not in gone]
         there = [t for t in things if any(_is_there(t, *m, context.scene) for m in marks)]
+        if there and clause.as_it_is:
+            why = f"{there[0].name} is there; say where that is to go"
+            raise ReferenceProblem(clause.destinations[0].targets[0].text, why, 4)
         known = len(context.discourse.referents[at].options) == 1
         whole = known and [*context.discourse.things(at)] == there
         taken = (at,) if whole else tuple(context.single(thing, thing.name) for thing in there)

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
+    one_of,
     optional,
     phrase,
     sequence,
@@ -100,13 +101,21 @@ def _said_to_stay(clause: Clause) -> Clause:
     return replace(clause, left=True) if isinstance(clause, AvoidClause) else clause
 
 
-_BARE = "[completely|totally|entirely] (empty|clear|bare), free"
+_BARE = one_of({False: "[completely|totally|entirely] empty", True: "clear, bare, free"})
 _STAYS_EMPTY = either(
     sequence(noun_phrase, predicates.LEFT_THERE, _BARE),
     sequence("leav(e|ing), keep[ing]", noun_phrase, _BARE),
 )
+
+
+def _stays_bare(found: tuple[NounPhrase, bool]) -> AvoidClause:
+    """What stays without anything; what is kept free is so already."""
+    np, free = found
+    return replace(stays_empty(np, toward=Toward.TO), as_it_is=free)
+
+
 _KEPT_STILL = either(
-    sequence(_STAYS_EMPTY, build=partial(stays_empty, toward=Toward.TO)),
+    sequence(_STAYS_EMPTY, build=_stays_bare),
     sequence(
         spanned(
             sequence(

@@ -204,9 +204,11 @@ AVOID = either(
         build=lambda things, where: AvoidClause(Avoid.PUT, things, where, negated=True),
     ),
     sequence(
-        # "None of the cups may be moved"
-        noun_phrase,
-        f"({forbidden.MAY}) be [ever]",
+        # "None of the cups may be moved", "I want no cup moved"
+        either(
+            sequence(noun_phrase, f"({forbidden.MAY}) be [ever]"),
+            sequence(predicates.WANTED, noun_phrase, silent(optional("to be"))),
+        ),
         DONE_OR_TURNED,
         build=_none_disturbed,
     ),
@@ -318,6 +320,14 @@ WITHOUT = sequence(
         sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
         HELD_MEANWHILE,
         sequence("[and|but]", NOTHING_MORE, _NO_PLACE_NEXT),
+        # "… and no blocks moved"
+        sequence(
+            silent(optional("and, but, with")),
+            noun_phrase,
+            silent(optional("being")),
+            DONE_OR_TURNED,
+            build=_none_disturbed,
+        ),
         AVOIDED,
     ),
 )

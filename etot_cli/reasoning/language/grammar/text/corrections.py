@@ -57,6 +57,12 @@ _MARK = Expression(
 )
 _ALL_OF_IT = Expression(r"\b(?:never mind|forget|scratch that|on second thoughts?)\b")
 """What takes back a whole clause, whatever comes in its place."""
+_PRONOUNS = word_set("it them that this those these one there")
+_LEFT = frozenset({"leave", "keep"})
+_AS_IT_IS = ("where it is", "where they are", "as it is", "as they are", "alone", "be")
+"""Behind "leave it": nothing is done with what something was to be done with."""
+_OPPOSITES = {"open": ("closed", "shut"), "close": ("open",), "shut": ("open",)}
+"""How something is left that is not to be opened, or closed, after all."""
 _SWAPPED = ("the other way around", "the other way round", "vice versa", "the reverse")
 MOST_WAYS = 5
 """Phrases that may be taken back at once; of more nobody knows which one is."""
@@ -117,11 +123,20 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             text = _joined(*before[:start], *exchanged, *rest)
             yield TakenBack(" ".join(tail), " ".join(exchanged), text)
         return
+    if said[:1] == ("not",):
+        # "Not the pen; put it on the tray"
+        for fewer in () if _PRONOUNS & {*rest} else _without(tail, said[1:]):
+            text = _joined(*before[:start], *fewer, *rest)
+            yield TakenBack(" ".join(said[1:]), " ".join(said), text)
+        return
     spans = list(_spans(tail, said, sentence, everything=everything, whole=whole))
     if said[-1] in ("one", "ones") and any(map(is_descriptive, said)):
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
         told = [span for span in spans if any(map(is_descriptive, tail[slice(*span)]))]
         spans = told or spans
+    if said[-3:-1] == ("the", "other"):
+        same = [span for span in spans if tail[span[1] - 1] == said[-1]]
+        spans = same or spans  # "the cake on the white plate, no, the other plate"
     for first, last in spans if len(spans) <= MOST_WAYS else ():
         taken, kept = tail[first:last], tail[last:]
         further = {*rest[1:2]} & {"and", "then", *VERB_WORDS}
@@ -133,6 +148,9 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
         if new[-1] == "it" and new[0] in _BEFORE_PLACES:  # "on the tray, no, next to it"
             new = (*new[:-1], *taken[mark_at:])
+        new = _other_than(taken[mark_at:], new)
+        if new[0] in _LEFT and new[1:2] in (("it",), ("them",)):
+            new = (new[0], *(_object_of(taken) or new[1:2]), *new[2:])
         for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
             words = _joined(*before[:start], *tail[:first], *new, *kept, *more)
             yield TakenBack(" ".join(taken), " ".join(new), words)
@@ -154,6 +172,37 @@ def _exchanged(tail: Sequence[str]) -> Iterator[tuple[str, ...]]:
     if begin and first < joint < second and tail[joint + 1] in _BEFORE_THINGS:
         one, other = tail[begin:first], tail[joint + 1 : second]
         yield (*tail[:begin], *other, *tail[first : joint + 1], *one, *tail[second:])
+
+
+def _without(tail: Sequence[str], named: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """A request without one of several things, and with where that goes, if that is its own."""
+    size = len(named)
+    at = [n for n in range(len(tail)) if tuple(tail[n : n + size]) == tuple(named)]
+    if len(at) != 1 or (named[:1] and named[0] not in _BEFORE_THINGS):
+        return
+    (begin,), end = at, at[0] + size
+    if tail[begin - 1] in ("and", ","):
+        if any(word in _BEFORE_PLACES for word in tail[1:begin]):
+            # "The cup in the box and the jar too", "… and the jar on the tray"
+            end = next((n for n in range(end, len(tail)) if tail[n] in _JOINTS), len(tail))
+        begin -= 2 if tail[begin - 2 : begin] == (",", "and") else 1
+        yield (*tail[:begin], *tail[end:])
+    elif {*tail[end : end + 1]} & {"and", ","} and {*tail[end + 1 : end + 2]} & _BEFORE_THINGS:
+        yield (*tail[:begin], *tail[end + 1 :])
+
+
+def _other_than(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
+    """What is said instead, "the other board" as one that is not the board that is taken back."""
+    if tuple(said[-3:-1]) != ("the", "other") or said[-1:] != tuple(taken[-1:]):
+        return (*said,)
+    return (*said[:-2], said[-1], "other", "than", *taken)
+
+
+def _object_of(clause: Sequence[str]) -> tuple[str, ...]:
+    """What something is done with."""
+    begin = next((at for at, word in enumerate(clause) if word in _BEFORE_THINGS), len(clause))
+    ends = (at for at, word in enumerate(clause) if at > begin and word in _BEFORE_PLACES | _JOINTS)
+    return tuple(clause[begin : next(ends, len(clause))])
 
 
 def _also_told(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
@@ -197,6 +246,12 @@ def _spans(
     begin = said[0]
     if begin in _VERBS:
         clauses = (0, *(at + 1 for at in joints))
+        how = " ".join(said[2:]) if begin in _LEFT and said[1:2] in (("it",), ("them",)) else ""
+        undone = any(f"{how} ".startswith(f"{so} ") for so in _AS_IT_IS) and not joints
+        alone = {*said[3:4]} <= _JOINTS
+        if undone or (how and alone and said[2] in _OPPOSITES.get(tail[clauses[-1]], ())):
+            yield (clauses[-1], size)
+            return
         for at in () if _SEQUEL & {*sentence} else clauses:
             # "Put the cup on the tray and the jar on the mat. No, put …": either of them, or both?
             one = everything or not _JOINTS & {*tail[at:]}
