@@ -56,6 +56,9 @@ def check_alone(
     ]
     for phrase in phrases if there else ():
         if is_only(phrase.determiner):
+            gone = all(_goes(context, name, where) for name in there)
+            if gone and not in_the_end:
+                continue
             more = f"the {len(there) - 1} others" if there[2:] else there[-1]
             others = f"{there[0]} and {more}" if there[1:] else there[0]
             alike = {thing.name for thing in context.all_called(phrase, Role.THEME)}
@@ -68,9 +71,6 @@ def check_alone(
                 for name in own
                 for at in context.discourse.things(*where)
             )
-            gone = all(_goes(context, name, where) for name in there)
-            if gone and not in_the_end:
-                continue
             told = stays or gone or nothing_else
             if in_the_end and chosen and not told:
                 # "Only the pen goes into the box": nothing else, or nothing else for now?

@@ -134,16 +134,19 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
         told = [span for span in spans if any(map(is_descriptive, tail[slice(*span)]))]
         spans = told or spans
-    if said[-3:-1] == ("the", "other"):
-        same = [span for span in spans if tail[span[1] - 1] == said[-1]]
-        spans = same or spans  # "the cake on the white plate, no, the other plate"
+    if said[0] in _BEFORE_THINGS:
+        # "The cake on the white plate, no, the other plate"
+        alike = [s for s in spans if said[-1] in ("one", _noun_of(tail[s[0] : s[1]]))]
+        # "On the upper board of the shelf, no, the lower board"
+        whose = [s for s in spans if tail[s[0] - 1] == "of" and any(a[0] < s[0] for a in alike)]
+        spans = alike if "other" in said else [s for s in spans if s not in whose]
     for first, last in spans if len(spans) <= MOST_WAYS else ():
         taken, kept = tail[first:last], tail[last:]
         further = {*rest[1:2]} & {"and", "then", *VERB_WORDS}
         if kept and rest[:1] == (",",) and not further:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
-        new = (*said[:-1], *_also_told(taken, said), taken[-1]) if noun else said
+        new = (*said[:-1], *_also_told(taken, said), _noun_of(taken)) if noun else said
         new = new[:-1] if new[-1] == "instead" else new
         mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
         if new[-1] == "it" and new[0] in _BEFORE_PLACES:  # "on the tray, no, next to it"
@@ -191,9 +194,15 @@ def _without(tail: Sequence[str], named: Sequence[str]) -> Iterator[tuple[str, .
         yield (*tail[:begin], *tail[end + 1 :])
 
 
+def _noun_of(phrase: Sequence[str]) -> str:
+    """What a thing is called: "board" of "the upper board of the shelf"."""
+    end = phrase.index("of") if "of" in phrase[1:] else len(phrase)
+    return phrase[end - 1] if phrase else ""
+
+
 def _other_than(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
     """What is said instead, "the other board" as one that is not the board that is taken back."""
-    if tuple(said[-3:-1]) != ("the", "other") or said[-1:] != tuple(taken[-1:]):
+    if tuple(said[-3:-1]) != ("the", "other") or said[-1] != _noun_of(taken):
         return (*said,)
     return (*said[:-2], said[-1], "other", "than", *taken)
 
