@@ -47,11 +47,18 @@ def _without_corrections(
         UnreadableError: nothing or several things may be taken back.
     """
     found: dict[str, Goal] = {}
+    unread: list[bool] = []
+    alike = False
     for way in taken_back(text, mark):
+        unread.append(way.alike)
         with suppress(UnreadableError, ReferenceProblem):
             goal = read_plainly(way.text, scene, vocabulary)
             note = f"{way.words!r} is taken back: {way.instead!r} is said instead"
             found.setdefault(formal(goal), replace(goal, notes=(note, *goal.notes)))
+            unread.pop()
+            alike |= way.alike
+    if any(unread) and not alike:
+        found.clear()  # "the red block by the tray. No, the blue block" does not mean the tray
     if len(found) != 1:
         ways = " or ".join(goal.notes[0].partition(" is taken")[0] for goal in found.values())
         why = f"it may take back {ways}" if ways else "it is unclear what that takes back"

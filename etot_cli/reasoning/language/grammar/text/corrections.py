@@ -78,6 +78,8 @@ class TakenBack(Struct, frozen=True):
     words: str
     instead: str
     text: str
+    alike: bool = False
+    """Both are called the same ("the red car", "the blue car")."""
 
 
 def mark_in(text: str) -> re.Match[str] | None:
@@ -156,7 +158,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             new = (new[0], *(_object_of(taken) or new[1:2]), *new[2:])
         for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
             words = _joined(*before[:start], *tail[:first], *new, *kept, *more)
-            yield TakenBack(" ".join(taken), " ".join(new), words)
+            same = said[0] in _BEFORE_THINGS and _noun_of(taken) == said[-1]
+            yield TakenBack(" ".join(taken), " ".join(new), words, same)
 
 
 def _joined(*words: str) -> str:
