@@ -269,11 +269,7 @@ DESTINATIONS = Rule(
     either(
         _any_of_them,
         sequence(STANCE, _any_of_them, build=in_a_stance),
-        sequence(
-            small_words.EITHER,
-            _any_of_them,
-            build=_if_several,
-        ),
+        sequence(small_words.EITHER, _any_of_them, build=_if_several),
         sequence(
             OPTIONAL_COMMA,
             "be it, whether",
