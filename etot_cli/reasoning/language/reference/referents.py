@@ -286,7 +286,7 @@ class Referents(MeaningsByNow):
                 raise ReferenceProblem(landmark.text, "say which one", 3)
             packed = prep is Prep.OF and prep not in {m.prep for m in usual_form(phrase).modifiers}
             if landmark.words and not is_robot(landmark) and not packed:
-                if quantity_of(landmark.determiner).other:
+                if quantity_of(usual_form(landmark).determiner).other:
                     continue
                 resolved: Resolved | None = None
                 if landmark.is_elliptic and prep in (Prep.FROM, Prep.IN):
