@@ -311,6 +311,8 @@ class Referents(MeaningsByNow):
                     resolved = replace(resolved, options=options or resolved.options)
                     resolved = part_around(resolved, told[0], self.scene)
                 first = len(self.discourse.mentions)
-                self.discourse.add(resolved, landmark.text, Role.ANY)
+                index = self.discourse.add(resolved, landmark.text, Role.ANY)
+                if prep is Prep.THAN:
+                    self.discourse.compared.add(index)
                 if prep is Prep.EXCEPT:
                     self.discourse.step_back(first)
