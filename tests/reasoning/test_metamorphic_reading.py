@@ -96,7 +96,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
     framed += r"which |when i |end with |as for |with |now |on the |if |unless |"
     framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |"
-    framed += r"(\w+ ){0,4}\w+: |right, |\w+, \w+\. |for each |whatever )"
+    framed += r"(\w+ ){0,4}\w+: |right, |\w+, \w+\. |for each |whatever |how about )"
     if re.match(framed, text):
         return  # it has a frame of its own
     if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:
@@ -196,7 +196,7 @@ def test_the_other_way_round_everything_is_seen_the_other_way_round(name: str, t
 def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None:
     if re.search(
         r"(?i)every|any|else|thing|object|item|rest|other|all |clear|tidy|empty|free|using|"
-        r"may only|only the",
+        r"may only|only the|not use",
         text,
     ):
         return  # such words are about it, too

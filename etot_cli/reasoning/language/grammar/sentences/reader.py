@@ -49,8 +49,9 @@ _MOST_BEFORE = 5
 _DOING = words_of((verbs.OPEN, verbs.CLOSE, LOOK_FOR)) | known.VERB_WORDS
 _JOINTS = (COMMA, "and", "then", "first")
 SHOWN_WORDS = 4
-MAX_READINGS = 200
-"""Readings of one sentence that are held against the scene; sensible sentences have up to 96."""
+MAX_READINGS = 128
+"""Readings of one sentence that are held against the scene, each some milliseconds; sensible
+sentences have up to 94."""
 
 
 class UnreadableError(Exception):
