@@ -48,6 +48,8 @@ def more_so(
     """
     (how,) = modifier.words
     if means_the_others(modifier):
+        if len(things) < 2:
+            raise ReferenceProblem(phrase.text, "there is no other one", 2)
         if _is_the_other(modifier.phrases[0]) and len(things) > 2:
             raise UnclearLandmark(phrase.text, sorted(thing.name for thing in things))
         return [
