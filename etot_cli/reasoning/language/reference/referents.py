@@ -286,7 +286,7 @@ class Referents(MeaningsByNow):
                 raise ReferenceProblem(landmark.text, "say which one", 3)
             packed = prep is Prep.OF and prep not in {m.prep for m in usual_form(phrase).modifiers}
             if landmark.words and not is_robot(landmark) and not packed:
-                if quantity_of(landmark.determiner).other:
+                if quantity_of(usual_form(landmark).determiner).other:
                     continue
                 resolved: Resolved | None = None
                 if landmark.is_elliptic and prep in (Prep.FROM, Prep.IN):
@@ -311,6 +311,8 @@ class Referents(MeaningsByNow):
                     resolved = replace(resolved, options=options or resolved.options)
                     resolved = part_around(resolved, told[0], self.scene)
                 first = len(self.discourse.mentions)
-                self.discourse.add(resolved, landmark.text, Role.ANY)
+                index = self.discourse.add(resolved, landmark.text, Role.ANY)
+                if prep is Prep.THAN:
+                    self.discourse.compared.add(index)
                 if prep is Prep.EXCEPT:
                     self.discourse.step_back(first)

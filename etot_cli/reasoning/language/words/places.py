@@ -49,6 +49,10 @@ class Prep(StrEnum):
     """What is not meant, said to make sure which is."""
     AMONG = "among"
     """It is one of these, which are named one by one ("the shorter of the pen and the pencil")."""
+    THAN = "than"
+    """It is more so ("smaller") than another one: the word says how."""
+    FLANKING = "flanking"
+    """The nearest to it on one side and on the other."""
     EXCEPT = "except"
     """Those that fit, without the phrases' things."""
 
@@ -146,6 +150,11 @@ TO_BEAR, TO_HOLD = f"as (a|the) ({_TO_BEAR}) for", f"as (a|the) ({_TO_HOLD}) for
 """What something is used as, of others that go on or in it."""
 BETWEEN = "[in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between"
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
+FLANKING = f"""
+    [standing|lying|sitting] [right|directly|immediately] {ON_BOTH_SIDES},
+    (to|on) the left and [to|on] [the] right of, flanking, (that|which) flank
+"""
+"""Behind several things: what they stand around."""
 ONE_AT_EACH_SIDE = """
     ~comma one [(on|to) (the|its)] left [~comma] [and] one [(on|to) (the|its)] right,
     ~comma one [(on|to) (the|its)] right [~comma] [and] one [(on|to) (the|its)] left

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     alternatives,
     noun_phrase,
 )
+from etot_cli.reasoning.language.grammar.phrases.descriptions import COMPARATIVE
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words.lexicon import ORDINALS, SIZES, singular
 from etot_cli.reasoning.language.words.places import Prep
@@ -71,6 +72,17 @@ def _nearest_to(
     return None if ordinal else NounPhrase(determiner, words, (Modifier(prep, (mark[1],)),))
 
 
+MORE_THAN = sequence(
+    # "A smaller cup than the red one"
+    OPTIONAL_DETERMINER,
+    COMPARATIVE,
+    WORDS,
+    "than",
+    noun_phrase,
+    build=lambda determiner, how, words, np: NounPhrase(
+        determiner, words, (Modifier(Prep.THAN, (np,), (how,)),)
+    ),
+)
 NEAREST_TO = sequence(
     # "The closest cup to the plate"
     OPTIONAL_DETERMINER,

@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     ORDINALS,
     SIDES,
+    SIZES,
     is_descriptive,
     singular,
 )
@@ -87,6 +88,14 @@ def _between(pair: tuple[NounPhrase, ...]) -> Modifier | None:
     return None if half else Modifier(Prep.BETWEEN, pair)
 
 
+COMPARATIVE = word(
+    # What is higher may be so by where it stands.
+    lambda given, text: (
+        SIZES.get(text, ("",))[0] not in ("", "darkness")
+        and text.endswith("er")
+        and text != "higher"
+    )
+)
 _NEAREST_AREA = sequence(
     "closest to, nearest [to], closer to, nearer to", "the", one_of(places.NEAREST_AREAS)
 )
@@ -131,6 +140,26 @@ PLAIN_MODIFIER = either(
         build=lambda np: Modifier(Prep.ON, (np,), ("top",)),
     ),
     sequence(BETWEEN, build=_between),
+    sequence(
+        # "No bigger than the cup"
+        optional(phrase("no", True), False),
+        COMPARATIVE,
+        "than",
+        noun_phrase,
+        build=lambda no, how, np: Modifier(Prep.THAN, (np,), (how,), denied=no),
+    ),
+    sequence(
+        phrase(places.FLANKING),
+        noun_phrase,
+        build=lambda said, np: Modifier(Prep.FLANKING, (np,), tuple(said.split())),
+    ),
+    sequence(
+        # "Next to the red one on each side"
+        places.NEARBY[Nearby.NEXT_TO],
+        noun_phrase,
+        phrase("(on|at|to) (each|either|both) (side|sides)"),
+        build=lambda np, said: Modifier(Prep.FLANKING, (np,), tuple(said.split())),
+    ),
     sequence(
         "outside [of]",
         noun_phrase,

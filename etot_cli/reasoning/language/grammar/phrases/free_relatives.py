@@ -14,10 +14,22 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     one_of,
     optional,
     phrase,
+    separated,
     sequence,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import COMMA, WORDS, exceptions, noun_phrase
-from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE, WHERE_THAT_IS
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    LIST,
+    WORDS,
+    ahead,
+    exceptions,
+    noun_phrase,
+)
+from etot_cli.reasoning.language.grammar.phrases.contents import (
+    CONTENTS,
+    HERE_BEFORE,
+    WHERE_THAT_IS,
+)
 from etot_cli.reasoning.language.grammar.phrases.contrasts import LEAVING_OUT, without_such
 from etot_cli.reasoning.language.grammar.phrases.descriptions import (
     PLAIN_MODIFIER,
@@ -60,9 +72,12 @@ def _one_of_such(words: tuple[str, ...]) -> tuple[str, ...] | None:
 
 
 def _whichever(
-    words: tuple[str, ...] | NounPhrase, modifier: Modifier, more: Any
+    words: tuple[str, ...] | NounPhrase | Modifier, modifier: Modifier, more: Any
 ) -> NounPhrase | None:
     """The one that is so; whichever "is left" is the one that nothing else was done with."""
+    if isinstance(words, Modifier):
+        (noun, *others) = {np.head for np in words.phrases}
+        return NounPhrase("the only", ("object" if others else noun,), (words, modifier, *more))
     if isinstance(words, NounPhrase):
         of_them = Modifier(Prep.OF, (words,))
         if modifier.prep is Prep.NEAREST:
@@ -76,19 +91,38 @@ def _whichever(
     return NounPhrase("the only", words, (modifier, *more))
 
 
+def _one_of(nps: tuple[NounPhrase, ...]) -> Modifier | None:
+    """One of some things that are named one by one."""
+    return Modifier(Prep.AMONG, nps) if nps[1:] and all(np.words for np in nps) else None
+
+
+_ONE_OF = sequence("of", separated(noun_phrase, either(LIST, "or"), most=3), build=_one_of)
+_IS_SO = either(
+    sequence(
+        "[that] is [the]",
+        either(
+            PLAIN_MODIFIER,
+            quality_alone,
+            sequence("not [already|yet]", either(PLAIN_MODIFIER, quality_alone), build=denied),
+        ),
+    ),
+    CONTENTS,
+)
 WHICHEVER = sequence(
-    "whichever, whatever",
     either(
-        WORDS,
-        sequence("of (the|these|those|my|our)", WORDS, build=_one_of_such),
-        sequence("of", noun_phrase),
+        sequence(
+            "whichever, whatever",
+            either(
+                WORDS,
+                sequence("of (the|these|those|my|our)", WORDS, build=_one_of_such),
+                sequence("of", noun_phrase),
+                _ONE_OF,
+            ),
+        ),
+        # "The one of the pen and the pencil that is on the desk"
+        sequence("the one", _ONE_OF, ahead("that", "which")),
     ),
-    "[that] is [the]",
-    either(
-        PLAIN_MODIFIER,
-        quality_alone,
-        sequence("not", either(PLAIN_MODIFIER, quality_alone), build=denied),
-    ),
+    _IS_SO,
     MODIFIERS,
     build=_whichever,
 )

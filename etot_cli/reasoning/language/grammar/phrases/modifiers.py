@@ -86,8 +86,13 @@ MODIFIER = Rule()
 
 
 def _nested(modifiers: tuple[Modifier, ...]) -> tuple[Modifier, ...] | None:
-    """In "the top block of the stack of three blocks" the last "of" is about the stack."""
-    return None if [item.prep for item in modifiers].count(Prep.OF) > 1 else modifiers
+    """In "the top block of the stack of three blocks" the last "of" is about the stack, and in "the
+    board below the one with the can" what is said last tells which "one".
+    """
+    several_of = [item.prep for item in modifiers].count(Prep.OF) > 1
+    inner = (np for item in modifiers[:-1] for np in item.phrases if not np.modifiers)
+    untold = any((np.determiner, np.words) == ("the", ("one",)) for np in inner)
+    return None if several_of or untold else modifiers
 
 
 MODIFIERS = sequence(some(MODIFIER, most=4), build=_nested)

@@ -31,7 +31,11 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     ahead,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.phrases.comparing import NEAREST_TO, ONE_COMPARED
+from etot_cli.reasoning.language.grammar.phrases.comparing import (
+    MORE_THAN,
+    NEAREST_TO,
+    ONE_COMPARED,
+)
 from etot_cli.reasoning.language.grammar.phrases.contrasts import NOT_BUT, OF_ALL
 from etot_cli.reasoning.language.grammar.phrases.descriptions import QUALITY
 from etot_cli.reasoning.language.grammar.phrases.free_relatives import (
@@ -70,6 +74,8 @@ def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhras
         return None  # "any one pen" is one of them, "the one pen" the only one
     if determiner in ("whichever", "whatever") and any(m.words == ("left",) for m in modifiers):
         return None  # it is not on the left
+    if determiner.startswith("whichever of ") and singular(words[-1]) == words[-1]:
+        return None  # "whichever of the cup and the mug": of one alone it is none
     number = words[-1] == "one" and not (determiner and len(words) == 1)
     plain = number and not (len(words) > 1 and singular(words[-2]) == words[-2])
     return None if plain else NounPhrase(determiner, words, modifiers)
@@ -89,6 +95,9 @@ def _nounless(determiner: str, modifiers: Any) -> NounPhrase | None:
     """
     if determiner in ("all", "each") and not modifiers:
         return NounPhrase(determiner, pronoun="them")
+    of_one = (np for m in modifiers if m.prep is Prep.OF for np in m.phrases if np.words)
+    if determiner == "whichever" and any(singular(np.head) == np.head for np in of_one):
+        return None
     alone = determiner.split()
     return None if len(alone) > 1 and alone[-1] == "one" else NounPhrase(determiner, (), modifiers)
 
@@ -157,6 +166,7 @@ NAMED = spanned(
     either(
         sequence(OPTIONAL_DETERMINER, WORDS, MODIFIERS, build=_named),
         NEAREST_TO,
+        MORE_THAN,
         WHICHEVER,
         FREE_CHOICE,
         FREE_RELATIVE,
@@ -263,6 +273,14 @@ NAMED = spanned(
             valued(phrase(nouns.STACK), lambda noun: (noun,)),
             MODIFIERS,
             build=NounPhrase,
+        ),
+        sequence(
+            # "The two neighbours of the red cube"
+            phrase("the, the two, both, both of the"),
+            "neighbours, neighbors, immediate neighbours, immediate neighbors",
+            "of",
+            noun_phrase,
+            build=lambda det, np: NounPhrase(det, ("objects",), (Modifier(Prep.FLANKING, (np,)),)),
         ),
         sequence(
             # "The outer two", "those left three"

@@ -94,7 +94,7 @@ WHERE = Rule(
                 sequence(after("anywhere"), "except"),
                 sequence(after("rather", "prefer"), "than"),
             ),
-            optional(predicates.BEING),
+            optional(f"back, {predicates.BEING}"),
             separated(destination, "or, nor", most=3),
             not_ahead("first", "last"),  # "…, not the cup first" is no place
             build=_but_not,

@@ -13,7 +13,7 @@ from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.geometry.blocking import before_fronts
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import Quantity, quantity_of
-from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL
+from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL, usual_form
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import ON_SIDE, Prep
 from etot_cli.world.state import SceneState
@@ -249,9 +249,13 @@ def _is_fixed_beside(prep: Prep, thing: Thing, scene: SceneState) -> bool:
 
 
 def means_the_others(modifier: Modifier) -> bool:
-    """Whether "between the other two" is said of one of three."""
+    """Whether "between the other two", or "bigger than the others", is said of one of these."""
     (first, *more) = modifier.phrases
-    return not more and not first.pronoun and quantity_of(first.determiner).other
+    return (
+        not (more or first.pronoun)
+        and not first.modifiers
+        and quantity_of(usual_form(first).determiner).other
+    )
 
 
 def between_the_others(things: list[Thing], phrase: NounPhrase, scene: SceneState) -> list[Thing]:

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.syntax.phrases import CLEARED, Modifier, NounPhrase
+from etot_cli.reasoning.language.reference.choosing.compared import more_so, on_either_side
 from etot_cli.reasoning.language.reference.choosing.landmarks import (
     HOLDING,
     RANKED,
@@ -85,6 +86,19 @@ def modified(
             continue
         if modifier.prep is Prep.AMONG:
             things = _among(things, landmark_sets(modifier), phrase)
+            continue
+        if modifier.prep in (Prep.THAN, Prep.FLANKING):
+            own = means_the_others(modifier)  # "smaller than the others"
+            sets = [] if own else landmark_sets(modifier)
+            if modifier.prep is Prep.THAN:
+                found = more_so(things, modifier, sets, phrase, scene)
+            else:
+                marks = [mark for way in sets for several in way for mark in several]
+                every = quantity.every and count is None
+                found = on_either_side(things, modifier, marks, count, phrase, scene, every=every)
+            if not found:
+                raise _untrue(phrase, modifier, things)
+            things = found
             continue
         if modifier.prep in RANKED | HOLDING and any(thing.name == DESK for thing in things):
             raise ReferenceProblem(phrase.text, "this tells no desk from another", 2)

@@ -83,6 +83,8 @@ class Discourse:
     """What was put next to each other last."""
     left_alone: frozenset[int] = frozenset()
     """Referents that must not be moved or touched."""
+    compared: set[int] = field(default_factory=set)
+    """Referents that were but named to compare others with, of which they may be one."""
     returning: bool = False
     """Something is to be put back in the end, so that it is what other things are put into."""
     remarked: frozenset[int] = frozenset()
@@ -298,10 +300,12 @@ class Discourse:
             options = self.referents[mention.referent].options
             later = (self.referents[item.referent].options for item in self.mentions[at + 1 :])
             since = any({*own} < {*options[0]} for several in later for own in several)
+            dealt_with = {*self.put, *self.left_alone}  # "the apple and another fruit"
             if since and mention.referent not in self.put:
                 continue
+            if mention.referent in self.compared - dealt_with and mention.role is Role.ANY:
+                continue
             said = (mention.noun, *mention.noun.split("_"))  # "vial C" is a noun of one label
-            dealt_with = {*self.put, *self.left_alone}  # "the apple and another fruit"
             here = mention.role is Role.THEME and mention.clause == self.clause
             alike = (
                 here

@@ -43,7 +43,8 @@ def in_state(
         mixed = balls != solid if balls else bool(vessels and solid)
         if every and mixed:
             raise ReferenceProblem(word, "say what they are", 3, word=word)
-        return balls or found
+        # Of an orange, a bowl and a cube only the cube is "not round".
+        return found if left_out and found != [*things] else balls or found
     wide = [
         thing
         for thing in found
