@@ -313,8 +313,8 @@ def _either_way(groups: tuple[PutGroup, ...]) -> PutGroup | None:
 
 
 def left(groups: tuple[PutGroup, ...], extras: Any) -> PutClause | None:
-    """A clause that leaves things where they are; who is to keep the board "clear of the duck" means
-    what goes onto it as likely as where it stands.
+    """A clause that leaves things where they are; to keep the board "clear of the duck" may mean
+    what goes onto it as well as where it stands.
     """
     beside = (near for group in groups for at in group.destinations for near in at.beside)
     if any(near.text.startswith("clear of") for near in beside):
