@@ -132,7 +132,8 @@ def _check_describes(
             may also be about the cup.
     """
     where = {p.where for places in places_of.values() for p in places if p.where is not None}
-    below = {thing.name for thing in context.discourse.things(*where)} - {DESK}
+    places = [place for place in context.discourse.things(*where) if place.name != DESK]
+    below = {place.name for place in places}
     if not all(np.pronoun for item in condition.destinations for np in item.targets):
         return
     for index in (index for index in subjects if index not in context.discourse.put):
@@ -145,7 +146,10 @@ def _check_describes(
                 if item.relation.landmarks == 1
             ]
             there = any(holds(item, thing.name, context.scene) for item in beside)
-            if there or below & bearers(context.scene, thing.name):
+            borne = bearers(context.scene, thing.name)
+            on = context.scene.states[thing.name].on  # what stands on another board is not there
+            here = [p for p in places if p.board is None or p.address in on]
+            if there or any(place.name in borne for place in here):
                 text = context.discourse.referents[index].text
                 inside = any(item.toward is Toward.INSIDE for item in condition.destinations)
                 vessels = [
