@@ -152,7 +152,8 @@ BETWEEN = "[in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
 FLANKING = f"""
     [standing|lying|sitting] [right|directly|immediately] {ON_BOTH_SIDES},
-    (to|on) the left and [to|on] [the] right of, flanking, (that|which) flank
+    (to|on) the left and [to|on] [the] right of, (to|on) the right and [to|on] [the] left of,
+    flanking, (that|which) flank
 """
 """Behind several things: what they stand around."""
 ONE_AT_EACH_SIDE = """
