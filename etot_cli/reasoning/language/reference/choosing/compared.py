@@ -163,7 +163,8 @@ def on_either_side(
         if several or _askew(side, beside[0], mark, scene) > ROW:
             names = ", ".join(thing.name for thing in beside)
             raise ReferenceProblem(phrase.text, f"say which of {names}", 2, word="side")
-    return [beside[0] for beside in around]
+    nearest = [beside[0] for beside in around]
+    return [thing for thing in things if thing in nearest]
 
 
 def _at(side: Prep, things: Sequence[Thing], mark: Thing, scene: SceneState) -> list[Thing]:
