@@ -17,7 +17,12 @@ from etot_cli.reasoning.builtin.goal import Goal
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.wording import formal
 from etot_cli.reasoning.language.goals.interpretation import interpret
-from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.grammar.sentences.reader import (
+    UnreadableError,
+    normalized,
+    parsed,
+    read,
+)
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words import known, verbs
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -382,6 +387,7 @@ def is_read_in_time(text: str, vocabulary: Vocabulary, scene: SceneState = BREAK
 
 def reading_s(text: str, vocabulary: Vocabulary, scene: SceneState = BREAKFAST) -> float:
     """How long reading takes [s of processor time]."""
+    parsed.cache_clear()
     start = time.process_time()
     meaning(text, scene, vocabulary)
     return time.process_time() - start

@@ -96,4 +96,4 @@ def put_side_by_side(
         elif places:
             add_put(context, (index,), places, Grouping.ANY)
         before = index
-    context.discourse.abreast = {thing for thing, _ in things}
+    context.discourse.abreast = frozenset(thing for thing, _ in things)

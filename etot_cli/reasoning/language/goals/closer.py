@@ -62,7 +62,7 @@ def set_closer(
         context.steps[number : number + 1] = [left] if rest else []
         chosen[:] = [index for index in chosen if own != moved]
         return closer
-    text = discourse.referents[themes[0]].text
+    text = discourse.referents[themes[0]].text if themes else group.things.text
     raise ReferenceProblem(text, "it cannot go to two places at once", 1)
 
 

@@ -7,7 +7,7 @@ from contextlib import suppress
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing, things_in
+from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order
@@ -74,10 +74,12 @@ def _goes_back(context: Context, group: PutGroup, removed: frozenset[int]) -> bo
     if group.things.phrases[0].pronoun not in ("it", "them") or not home:
         return False
     here = {where.word for where in group.destinations} <= {*_BACK_THERE}
-    discourse, puts = context.discourse, [s for s in context.done if isinstance(s, Put)]
-    (*_, last) = puts
-    if here or {*last.what} & removed:
+    if any(isinstance(step, Pick) for step in context.done):
+        return False
+    last = next((step for step in reversed(context.done) if isinstance(step, Put)), None)
+    if here or last is None or {*last.what} & removed:
         return True
+    discourse = context.discourse
     taken = discourse.things(*removed)
     where = discourse.things(*(p.where for p in last.places if p.where is not None))
     if any(at in taken or touches(t, at, context.scene) for at in where for t in taken):

@@ -313,6 +313,6 @@ class Referents(MeaningsByNow):
                 first = len(self.discourse.mentions)
                 index = self.discourse.add(resolved, landmark.text, Role.ANY)
                 if prep is Prep.THAN:
-                    self.discourse.compared.add(index)
+                    self.discourse.compared |= {index}
                 if prep is Prep.EXCEPT:
                     self.discourse.step_back(first)

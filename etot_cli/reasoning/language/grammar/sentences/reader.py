@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 from msgspec import Struct
 
@@ -52,6 +53,8 @@ SHOWN_WORDS = 4
 MAX_READINGS = 128
 """Readings of one sentence that are held against the scene, each some milliseconds; sensible
 sentences have up to 94."""
+_REMEMBERED = 64
+"""Sentences whose readings are kept: more than an instruction has, with its rewordings."""
 
 
 class UnreadableError(Exception):
@@ -175,6 +178,25 @@ def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -
     if len(words) > MAX_WORDS:
         why = f"one sentence has over {MAX_WORDS} words; make it several sentences"
         raise UnreadableError(shown(words), before, why)
+    found = parsed(words, vocabulary)
+    if isinstance(found, Sentence):
+        return found
+    raise UnreadableError(found.words, before, found.why, unread=found.given)
+
+
+class _Unread(Struct, frozen=True):
+    """Why a sentence cannot be read: which words of it, if that is known."""
+
+    words: str
+    why: str = ""
+    given: Input | None = None
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def parsed(words: tuple[str, ...], vocabulary: frozenset[str]) -> Sentence | _Unread:
+    """A sentence's readings, or why there are none; the search for what is to blame for a refusal
+    reads most sentences of an instruction again and again.
+    """
     given = Input(words, vocabulary)
     try:
         found = readings(given)
@@ -182,16 +204,15 @@ def _sentence(words: tuple[str, ...], before: str, vocabulary: frozenset[str]) -
             raise TooManyReadings
     except TooManyReadings:
         why = "this can be read in too many ways; make it several sentences"
-        raise UnreadableError(shown(words), before, why) from None
+        return _Unread(shown(words), why)
     found = [reading for said in found if (reading := spelled_out(said)) is not None]
     if not found:
-        raise UnreadableError(shown(words), before, unread=given)
+        return _Unread(shown(words), given=given)
     over = {reading: unaccounted(words, reading) for reading in found}
     found = [reading for reading in found if over[reading] is None]
     if not found:
         word = next(word for word in over.values() if word is not None)
-        why = "it would be read over here; say it in a sentence of its own"
-        raise UnreadableError(word, before, why)
+        return _Unread(word, "it would be read over here; say it in a sentence of its own")
     costs = sorted(((reading_cost(reading), n) for n, reading in enumerate(found)))
     return Sentence(spaced(words), tuple(found[n] for _, n in costs), tuple(c for c, _ in costs))
 
@@ -201,4 +222,13 @@ def shown(words: tuple[str, ...]) -> str:
     return spaced(words[:SHOWN_WORDS]).strip(", ") + (" …" if len(words) > SHOWN_WORDS else "")
 
 
-__all__ = ["Read", "Sentence", "UnreadableError", "is_known", "normalized", "read", "shown"]
+__all__ = [
+    "Read",
+    "Sentence",
+    "UnreadableError",
+    "is_known",
+    "normalized",
+    "parsed",
+    "read",
+    "shown",
+]

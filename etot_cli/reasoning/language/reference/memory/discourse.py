@@ -79,11 +79,11 @@ class Discourse:
     """Number of a clause that only names something by where it is, how it is to what, and that;
     "there" means that then. None for how where it is beside something.
     """
-    abreast: set[Thing] = field(default_factory=set)
+    abreast: frozenset[Thing] = frozenset()
     """What was put next to each other last."""
     left_alone: frozenset[int] = frozenset()
     """Referents that must not be moved or touched."""
-    compared: set[int] = field(default_factory=set)
+    compared: frozenset[int] = frozenset()
     """Referents that were but named to compare others with, of which they may be one."""
     returning: bool = False
     """Something is to be put back in the end, so that it is what other things are put into."""
