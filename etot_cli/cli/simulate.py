@@ -89,7 +89,8 @@ def simulate(
     were asked for without OpenGL, or --view without a viewer; 130: interrupted.
     """
     if capture is not None:
-        refuse_beside(context, "--capture", ("task", "capture", "noise", "vary", "seed", "json"))
+        about_it = ("task", "capture", "noise", "vary", "seed", "json", "quiet")
+        refuse_beside(context, "--capture", about_it)
         from etot_cli.commands.capture import run_capture
 
         folder = run_capture(task, capture, noisy=noise, seed=seed, vary=vary)

@@ -10,6 +10,9 @@ from etot_cli.specs.bounds import DEPTH_UNIT
 from etot_cli.specs.document import read_document
 from etot_cli.specs.load import load_scene, load_task
 
+_TASKS_OWN = frozenset({"scene", "instruction", "goal", "success"})
+"""Keys of a task that no scene has; a file with one of them is told what a task lacks."""
+
 
 def run_capture(path: Path, folder: Path, *, noisy: bool, seed: int, vary: bool) -> Path:
     """Writes a capture folder (see docs/capture_format.md) and returns it.
@@ -25,9 +28,8 @@ def run_capture(path: Path, folder: Path, *, noisy: bool, seed: int, vary: bool)
         SpecError: the file is unusable.
         ServiceError: OpenGL is missing.
     """
-    # A task has an instruction; deciding by that keeps a broken file's own error.
     content = read_document(path).plain()
-    is_task = isinstance(content, dict) and "instruction" in content
+    is_task = isinstance(content, dict) and not _TASKS_OWN.isdisjoint(content)
     scene = load_task(path).scene if is_task else load_scene(path)
     if vary:
         from etot_cli.specs.vary import vary as varied
