@@ -39,7 +39,8 @@ def plan_summary(out: Printer, report: PlanReport, path: Path) -> None:
     if report.prefix is not None and report.status != "infeasible":
         out.say("As far as it came", 2)
         _steps(out, [by_id[number] for number in report.prefix.nodes])
-        out.say(f"then {' '.join(report.prefix.missing)}", 4)
+        if report.prefix.missing:  # else all of it works, and is not what was asked for
+            out.say(f"then {' '.join(report.prefix.missing)}", 4)
     _failures(out, failures, len(report.plan_nodes))
     _doubts(out, report.doubts)
     if report.stopped:
