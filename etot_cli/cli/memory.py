@@ -16,18 +16,18 @@ NEEDED_MIB = 350
 """Address space in which a task can be planned: 320 to 340 MiB for libraries and models, most of it
 numpy and MuJoCo. Pictures (OpenCV) take 170 MiB more and are loaded where there are some."""
 MIB = 1 << 20
-COLLECT_EVERY = 50_000
-"""New objects after which reference cycles are looked for. Loading and a search make some 300,000
-that nearly all stay; looking after every 700, as Python does, takes 130 ms of a plan's 1.5 s, and
-after so many 40. A search leaves 5,000 in cycles, with 4 MiB of models: rarer looks let a process
-with many searches grow (25 of them: 214 MiB, as with Python's own, and 300 at four times as many).
-"""
 FIRST_AFTER = 400_000
-"""New objects before the first look, which loading, reading an instruction and a search stay below:
-looks at what is loaded meanwhile took a sixth of the time in which the grammar is."""
+"""New objects before reference cycles are looked for first, which loading, reading an instruction
+and a search stay below: looks at what is loaded meanwhile took a sixth of the time in which the
+grammar is. Python looks after every 700, which takes 130 ms of a plan's 1.5 s. A search leaves
+5,000 objects in cycles, with 4 MiB of models, so a process with many of them grows: 25 searches
+take 276 MiB, and 181 with Python's own looks. Workers look after each call.
+"""
+COLLECT_EVERY = 50_000
+"""New objects after which it is done later: so seldom it takes 40 ms of a plan's time."""
 COLLECT_OLDER_EVERY = 12
 """Such looks after which older objects are looked at, too, for 40 ms: not within one plan. At half
-of it most plans that read an instruction had one; 25 searches take 226 MiB instead of 220.
+of it most plans that read an instruction had one, and it spares no memory.
 """
 _LACK = re.compile(
     r"(?i)(could not|cannot|unable to|failed to) (allocate|map segment)|out of memory|"
@@ -60,7 +60,8 @@ def collect_seldom() -> None:
     look: libraries and what was read; a few MiB more are in use for it.
     """
     gc.set_threshold(FIRST_AFTER, COLLECT_OLDER_EVERY)
-    gc.callbacks.append(_after_first_look)
+    if _after_first_look not in gc.callbacks:
+        gc.callbacks.append(_after_first_look)
 
 
 def _after_first_look(phase: str, _: dict[str, int]) -> None:
