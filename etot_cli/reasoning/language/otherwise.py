@@ -77,6 +77,7 @@ asked for before.
 """
 
 
+_IF = r"\b(?:if|unless|provided|when|once|until|till|while|as long as)\b"
 _OF_SEVERAL_PARTS = Expression(
     r"^(?:(?!\bone\b).)*\b(?:board|drawer|shelf|level|compartment)\b"
     rf"(?:(?!\bone\b).|\b(?:{'|'.join(LEVELS)}) one\b)*$"
@@ -196,6 +197,9 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     )
     if plain is None:
         raise UnreadableError(instruction, "")
+    for aside in plain.asides:
+        if re.search(rf"{_IF}[^.,:;!?]*? (?:and|or) {re.escape(aside)}", normalized(instruction)):
+            raise UnreadableError(aside, "")  # what is asked for hangs on it, too
     goal = read_plainly(plain.text, scene, vocabulary)
     ways = ("not asked for: the rest is done", "done where it has to be")
     notes = (

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    AvoidClause,
     MoveClause,
     PickClause,
     PutClause,
@@ -42,34 +43,59 @@ def decided(state: Understanding, reading: Sequence[Spoken]) -> tuple[Spoken, ..
     Raises:
         ReferenceProblem: it cannot be told, or what comes next may hang on it, too.
     """
-    given = [said.only_if for said in reading if said.only_if is not None]
-    if not given:
+    given = [_key(said) for said in reading]
+    found = tuple(said for said in reading if said.only_if is None)
+    if found == (*reading,):
         _check_further(state, reading)
-        return (*reading,)
-    if len({replace(condition, so=True) for condition in given}) > 1:
-        raise ReferenceProblem(given[1].text, "say it in a sentence of its own", 3)
-    before = tuple(said for said in reading if said.only_if is None)
-    known = state.copy()
-    if before:
-        known.read(before)
-    holds = _holds(known, given[0])
+        return found
+    for condition in dict.fromkeys(key for key in given if key is not None):
+        known = state.copy()
+        if found:
+            known.read(found)
+        clauses = [said for said, key in zip(reading, given, strict=True) if key == condition]
+        found += _asked_for(state, known, clauses)
+    return found
+
+
+def _key(said: Spoken) -> Condition | None:
+    """The condition of a clause, be it asked for where that holds or otherwise."""
+    return None if said.only_if is None else replace(said.only_if, so=True)
+
+
+def _asked_for(
+    state: Understanding, known: Understanding, clauses: Sequence[Spoken]
+) -> tuple[Spoken, ...]:
+    """What is asked for of what hangs on one condition, by what is ``known`` when that is said.
+
+    Raises:
+        ReferenceProblem: it cannot be told whether the condition holds.
+    """
+    given = clauses[0].only_if
+    assert given is not None  # it is what they hang on
+    ways = [_holds(known, part) for part in given.parts]
+    holds = any(ways) if given.either else all(ways)
     first, second = (
-        tuple(said for said in reading if said.only_if and (said.only_if == given[0]) is is_first)
+        tuple(said for said in clauses if (said.only_if == given) is is_first)
         for is_first in (True, False)
     )
+    if (given.either or given.some is not None) and "it" in pronouns(first[0].clause):
+        raise ReferenceProblem(given.text, "say which of them is meant", 3)
     start = first[0].position - 1
-    places = given[0].place.targets if given[0].place else ()
-    about = tuple(_named(np, start) for np in (*places, *given[0].subjects) if not np.pronoun)
+    about = tuple(_named(np, start) for np in given.named if not np.pronoun)
     ahead = (*about, *(_named(np, start) for np in _themes(first)))
-    ways = {given[0].so: (*about, *first), not given[0].so: (*ahead, *second)}
-    known.read(_plain(ways[not holds]))  # it has to be understood, too
-    if ways[holds] == ahead and first[1:]:
+    asked = {given.so: (*about, *first), not given.so: (*ahead, *second)}
+    known.read(_plain(asked[not holds]))  # it has to be understood, too
+    if asked[holds] == ahead and first[1:]:
         why = "that is not so; say whether all of it hangs on that"
-        raise ReferenceProblem(given[0].text, why, 3)
+        raise ReferenceProblem(given.text, why, 3)
     so = "so" if holds else "not so"
-    state.context.discourse.notes.append(f"{given[0].text!r}: that is {so}")
-    state.conditional, state.undone = True, ways[holds] == ahead
-    return (*before, *_plain(ways[holds]))
+    state.context.discourse.notes.append(f"{given.text!r}: that is {so}")
+    state.conditional = True
+    state.undone |= asked[holds] == ahead
+    now, otherwise = (first, second) if holds is given.so else (second, first)
+    stays = (isinstance(said.clause, AvoidClause) for said in now)
+    state.let_be |= bool(now and otherwise) and all(stays)
+    return _plain(asked[holds])
 
 
 def _plain(reading: Iterable[Spoken]) -> tuple[Spoken, ...]:
@@ -130,7 +156,9 @@ def _holds(state: Understanding, condition: Condition) -> bool:
         raise ReferenceProblem(condition.text, "say what it is in or on", 3)
     (so, *_) = ways
     if len(so) != 1:
-        raise ReferenceProblem(condition.text, "that is so of some of them only", 3)
+        if condition.some is None:
+            raise ReferenceProblem(condition.text, "that is so of some of them only", 3)
+        return condition.some
     return so == {not condition.denied}
 
 

@@ -92,11 +92,13 @@ class Understanding:
         """Something was asked for only if things are so by now."""
         self.undone = False
         """It was not so, and nothing was asked for otherwise."""
+        self.let_be = False
+        """As things are they are to be left alone, where more was asked for otherwise."""
 
     @property
     def asked(self) -> bool:
         """Whether anything has been asked for, even if it holds already."""
-        return self.undone or any(item.steps for item in self.timed)
+        return self.undone or self.let_be or any(item.steps for item in self.timed)
 
     def copy(self) -> Understanding:
         """An independent copy, for trying a reading."""
@@ -110,6 +112,7 @@ class Understanding:
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
         other.conditional, other.undone = self.conditional, self.undone
+        other.let_be = self.let_be
         other.sentence, other.context.last = self.sentence, self.context.last
         return other
 

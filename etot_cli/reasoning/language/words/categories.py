@@ -119,7 +119,10 @@ _PLAYTHINGS = word_set(
     "xylophone frisbee tambourine yo_yo plushie slinky spinning_top lego_brick toy_brick jump_rope "
     "action_figure rubiks_cube"
 )
-_LIKE_PEOPLE = _ANIMALS | word_set("doll teddy puppet figurine robot")
+_LIKE_PEOPLE = _ANIMALS | word_set(
+    "doll teddy puppet figurine robot guard soldier knight king queen prince princess pirate clown "
+    "baby man woman boy girl wizard witch astronaut fireman policeman santa snowman gnome mermaid"
+)
 _CLOTHES = word_set(
     "shirt tshirt sweater pullover hoodie coat jacket sock hat cap beanie scarf glove mitten pants "
     "trouser jean short skirt dress blouse belt tie pajama pyjama sweatshirt jumper cardigan vest "

@@ -160,9 +160,18 @@ UNLESS = "unless"
 OTHERWISE = "otherwise, else, or else"
 IF_NOT = """
     if not, if (it|that|this) is not, if they are not, if (it|that|this) is not (so|the case),
-    if not so
+    if not so, if no
 """
-IF_SO = "if (it|that|this) is, if they are, if so, if (it|that|this) is (so|the case)"
+IF_SO = "if (it|that|this) is, if they are, if so, if (it|that|this) is (so|the case), if yes"
+IF_THERE = {
+    True: """
+        if (it|that) is [already] there [already], if (it|that) already is [there],
+        if they are [already] there [already]
+    """,
+    False: """
+        if (it|that) is not [already] there [already|yet], if they are not there [already|yet]
+    """,
+}
 """Before what is asked for where what a condition says is not so, or is so for all that."""
 IN_THAT_CASE = "in (which|that) case"
 """The same behind "unless", of all that it says, be it denied or not."""

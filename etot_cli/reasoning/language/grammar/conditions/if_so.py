@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     optional,
     quiet,
     sequence,
+    valued,
     variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, EMPTY_WORDS, OPTIONAL_COMMA
@@ -54,6 +55,11 @@ _TAKEN_OUT = either(
 )
 
 
+def _emptied(found: tuple[Prep, Things, tuple[Destination, ...]]) -> Clause:
+    """What takes all out of things, or off them, which asks for something if anything is there."""
+    return _without_contents(found)[0]
+
+
 def _without_contents(
     found: tuple[Prep, Things, tuple[Destination, ...]],
 ) -> tuple[Clause, ...]:
@@ -66,17 +72,15 @@ def _without_contents(
     return emptied(things, held=held), *(stays(np, 1) for np in things.phrases[:1])
 
 
-IF_ANYTHING_IS_THERE = quiet(
-    variants(
-        sequence(
-            _IF_THERE_IS,
-            optional("now, already, at the moment, by now"),
-            _THEN,
-            EMPTY_WORDS,
-            _TAKEN_OUT,
-            build=lambda found, where: (*found, where),
-        ),
-        _without_contents,
-    )
+_IF_ANYTHING_IS_THERE = sequence(
+    _IF_THERE_IS,
+    optional("now, already, at the moment, by now"),
+    _THEN,
+    EMPTY_WORDS,
+    _TAKEN_OUT,
+    build=lambda found, where: (*found, where),
 )
+IF_ANYTHING_IS_THERE = quiet(variants(_IF_ANYTHING_IS_THERE, _without_contents))
 """Asked for unless nothing is there, which then stays so."""
+AS_SOMETHING_IS_THERE = quiet(valued(_IF_ANYTHING_IS_THERE, _emptied))
+"""Asked for as something is there, so that more may follow, whether it hangs on that or not."""

@@ -202,6 +202,9 @@ def chained(first: Reading, more: Joined) -> Reading | None:
         if said.startswith("passive") and not goes_on(done[-1].clause, clause[0].clause):
             return None
         before = done[-1].clause
+        guarded = isinstance(before, MoveClause) and before.guarded
+        if guarded and said != "then" and isinstance(clause[0].clause, EnsureClause):
+            return None  # "open it if it is closed and the cup is on the tray"
         if said == "by" and isinstance(clause[0].clause, PickClause):
             return None  # "put it there by gripping it from above" says how it is held meanwhile
         wanted = isinstance(before, PickClause) and before.wanted

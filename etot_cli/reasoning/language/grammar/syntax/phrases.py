@@ -218,8 +218,24 @@ class Condition(Struct, frozen=True):
     so: bool = True
     only: bool = False
     """It is said that nothing is asked for otherwise."""
+    some: bool | None = None
+    """Whether it is true where that is so of some of them only; None where it is not said."""
+    more: tuple[Condition, ...] = ()
+    """What has to be so as well, or (``either``) may be so instead."""
+    either: bool = False
     text: str = ""
     """As written."""
+
+    @property
+    def parts(self) -> tuple[Condition, ...]:
+        """What it consists of, each to be told by itself."""
+        return (replace(self, more=()), *(replace(part, text=self.text) for part in self.more))
+
+    @property
+    def named(self) -> tuple[NounPhrase, ...]:
+        """What it speaks of."""
+        found = ((part.place.targets if part.place else (), part.subjects) for part in self.parts)
+        return tuple(np for several in found for nps in several for np in nps)
 
 
 def has_choice(where: Iterable[Destination]) -> bool:

@@ -49,14 +49,15 @@ _OF_A_CHOICE = Expression(
     r"(?:may|must|should|can)) be (?:an?|the) [\w ]+ one"
 )
 """What is said of one of several things that was left to choose; no state ends in "one"."""
-_IF = Expression(r"\b(?:if|unless|provided)\b")
+_IF = Expression(rf"(?:\b(?:if|unless|provided|whether)\b|^(?:is|are) .*{QUESTION}$)")
 _ELSE = spellings(
     f"{small_words.OTHERWISE}, {small_words.IF_NOT}, {small_words.IF_SO}, "
-    f"{small_words.IN_THAT_CASE}"
+    f"{small_words.IN_THAT_CASE}, {', '.join(small_words.IF_THERE.values())}"
 )
 _OTHERWISE = Expression(
-    rf"(?:(?:but|and) )?(?:{'|'.join(sorted(_ELSE, key=len, reverse=True))})"
+    rf"(?:but |and )?(?:(?:{'|'.join(sorted(_ELSE, key=len, reverse=True))})"
     r"(?:,|\b(?! (?:open|closed|in|on|empty)\b))"
+    r"|(?:otherwise|else) |if [\w ]+ (?:is|are)(?: not)?,)"
 )
 """Behind a condition: what is asked for where that does not hold."""
 
