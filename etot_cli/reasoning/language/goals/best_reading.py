@@ -88,7 +88,7 @@ def best_reading(state: Understanding, sentence: Sentence) -> Understanding:
         cost = simplicity
         found.setdefault(meaning, attempt)
         said.setdefault(meaning, reading)
-        discourse = attempt.context.discourse
+        discourse = found[meaning].context.discourse
         if _APPOSED.search(sentence.text):
             # "Put the can on the tray, the one by the box" tells which can, where there is one tray
             texts = (discourse.referents[index].text for index in discourse.undecided)

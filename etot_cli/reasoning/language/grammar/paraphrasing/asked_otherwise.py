@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
-from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import (
     KIND_NOUNS,
@@ -61,9 +60,10 @@ _NTH = Expression(
 )
 
 _RIDER = r"(?:the |my )?((?!and\b|the\b)\w+(?: \w+)?) (?:included|and all)"
-_VESSELS = OPEN_VESSELS.union(KIND_NOUNS["cup"], KIND_NOUNS["bowl"])
+_VESSELS = OPEN_VESSELS.union(KIND_NOUNS["cup"], KIND_NOUNS["bowl"], ("dish", "mortar"))
 _INCLUDED = Expression(
-    rf"^({ASKED})((?:put|place|move|get|take|bring|set|stand) (?:the|my) ((?:\w+ ){{0,2}}?\w+))"
+    rf"^({ASKED})((?:put|place|move|get|take|bring|set|stand|carry|transfer|store|stow) (?:the|my) "
+    r"((?:\w+ ){0,2}?\w+))"
     rf"(?:, {_RIDER},(?= {WHERE})([^.,;:]*)|(?= (?:and|with|{WHERE})[^,;:]*)([^.;:]*?), {_RIDER})"
     r"(?=[.,;!?]|$)"
 )
@@ -106,12 +106,13 @@ def _counted_from(said: re.Match[str]) -> str:
 def _goes_along(said: re.Match[str]) -> str:
     """What stands in or on a thing that goes somewhere "included": it stays there."""
     please, asked, thing, ahead, where, there, behind = said.groups()
-    noun, rider = thing.rpartition(" ")[2], ahead or behind
-    if singular(noun) != noun or is_category(noun) or noun in THING_NOUNS:
+    noun, rider, rest = thing.rpartition(" ")[2], ahead or behind, where or there
+    if singular(noun) != noun or noun in THING_NOUNS:
         return said[0]
-    at = f"{'in' if noun in _VESSELS else 'on'} the {thing}"
-    kept = f"keep the {rider} that is {at} {at}"
-    return f"{please}{asked}{there} and {kept}" if behind else f"{please}{kept} and {asked}{where}"
+    if rider == "contents":
+        return f"{please}{asked}{rest}, contents and all"
+    kept = f"keep the {rider} {'in' if noun in _VESSELS else 'on'} the {thing}"
+    return f"{please}{asked} with the {rider}{rest} and {kept}"
 
 
 ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _SO_NOW = r"(?:not|still|already|left|in|on|out|lying|standing|sitting)\b"
@@ -34,7 +35,26 @@ def _not_unstacked(said: re.Match[str]) -> str:
     return f"{said[1]}{said[3]} {said[2]}" if said[3] else f"{said[1]}{said[4]} {said[2]} apart"
 
 
+_PLAIN_PLACE = rf"(?:(?:the|my) )?(?:(?!{WHERE}|and\b|or\b)\w+ ?){{1,3}}(?=[.!]|$)"
+_LEVELLED = r"\b(?:behind|back|bottom|below|beneath|underneath|middle)\b"
+
+
+def _with_of(said: re.Match[str]) -> str:
+    """A preposition without its "of", unless things behind or below may be told by it."""
+    return said[0] if re.search(_LEVELLED, said.string) else f"{said[1]} of "
+
+
 WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    # Prepositions as in other languages ("behind of", "near from", "in front the box")
+    (r"(?<=\w )(?:at )?(behind|beside|between|near) (?:of|from) (?=\w)", r"\1 "),
+    (r"(?<=\w )(?<!the )(?:next of|beside to) (?=\w)", "next to "),
+    (rf"(?<=\w )(?<!and )(in front|on top) (?={NAMED} )(?!\w+ (?:other|(?:\w+ )?one)\b)", _with_of),
+    (r"(?<=\w )in (left|right) of (?=\w)", r"to the \1 of "),
+    (
+        rf"^({ASKED}(?:put|place|set|stand|position) (?:(?!(?:{WHERE}|ones?\b|and\b|or\b))\w+ )+)"
+        rf"(?:(?:on|at|in) (?:the )?)?(?:(left) (?:from|to)|(right) from) (?={_PLAIN_PLACE})",
+        lambda said: f"{said[1]}to the {said[2] or said[3]} of ",
+    ),
     (
         r"\byou (?:will|can|should) find (it|(?:the|my) \w+(?: \w+)?) "
         r"(?=(?:in|on|inside|next|beside|behind|near|at)\b)",

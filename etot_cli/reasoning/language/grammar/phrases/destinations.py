@@ -119,7 +119,7 @@ _AT_END = sequence(
 OVER = sequence(
     places.OVER, TARGETS, build=lambda targets: Destination(Toward.ON, targets, places.OVER)
 )
-_to = sequence(_RIGHT, places.TO, TARGETS, build=_toward(Toward.TO))
+_to = sequence(places.TO, TARGETS, build=_toward(Toward.TO))
 _ON_OR_IN = either(INTO, ONTO, _to)
 _in_front = sequence(
     places.IN_FRONT,

@@ -103,9 +103,19 @@ def changed(
 
 
 def of_the_things(clause: Clause, said: Modifier) -> Clause | None:
-    """What stands behind a place is said of what goes there only if it cannot be of the place."""
-    found = excluding(clause, said)
-    return replace(found, far_fetched=1) if isinstance(found, PutClause | EnsureClause) else found
+    """What stands behind a place is said of what goes there only if it cannot be of the place; of
+    one of several ("one apple in the basket, namely the green one") it may be as well.
+    """
+    match found := excluding(clause, said):
+        case (
+            PutClause(groups=(PutGroup(things=Things(phrases=(np,))),))
+            | EnsureClause(states=(State(subjects=(np,)),))
+        ):
+            one = np.determiner.split()[-1:] in (["a"], ["an"], ["one"], ["any"])
+            return replace(found, far_fetched=int(not one or said.prep is Prep.CONTRAST))
+        case PutClause() | EnsureClause():
+            return replace(found, far_fetched=1)
+    return found
 
 
 def but_some(clause: PutClause, group: PutGroup, *, set_off: bool) -> Clause | None:

@@ -246,7 +246,7 @@ def check_selected(asked: Asked, things: Sequence[Thing], scene: SceneState) -> 
     if level and own and match.plural and len(things) == 1 and quantity.count is None:
         why = f"{level!r} tells {names_of_things(things)} alone; name each of them"
         raise asked.problem(why, 2, level)
-    vague = matches_any(words[-1], (*THING_NOUNS, *CONTAINER_NOUNS))
+    vague = matches_any(words[-1], (*THING_NOUNS, *CONTAINER_NOUNS)) or bool(things[0].part)
     single = quantity.definite and asked.count == 1
     if match.dropped and (single or vague) and len(things) > 1:
         word, names = match.dropped[0], names_of_things(things)

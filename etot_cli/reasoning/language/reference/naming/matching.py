@@ -154,9 +154,11 @@ def match_words(
     pools.append(vocabulary.open_vessels(adjectives, head))
     for pool in pools:
         found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
-        if found is not None and found.plural and len(found.entries) == 1:
-            # "The drawers" of the only chest, "the shelves" of the only shelf.
-            parts = [*vocabulary.parts, *vocabulary.boards]
+        if found is not None and (found.plural or found.dropped) and len(found.entries) == 1:
+            # "The drawers" of the only chest, "the shelves" of the only shelf; "the resistor
+            # drawer" is one of them, which "the toy shelf" need not be.
+            named = found.entries[0].grade(head) in (EXACT, HEAD) and not found.plural
+            parts = [*vocabulary.parts, *(() if named else vocabulary.boards)]
             if is_of_parts(found.entries[0], head, vocabulary):
                 found = _match_in(parts, adjectives, head, number, vocabulary, phrase) or found
         level = any(word in LEVELS for word in adjectives)
