@@ -91,6 +91,25 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:excepted|excluded|not included|being the exception)(?=[.,;!]|$)",
         r", except \1",
     ),
+    # What is to be out comes out, be it in there now or on what goes there
+    (
+        r"(\b(?:in|into|inside) (?:the|my) (?:\w+ ){0,2}?\w+), but (?:leave|keep) "
+        r"(the (?:\w+ ){0,2}?\w+) out(?=[.;!]|$)",
+        r"\1, but not \2; \2 should not be in it",
+    ),
+    # Where what is left out is or goes
+    (
+        r"((?:except|but|apart from|other than)(?: for)? ((?:the|my) (?:(?!and\b|or\b)\w+ ){0,3}?"
+        r"\w+)), which (?=(?:stays|remains|belongs|goes"
+        r"|(?:should|must|has to|is to|can|may) (?:stay|remain|go|be))\b)",
+        r"\1, \2 ",
+    ),
+    # A table of sides ("notebook: left side of the desk")
+    (
+        r": (?:the )?(?=(?:(?:far|near) )?(?:left|right|front|back) (?:side|half|edge|end|(corner))"
+        r"(?: of (?:the|my) \w+)?(?:[.;,!\n]|$))",
+        lambda said: f": {'in' if said[1] else 'on'} the ",
+    ),
     # Which of them "the two others" are
     (
         rf"\bthe ({'|'.join(NUMBERS)}|\d) others(?= (?:in|on|into|onto|to|go|goes|next|out|off|back"

@@ -174,7 +174,8 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
     # "Open the drawer, but not with the cup inside": it is not in there by then
     (
-        r",? (?:but )?not with ((?:the|my|our) (?:\w+ ){0,2}?\w+) "
+        r"(?:,? (?:but )?not with|,? but without|, without(?=[^,]*$)) "
+        r"((?:the|my|our) (?:\w+ ){0,2}?\w+) "
         r"(?:still |left )*(?:inside(?: it)?|in there|in it)(?=[.,;!?]|$)",
         r", but first make sure \1 is not in it",
     ),

@@ -167,6 +167,8 @@ class Entry(Struct, frozen=True):
         """Whether its label is for a pack of several such things ("pill box" of the pills)."""
         solid = self.info is not None and not self.info.container
         (*said, pack) = self.called[0]
+        if pack == "pad" and said[-1:] == ["note"]:
+            return solid and noun == "notes"  # "the sticky notes" of a sticky note pad
         return solid and said == [singular(noun)] != [noun] and pack in PACKS
 
     def is_pack_of(self, before: str, word: str) -> bool:
