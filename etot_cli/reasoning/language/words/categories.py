@@ -93,7 +93,8 @@ _COOKING = word_set(
     "can_opener bottle_opener sieve zester skewer slicer pizza_cutter measuring_cup"
 )
 _DISHES = word_set(
-    "plate bowl saucer cup mug glass platter dish teacup ramekin tumbler goblet wineglass"
+    "plate bowl saucer cup mug glass platter dish teacup ramekin tumbler goblet wineglass "
+    "wine_glass"
 )
 _WRITING = word_set("pen pencil marker crayon highlighter chalk sharpie biro ballpoint fineliner")
 _STATIONERY = word_set(
@@ -235,10 +236,10 @@ MASS_NOUNS = word_set(
     """
     fruit produce food cutlery silverware flatware tableware crockery dishware dinnerware
     veg stationery citrus dairy kitchenware money cash clothes clothing laundry footwear electronics
-    jewelry jewellery literature medicine medication
+    jewelry jewellery literature medicine medication yarn wool
     """
 )
-"""Category words that mean all of the sort without a plural ("put the fruit in the bowl")."""
+"""Words that mean all of a sort without a plural ("put the fruit in the bowl")."""
 
 CALLED = {
     "writing_utensil": "writing (?:utensil|implement|instrument|tool|thing)",

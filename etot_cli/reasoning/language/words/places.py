@@ -148,7 +148,10 @@ _TO_HOLD = "[new] (container|holder|vessel|receptacle|box|bin|home|case)"
 AS_A_BASE = f"as (a|the|its|their) ({_TO_BEAR}|{_TO_HOLD})"
 TO_BEAR, TO_HOLD = f"as (a|the) ({_TO_BEAR}) for", f"as (a|the) ({_TO_HOLD}) for"
 """What something is used as, of others that go on or in it."""
-BETWEEN = "[in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between"
+BETWEEN = """
+    [in] [(in|into|to|at) (the|that) (gap|space|spot|room|place)] between,
+    [exactly|right|just] (halfway|half way|midway|mid way) [in] between
+"""
 ON_BOTH_SIDES = "(on|at|to) (each|either|both) (side|sides) of"
 FLANKING = f"""
     [standing|lying|sitting] [right|directly|immediately] {ON_BOTH_SIDES},

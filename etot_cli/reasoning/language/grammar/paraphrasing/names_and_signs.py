@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.categories import CATEGORIES
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, SIZES
+from etot_cli.reasoning.language.words.lexicon import MATERIALS, NUMBERS, SIZES
 
 _HYPHENS = "-\N{NON-BREAKING HYPHEN}\N{HYPHEN}"
 _PIECES = r"(?:(?<!the )(?:piece|item|article)|pieces|items|articles) of"
@@ -16,6 +16,14 @@ _STEP = (
     r"|(?!fully|completely|wide|all)\w+ (?:\w+ )?(?:open|closed|shut) ?(?:[-=]+>|[.,;\n]|$)"
 )
 _COMPARED = "|".join(word for word in SIZES if word.endswith("er"))
+_OF_MATERIAL = {"wood": "wooden"}
+
+
+def _sized(said: re.Match[str]) -> str:
+    """A size alone ("the medium-sized bolt", "a mid-size box"), as labels have it, too."""
+    return "medium" if said[1].startswith("mid") else said[1]
+
+
 NAMES_AND_SIGNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         rf"\b(the|that) ({'|'.join(NUMBERS)})[{_HYPHENS} ](\w+)[{_HYPHENS} ](stack|tower|pile)\b"
@@ -28,6 +36,15 @@ NAMES_AND_SIGNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     (r"\band/or\b", "or"),
     (rf"\b(left|right|top|bottom|front|back|upper|lower)[{_HYPHENS} ]most\b", r"\1most"),
+    (r"\bmost (left|right)\b(?! (?:of|over)\b)", r"\1most"),
+    (rf"\b(large|big|small|medium|mid|middle)(?:[{_HYPHENS} ]sized|[{_HYPHENS}]size)\b", _sized),
+    (
+        r"(?:\b(?:that|which) (?:is|are)( not)? |(?<!is )(?<!are )(?<!was )(?<!were )(?<!be )\b)"
+        rf"made (?:entirely |completely )?(?:out )?of ({'|'.join(sorted(MATERIALS))})"
+        r"(?=[,.;!?]|$| (?:in|into|on|onto|at|to|next|near|beside|behind|between|under|from|off"
+        r"|with|and|or|is|are|goes?|belongs?|should|must|has|have|needs?|that|which|but)\b)",
+        lambda said: f"that is{said[1] or ''} {_OF_MATERIAL.get(said[2], said[2])}",
+    ),
     (rf"\b(left|right)(?:[{_HYPHENS}]hand(?:ed)?\b| hand(?= corner\b))", r"\1"),
     (r"(?:\b(?:number|no\.|nr\.?)\s*|#)(?=\d)", ""),
     (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),

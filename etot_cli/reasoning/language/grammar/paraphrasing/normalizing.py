@@ -53,6 +53,8 @@ _ARTICLE_LEFT_OUT = Expression(
     r"(on) (?=(?:left|right)(?:$|[,.:;!?\n]"
     r"| (?:side|hand|half|end|edge|of|and|in|into|to|onto)\b))|"
     r"(at) (?=(?:front|back|rear|left|right|top|bottom)(?:$|[,.:;!?\n]| (?:of|and|in|into)\b))|"
+    r"((?<!\bon )(?<!\bat )(?<!\bthe )near|by|along) (?=(?:left|right|front|back|rear|far)"
+    r" (?:edge|border|side|end)\b)|"
     r"(in) (?=(?:middle|cent(?:re|er))(?:$|[,.:;!?\n]| (?:of|and|in|into)\b)))"
 )
 """Fixed phrases as they are typed in haste ("out of way", "at end", "on right")."""

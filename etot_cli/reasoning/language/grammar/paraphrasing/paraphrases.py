@@ -215,8 +215,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r", (?:say|for example|e\.g\.),? (?=(?:to|in|on|into|onto|at|next|beside|near|behind)\b)",
         ", ",
     ),
-    (r"(?<=\w),? (?:please|pls|plz)(?= ?:)", ""),
-    (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe) (?:please|pls|plz)(?=, |[.!;?]|$)", ""),
+    (r"(?<=\w),? (?:please|pleas|pls|plz)(?= ?:)", ""),
+    (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe) (?:please|pleas|pls|plz)(?=, |[.!;?]|$)", ""),
     (r"(?<! of )(?<!between )\bthe two of (?=(?:them|these|those)\b)", "both of "),
     # What "should first be taken out", and put elsewhere then
     (

@@ -58,6 +58,20 @@ def _to_do(told: re.Match[str]) -> str:
 
 
 PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "The smaller one underneath, on the bottom board" beside one on the board above that
+    *(
+        (
+            rf"(\b(?:{others}) (?:board|shelf|level|drawer)\b[^.;!?]*?),? (?:right |just )?"
+            rf"(?:{side})(?: (?:it|that))?, (?=(?:on|in|into|onto) the (?:{level})\b)",
+            r"\1 ",
+        )
+        for side, others, level in (
+            ("underneath|below|beneath|under", "top|upper|middle", "bottom|lowest"),
+            ("above|over", "bottom|lower|middle", "top|topmost|highest"),
+        )
+    ),
+    # As those say it who think in another language
+    (r"(?<!\bthe )\b(near|beside|behind|alongside) of (?=(?:the|my|an?|it|them|that)\b)", r"\1 "),
     # "The cup is to be moved, to the left of the plate"
     (
         r"\b((?:is|are) to be (?:moved|put|placed|brought)), "

@@ -77,7 +77,7 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?=(?:open|closed|shut)(?: (?:afterwards|after that|in the end))?{_END})",
         r"\1 may stay ",
     ),
-    (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe),? (?:please|pls|plz)(?= (?:and|then|but)\b)", ""),
+    (r"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe),? (?:please|pleas|pls|plz)(?= (?:and|then|but)\b)", ""),
     # "There is a drawer hanging open", "shut the drawer that was left open"
     (
         r"(^|[.;!,] )there (is|are) ((?:an?|one|two|some|the) \w+(?: \w+)??) "

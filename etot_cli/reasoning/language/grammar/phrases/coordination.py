@@ -107,7 +107,9 @@ def all_of(nps: tuple[NounPhrase, ...], said: str) -> tuple[NounPhrase, ...]:
     (first, *more) = nps
     if said == "all of it" and not first.may_be_much:
         return nps  # one cup is not all of it
-    several = not first.determiner and singular(first.head) != first.head  # "pens, all of them"
+    # "Pens, all of them", "fruit, all of it"
+    several = singular(first.head) != first.head or said == "all of it"
+    several &= not (first.determiner or first.pronoun)
     if said and not more and (several or first.determiner in THE_WORDS):
         return (replace(first, determiner=_QUANTITIES.get(said, said)),)
     (*_, number) = first.determiner.split() or [""]

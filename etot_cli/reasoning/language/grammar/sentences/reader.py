@@ -136,10 +136,12 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
         for word in plain:
             # What stands before "the" is a verb, and no noun of the scene.
             verb = not words and plain[1:2] in known.BEFORE_NOUNS
-            known_one = verb or singular(word) in _NOUNS or is_known(word, vocabulary)
-            meant = None if known_one else pet_form(word, spelled) or corrected(word, spelled)
-            meant = meant if meant or known_one else shortened(word, spelled)
-            if common and meant is None and not known_one:
+            strange = not (singular(word) in _NOUNS or is_known(word, vocabulary))
+            meant = None
+            if strange and not verb:
+                meant = pet_form(word, spelled) or corrected(word, spelled)
+                meant = meant or shortened(word, spelled)
+            if common and meant is None and strange:
                 meant = exchanged(word, known.all_words()) or corrected(word, known.all_words())
             if meant is not None:
                 corrections[Correction(word, meant)] = None

@@ -12,11 +12,13 @@ from etot_cli.reasoning.language.grammar.text.spelling import is_english
 from etot_cli.reasoning.language.reference.naming.labels import (
     LINKS,
     as_word,
+    contents_of,
     head_of,
     is_odd,
     twins_of,
     words_of,
 )
+from etot_cli.reasoning.language.words.alike import SORTS
 from etot_cli.reasoning.language.words.categories import (
     CATEGORIES,
     GROUND,
@@ -41,7 +43,6 @@ from etot_cli.reasoning.language.words.lexicon import (
     OTHER_SORTS,
     RACKED,
     SIZES,
-    SORTS,
     basic_color,
     is_plural_of,
     matches_any,
@@ -358,7 +359,7 @@ def object_entry(info: ObjectInfo) -> Entry:
         info=info,
         called=tuple(dict.fromkeys(words for words in called if words)),
         twins=tuple(words for words in twins if len(words) > 1),
-        content=tuple(words[-1] for words in called if "of" in words[1:]),
+        content=tuple(noun for words in called for noun in contents_of(words)),
     )
 
 

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from etot_cli.reasoning.language.grammar.paraphrasing.normalizing import normalized
+from etot_cli.reasoning.language.words.alike import TWINS
 from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
-from etot_cli.reasoning.language.words.lexicon import TWINS
+from etot_cli.reasoning.language.words.lexicon import OTHER_SORTS
 
 LINKS = ("of", "with", "for", "in", "and", "on", "the", "a")
 """Words inside a label after which no noun of its own stands ("carton of milk" is a carton)."""
@@ -42,15 +43,22 @@ def words_of(text: str) -> tuple[str, ...]:
 def twins_of(words: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
     """Other names of what is called so, one that is written as one word among them."""
     nouns = tuple(word for word in words if not word.isdigit())
+    # A magnifying glass is no tumbler.
+    other = len(nouns) > 1 and nouns[-2] in OTHER_SORTS.get(nouns[-1], ())
     groups = [tuple(tuple(name.split()) for name in group) for group in TWINS]
     written = [("".join(nouns),)] if len(nouns) == 2 else []
     own = [
         name
         for group in groups
-        if any(nouns[-len(t) :] == t or t in written for t in group)
+        if any((nouns[-len(t) :] == t and len(t) > other) or t in written for t in group)
         for name in group
     ]
     return tuple(name for name in (*own, *written) if name != nouns[-len(name) :])
+
+
+def contents_of(words: tuple[str, ...]) -> tuple[str, ...]:
+    """What a name with "of" ends in, and other names of that ("wool" of a ball of yarn)."""
+    return (words[-1], *(twin[-1] for twin in twins_of(words[-1:]))) if "of" in words[1:] else ()
 
 
 def as_word(name: str) -> str:

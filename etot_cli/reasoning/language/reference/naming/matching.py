@@ -322,6 +322,9 @@ def _match_in(
         return None
     least = EXACT if by_name else HEAD
     sifted.graded = [(entry, max(grade, least)) for entry, grade in sifted.graded]
+    # Reading glasses are no glass where there is one.
+    single = [item for item in sifted.graded if item[0].heads[:1] != (f"{head}es",)]
+    sifted.graded = single or sifted.graded
     best = min(grade for _, grade in sifted.graded)
     entries = tuple(entry for entry, grade in sifted.graded if grade == best)
     if sifted.unknown:

@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.reference.naming.entries import (
     part_entries,
 )
 from etot_cli.reasoning.language.reference.naming.labels import cut_of, is_odd
+from etot_cli.reasoning.language.words.alike import TWINS
 from etot_cli.reasoning.language.words.categories import (
     CALLED,
     NO_PARTS,
@@ -42,7 +43,6 @@ from etot_cli.reasoning.language.words.lexicon import (
     RUBBISH,
     SPELLINGS,
     STATES,
-    TWINS,
     basic_color,
     is_descriptive,
     is_general_noun,
@@ -160,7 +160,8 @@ class Vocabulary:
                 or (not place and entry.is_serving_of(word))
             ]
         twin = word not in RUBBISH and any(word in group for group in TWINS)
-        if twin and not packed and not all(entry.is_portion() for entry in told):
+        lumps = PORTIONS | PIECES
+        if twin and not packed and not all({*map(singular, e.heads)} & lumps for e in told):
             return []  # a remote of the TV is no TV
         sorts = len({entry.called[:1] for entry in told}) > 1
         if is_general_noun(word) or (
