@@ -16,12 +16,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import EnsureClause, Put
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     AS_SAID,
     Destination,
+    NounPhrase,
     State,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
-from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.lexicon import OF_TWO, singular
 
 
 def set_closer(
@@ -45,6 +46,9 @@ def set_closer(
         names, others = {t.name for t in there}, {t.name for t in around}
         one_of_them = there < around and not {*step.places[0].referents()} & discourse.undecided
         same = bool(there) and (names == others or one_of_them)
+        near = certain(context, [i for p in places for item in p.beside for i in item.landmarks])
+        if near and near <= moved - own and (abreast := _beside_on(closer, whole)):
+            closer, same, there = abreast, True, set()
         if not upon and not (same and (there != around or any(p.beside for p in places))):
             break
         if not own <= moved:
@@ -73,11 +77,35 @@ def closer_said(clause: EnsureClause) -> PutClause | None:
     first, *more = clause.states
     several = len(first.subjects) > 1 or singular(first.subjects[0].head) != first.subjects[0].head
     several |= quantity_of(first.subjects[0].determiner).every
-    some = all(np.is_elliptic for state in more for np in state.subjects)
+    some = all(_names_again(first.subjects, np) for state in more for np in state.subjects)
     plain = not any(s.word or s.denied or s.kept or s.allowed or s.always for s in clause.states)
     if not (more and several and some and plain):
         return None
     return PutClause(tuple(PutGroup(Things(s.subjects), s.destinations) for s in clause.states))
+
+
+def with_closer(clause: PutClause) -> PutClause:
+    """In "the cup and the plate on the tray, with the cup behind the plate" that is where of all
+    of it the cup goes.
+    """
+    (first, *more), said = clause.groups, clause.conditions
+    named = first.things.phrases
+    beside = all(
+        at.toward is Toward.BESIDE and _names_again(named, np) and not (item.word or item.denied)
+        for item in said
+        for at in item.destinations
+        for np in item.subjects
+    )
+    if more or not said or not named[1:] or not beside:
+        return clause
+    closer = (PutGroup(Things(item.subjects), item.destinations) for item in said)
+    return structs.replace(clause, groups=(first, *closer), conditions=())
+
+
+def _names_again(named: Sequence[NounPhrase], np: NounPhrase) -> bool:
+    """Whether a phrase says again what is one of several things."""
+    again = np.determiner == "the" and np.words in [one.words for one in named]
+    return np.is_elliptic or again or bool({*np.words[:1]} & {*OF_TWO})
 
 
 def _but(context: Context, place: Place, taken: set[Thing]) -> Place:
@@ -100,6 +128,15 @@ def _of_the_same(group: PutGroup, whole: PutGroup) -> PutGroup:
     side = at.beside and not any(item.phrases for item in at.beside) and not at.targets
     if not side or more or others or not surface.targets or surface.beside:
         return group
+    return structs.replace(group, destinations=(structs.replace(surface, beside=at.beside),))
+
+
+def _beside_on(group: PutGroup, whole: PutGroup) -> PutGroup | None:
+    """What goes beside others of them on the one thing that they all go on; else None."""
+    (at, *more), (surface, *others) = group.destinations, whole.destinations
+    upon = surface.toward in (Toward.ON, Toward.TO) and surface.targets and not surface.beside
+    if more or others or not upon or at.toward is not Toward.BESIDE:
+        return None
     return structs.replace(group, destinations=(structs.replace(surface, beside=at.beside),))
 
 

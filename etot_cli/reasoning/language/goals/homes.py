@@ -131,20 +131,22 @@ def put_back(
             context.discourse.notes.append(f"{text!r}: back to where it is said to belong")
             continue
         things = context.only(index, "say which one goes back")
+        returned = group.back or "back" in where.word or context.discourse.returning
         moved = {*things} & {*context.discourse.things(*context.discourse.put, *lifted)}
         for thing, before in zip(
-            things, things if moved else _gone(context, index, where), strict=True
+            things, things if moved else _gone(context, index, where, returned), strict=True
         ):
             place = context.home(before)
             context.steps.append(Put((context.single(thing, thing.name),), (place,)))
 
 
-def _gone(context: Context, theme: int, where: Destination) -> tuple[Thing, ...]:
+def _gone(context: Context, theme: int, where: Destination, returned: bool) -> tuple[Thing, ...]:
     """For "put the cup where it was", which has not been moved: the one thing that has gone from
-    there.
+    there; not where it is ``returned`` to, which only what was there can be.
     """
     gone = tuple(dict.fromkeys(context.discourse.things(*context.discourse.put)))
-    if _WAS_THERE not in where.word or len(context.discourse.things(theme)) != len(gone) != 1:
+    alike = len(context.discourse.things(theme)) == len(gone) == 1
+    if returned or _WAS_THERE not in where.word or not alike:
         text = context.discourse.referents[theme].text
         raise ReferenceProblem(text, "not moved before; say where that is to go", 3)
     context.discourse.notes.append(f"{where.word!r}: where {gone[0].address} was")

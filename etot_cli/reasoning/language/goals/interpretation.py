@@ -42,7 +42,8 @@ from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.world.state import SceneState
 
 _BACK = Expression(
-    r"\b(?:put|place|return|bring|set|move)\b[^.,;]*(?<!the )\bback\b(?! (?:of|left|right)\b)"
+    r"\b(?:put|place|return|bring|set|move|go|goes)\b[^.,;]*(?<!the )\bback\b"
+    r"(?! (?:of|left|right)\b)"
 )
 """What is said of what is to be returned to where it was taken from."""
 

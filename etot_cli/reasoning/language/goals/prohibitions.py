@@ -369,11 +369,10 @@ def _others_like_what_turns(context: Context, said: Things) -> Things | None:
 
 def _avoid_others(context: Context, clause: AvoidClause) -> None:
     """Nothing but what was spoken of may be touched or moved; where things are to be with "nothing
-    else" says what is to be there.
+    else", without a word for moving, says what is to be there.
     """
-    named = clause.things is not None  # "do not touch the rest"
     ensured = context.last.states if isinstance(context.last, EnsureClause) else ()
-    if ensured and not named and not any(state.word for state in ensured):
+    if ensured and clause.not_left and not any(state.word for state in ensured):
         only = (NounPhrase("only", text="nothing else"),)
         for step in context.done:
             if isinstance(step, Put):

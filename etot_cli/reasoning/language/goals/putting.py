@@ -27,7 +27,13 @@ from etot_cli.reasoning.language.goals.clashes import (
     check_swept,
     check_taken,
 )
-from etot_cli.reasoning.language.goals.closer import as_said, certain, set_closer, things_of
+from etot_cli.reasoning.language.goals.closer import (
+    as_said,
+    certain,
+    set_closer,
+    things_of,
+    with_closer,
+)
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.counting import check_enough, count_of_places, counted
 from etot_cli.reasoning.language.goals.described import note_described
@@ -127,6 +133,7 @@ def put(
     if clause.turns != Turns() and len(clause.groups) > 1:
         text = clause.groups[-1].things.text
         raise ReferenceProblem(text, "say the order in a sentence of its own", 2)
+    clause = with_closer(clause)
     clause = replace(clause, groups=tuple(counted(context, group) for group in clause.groups))
     ruled_out = tuple(w for group in clause.groups for w in group.destinations if w.denied)
     clause = replace(clause, groups=tuple(group.not_denied for group in clause.groups))

@@ -8,7 +8,7 @@ from itertools import combinations
 
 from msgspec import Struct, structs
 
-from etot_cli.reasoning.builtin.goal import Close, Pick, Put, Step, Thing, referents_of
+from etot_cli.reasoning.builtin.goal import Open, Pick, Put, Step, Thing, referents_of
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -19,7 +19,7 @@ from etot_cli.reasoning.language.reference.choosing.selection import in_line
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
-from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
+from etot_cli.reasoning.language.words.lexicon import OF_TWO, is_descriptive, singular
 from etot_cli.world.state import DESK
 
 POINTING = frozenset({"these", "those"})
@@ -96,6 +96,12 @@ def _picked_out(
     found: list[Thing] = []
     for phrase in phrases:
         own = {*map(singular, noun)} <= {*map(singular, phrase.words)}  # "vial 2" of the vials
+        left = [thing for thing in things if thing not in found]
+        if quantity_of(phrase.determiner).other and phrase.words in ((), ("one",), noun):
+            if len(left) != 1:
+                raise ReferenceProblem(phrase.text, "say which one of them", 2)
+            found += left
+            continue
         full = phrase if own else _with_noun(phrase, noun, context)
         resolved = context.phrases.meaning(full, role)
         if len(resolved.options) != 1:
@@ -109,6 +115,8 @@ def _picked_out(
 def _with_noun(phrase: NounPhrase, noun: tuple[str, ...], context: Context) -> NounPhrase:
     """An elliptic phrase ("blue first") with the noun that it leaves out."""
     single = tuple(map(singular, noun))
+    if {*phrase.words[:1]} & {*OF_TWO}:
+        return phrase
     if phrase.is_elliptic:
         return phrase.called(*(single if phrase.head == "one" else noun))
     # An adjective alone leaves its noun out; so does a word that names nothing.
@@ -194,19 +202,41 @@ def _check_between(before: Sequence[Timed]) -> None:
         raise ReferenceProblem("in between", "say before or after what", 3)
 
 
-def _asked_again(item: Timed, later: Sequence[Timed], discourse: Discourse) -> bool:
-    """Whether what is to be done or closed is named again behind what comes before it ("close the
-    box, but before you close it, put the pen in").
+def _but_again(item: Timed, later: Sequence[Timed], discourse: Discourse) -> Timed:
+    """A clause without what is named again behind what comes before that ("close the box, but
+    before you close it, put the pen in", "open A and B, but close A before opening B").
+
+    Raises:
+        ReferenceProblem: of all that it opens, closes or puts somewhere, one is named so again.
     """
 
-    def things(one: Timed) -> set[Thing]:
-        steps = [(s.what if isinstance(s, Put) else (s.what,)) for s in one.steps]
-        return {thing for what in steps for thing in discourse.things(*what)}
+    def things(step: Step) -> set[Thing]:
+        return {*discourse.things(*(step.what if isinstance(step, Put) else (step.what,)))}
 
-    kinds = all(isinstance(step, Put | Close) for step in item.steps)
-    again = (n for n, o in enumerate(later) if o.order is Order.THEN and o.steps == item.steps)
-    at = next(again, 0) if item.steps and kinds else 0
-    return at > 0 and not any(things(item) & things(other) for other in later[:at])
+    def without(step: Step) -> Step | None:
+        for at, other in enumerate(later):
+            (again, *more) = other.steps or (None,)
+            if at == 0 or other.order is not Order.THEN or more or type(again) is not type(step):
+                continue
+            assert again is not None
+            between = {t for one in later[:at] for s in one.steps for t in things(s)}
+            if isinstance(step, Open):
+                places = (s for one in later[:at] for s in one.steps if isinstance(s, Put))
+                between |= {t for s in places for t in discourse.things(*referents_of(s))}
+            if again == step:
+                return step if between & things(step) else None
+            if isinstance(step, Put) and isinstance(again, Put):
+                left = tuple(index for index in step.what if index not in again.what)
+                same = replace(again, what=step.what) == step and left != step.what
+                if same and not between & things(again):
+                    return replace(step, what=left)
+            elif things(again) < things(step) and not between & things(again):
+                text = discourse.referents[referents_of(step)[0]].text
+                raise ReferenceProblem(text, "name them one by one, in the order meant", 3)
+        return step
+
+    turned = (s if isinstance(s, Pick) else without(s) for s in item.steps)
+    return structs.replace(item, steps=tuple(step for step in turned if step is not None))
 
 
 def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
@@ -218,7 +248,7 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
     and the green one on the blue one"); what was said before what goes ahead of it is not of that
     one's run.
     """
-    said = [s for n, s in enumerate(said) if not _asked_again(s, said[n + 1 :], discourse)]
+    said = [_but_again(item, said[n + 1 :], discourse) for n, item in enumerate(said)]
     done: list[Timed] = []
     last: list[Timed] = []
     ahead: Timed | None = None

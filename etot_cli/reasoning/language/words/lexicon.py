@@ -215,6 +215,8 @@ ORDINALS = {
     "fifth": 4, "5th": 4, "sixth": 5, "6th": 5, "last": -1,
 }  # fmt: skip
 
+OF_TWO = {"former": 0, "latter": 1}
+
 SIDES = {
     "left": "left", "leftmost": "left", "lefthand": "left",
     "right": "right", "rightmost": "right", "righthand": "right",

@@ -120,7 +120,7 @@ NOTHING_ELSE = sequence(
     build=lambda *said: AvoidClause(Avoid.PUT, _THE_REST, said[-1], not_left=True),
 )
 """That what has been put somewhere is to be alone there ("… and nothing else in it")."""
-NOTHING_MORE = phrase("nothing else", AvoidClause(Avoid.MOVE, None))
+NOTHING_MORE = phrase("nothing else", AvoidClause(Avoid.MOVE, None, not_left=True))
 """Behind all that is asked for."""
 _NO_PLACE_NEXT = Parser(
     lambda given, at: [] if {*given.ahead[at + 1 : at + 2]} & AHEAD_OF_PLACES else [(at, NOTHING)]

@@ -40,16 +40,7 @@ _IMPERATIVE = {
     "carrying": "carry", "bringing": "bring",
 }  # fmt: skip
 _MOVED = f"(?:{'|'.join((*_IMPERATIVE, *_IMPERATIVE.values(), 'take', 'stand'))})"
-_ASKED = Expression(r"\b(?:put|place|move|bring|go|belong|should|must|have to|need to|are to)\b")
 _ALL_OF = {"any": "none", "either": "neither"}
-_LATTER = Expression(
-    rf"({_SOME}) and ({_SOME})(?= (?:on|in|onto|into|to|both|should|must|have|need|belong|go|are)\b"
-    r"|[.,;])[^!?]*?\bthe (?:former|latter)\b[^!?]*"
-)
-"""Two things, and what is said of either by which was named first."""
-_SITS = Expression(
-    r"\b((?:former|latter)(?: one)?) (?:sits|stands|lies|rests|is) (?=(?:in|on|inside)\b)"
-)
 
 
 def _nor(said: re.Match[str]) -> str:
@@ -109,20 +100,6 @@ def _so_when_done(said: re.Match[str]) -> str:
         return said[0]
     rest = re.sub(r"\bit\b", what, rest)
     return f"{rest}, and {what} should be {said['state']} in the end"
-
-
-def _named_again(said: re.Match[str]) -> str:
-    """The things themselves for "the former" and "the latter", where but one pair was named."""
-    pairs = re.findall(rf"\b{_SOME} and {NAMED}", said[0])
-    if len(pairs) > 1:
-        return said[0]
-    text = _SITS.sub(r"\1 should be ", said[0]) if _ASKED.search(said[0]) else said[0]
-    first, second = (re.sub("^(?:both|all) (?=the|my)", "", np) for np in said.groups())
-    return re.sub(
-        r"\bthe (former|latter)(?: one)?\b",
-        lambda which: first if which[1] == "former" else second,
-        text,
-    )
 
 
 def _left_there(said: re.Match[str]) -> str:
@@ -333,7 +310,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (_CONTAINER, _with_it_inside),
     (_AT_THE_END, _so_when_done),
-    (_LATTER, _named_again),
     (_LOOKED_AT, _seen_there),
     (
         r"(^|[.;!?] )(?:when(?:ever)? (?:i|we) (?:come back|get back|return|come home|look|am back"

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from etot_cli.reasoning.language.grammar.asides.going import GOING
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.grammar.paraphrasing.asked_otherwise import ASKED_OTHERWISE
+from etot_cli.reasoning.language.grammar.paraphrasing.contrasts import CONTRASTS
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import CORNERS_AND_SIDES, TABLE
 from etot_cli.reasoning.language.grammar.paraphrasing.end_states import END_STATES
 from etot_cli.reasoning.language.grammar.paraphrasing.forbidding import FORBIDDING
@@ -74,6 +75,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     *CONTRACTIONS,
     *FORBIDDING,
+    *CONTRASTS,
     *END_STATES,
     *ROUNDABOUT,
     *ASKED_OTHERWISE,
@@ -271,16 +273,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"(?=the |that |those )([^.!?;]*?)"
         r"(?: (?:(?:up|over|down|out) )?(?:there|here))?\?",
         r"look at \1,",
-    ),
-    (r"(?<!do )\bnot (?:just|only) (the [^.,;:!?]+?),? but (?:also )?(?=the )", r"both \1 and "),
-    # "Do not just put the cup in the box; put the pen in as well" asks for both
-    (
-        r"(^|[.;!?] )(?:please )?do not (?:just|only|merely|simply) (?!leave\b|stand\b|sit\b)"
-        r"([^.,;:!?]+?)[.,;:!]+ (?:but )?"
-        r"(?=(?:please |also )*(?!(?:\w+ ){1,2}(?:it|them|that|those)\b)"
-        r"(?:(?!\b(?:not|never)\b)[^.,;:!?])*?\b"
-        r"(?:as well|too|also)\b)",
-        r"\1\2; ",
     ),
     (r"\bonly (put|place|move|take|pick up) (?=the |a )", r"\1 just "),
     (r"(?<!not )\bonly (?=(?:lift|raise|grab|grasp|fetch|get|pick up|hold) )", "just "),

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.grammar.paraphrasing.turns_of_phrase import TURNS_OF_PHRASE
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import NUMBERS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
 from etot_cli.reasoning.language.words.small_words import NAMED
 from etot_cli.reasoning.language.words.verbs import PAST
 from etot_cli.world.colors import BASIC_COLORS
@@ -47,6 +47,13 @@ _ONCE_DONE = Expression(
 """All that is told of what was done, as under a picture."""
 
 
+def _it(named: str) -> str:
+    """The pronoun for what a phrase names."""
+    head = named.split()[-1]
+    several = " and " in named or singular(head) != head
+    return "them" if several else "it"
+
+
 def _to_do(told: re.Match[str]) -> str:
     """What is told as done for what is to be done ("moved the cup to the left of the plate")."""
     done = re.sub(
@@ -72,6 +79,31 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # As those say it who think in another language
     (r"(?<!\bthe )\b(near|beside|behind|alongside) of (?=(?:the|my|an?|it|them|that)\b)", r"\1 "),
+    # "Start with the cup: into the box"
+    (
+        r"(^|[.;!] )((?:start|begin) with ((?:the|my) [^.,;:]*?)): "
+        r"(?=(?:into|in|onto|on|inside|next to|beside|behind) )",
+        lambda said: f"{said[1]}{said[2]}: put {_it(said[3])} ",
+    ),
+    # What is taken "out onto the desk" goes there, out of whatever it is in
+    (
+        r"\b(?:take|lift|get|fetch|bring) ((?:the|my|both|all) [^.,;:]*?) out "
+        r"(?=(?:onto|on to|on) (?:the|my|our) )",
+        r"put \1 ",
+    ),
+    # What is done "for a moment" is done until what comes next
+    (
+        r"\b((?:lift|pick|raise|take) [^.,;:]*?) (?:briefly|for (?:just )?a "
+        r"(?:moment|second|minute|bit|(?:little |short )?while)),? "
+        r"(?=(?:and |then |and then )(?:put|return|place|set) )",
+        r"\1, ",
+    ),
+    # "Put away the cup and the pen, the one in the cupboard and the other in the drawer"
+    (
+        r"\bput away ((?:the|my) [^.,;:]*? and [^.,;:]*?)"
+        r"(?=, (?:the|my) [^.,;:]*? (?:in|on|back) [^.;:]*?\band the )",
+        r"put \1 away",
+    ),
     # "The cup is to be moved, to the left of the plate"
     (
         r"\b((?:is|are) to be (?:moved|put|placed|brought)), "

@@ -8,7 +8,8 @@ _STATES = (
     r"|(?:open|closed|shut|ajar|empty|full|dirty|clean|ready|broken|fine|dead|done|over|blunt|dull"
     r"|sharp|hot|cold|wet|dry|hungry|tired|late|early|loose|heavy|asleep|awake|ill|sick|busy|here"
     r"|back|gone|ripe|rotten|useless|noisy|sticky|fragile|slippery|out|off)"
-    r"(?: (?:and|so|but|where|afterwards|again|when|once|(?:at|in) the end)\b| -|[,.;:!]|$)"
+    r"(?: (?:and|so|but|where|afterwards|again|when|once|as well|too|(?:at|in) the end)\b"
+    r"| -|[,.;:!]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""
 CONTRACTIONS = (

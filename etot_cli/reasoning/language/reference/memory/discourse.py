@@ -274,6 +274,11 @@ class Discourse:
         mentions = [mention for mention in said if _alike(mention.role, role)] or said
         return mentions[-1].noun if mentions else None
 
+    def noun_of(self, thing: Thing) -> str:
+        """The noun that a thing was last called by."""
+        said = [m.noun for m in self.mentions if self.things(m.referent) == (thing,)]
+        return said[-1] if said else ""
+
     def nouns(self) -> tuple[str, ...]:
         """All nouns that "one" may stand for."""
         said = (item.noun for item in self.mentions if self._lends_noun(item))

@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.reference.pronouns.coreference import (
     PLURAL_PRONOUNS,
     antecedents,
 )
+from etot_cli.reasoning.language.reference.pronouns.in_turn import in_turn
 from etot_cli.reasoning.language.reference.pronouns.lent_nouns import LentNouns
 from etot_cli.reasoning.language.reference.pronouns.narrowing import (
     as_rest,
@@ -79,7 +80,28 @@ class Meanings(LentNouns):
         return replace(phrase, words=tuple(said))
 
     def _told(self, phrase: NounPhrase, role: Role) -> Resolved:
-        """What a phrase means with the noun that it has."""
+        """What a phrase means with the noun that it has; "the first" of several that were named.
+
+        Raises:
+            AmbiguousReference: it may be counted in space as well.
+        """
+        turn = in_turn(phrase, role, self.discourse)
+        if turn is None:
+            return self._told_by_words(phrase, role)
+        found: tuple[Thing, ...] = ()
+        if not (turn.sure and turn.meant):
+            with suppress(ReferenceProblem):
+                found = things_in(self._told_by_words(phrase, role).options)
+            again = {*found} <= {*turn.named} if turn.meant is None else found != (turn.meant,)
+            if again:
+                either = (turn.meant, *found) if turn.meant else turn.named
+                raise AmbiguousReference(phrase.text, [thing.address for thing in either])
+        meant = (turn.meant,) if turn.meant else found
+        noun = self.discourse.noun_of(meant[0]) or phrase.head
+        return Resolved((meant,), definite=True, noun=noun, again=True)
+
+    def _told_by_words(self, phrase: NounPhrase, role: Role) -> Resolved:
+        """What a phrase means with the noun that it has, wherever things were named."""
         if phrase.is_elliptic and {*phrase.words} & {*ORDINALS} and len(self.discourse.put) > 1:
             why = "say which one: it may be counted as it was said, or as they stand"
             raise ReferenceProblem(phrase.text, why, 3)
