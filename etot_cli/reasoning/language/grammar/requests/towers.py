@@ -165,8 +165,8 @@ def _of_these(things: Things, base: Any, nps: tuple[NounPhrase, ...]) -> TowerCl
         else told
         for told in nps
     )
-    count = None if np.determiner in ("the", "these", "those", "") else things
-    return TowerClause(Things(named), upward=True, base=base, whole=count)
+    plain = np.determiner in ("the", "these", "those", "") and len(np.words) == 1
+    return TowerClause(Things(named), upward=True, base=base, whole=None if plain else things)
 
 
 _UPWARD = sequence(
