@@ -17,11 +17,12 @@ _OWNED = Expression(
 )
 """Within a sentence; what it begins with has a capital anyway."""
 _WANTS = Expression(
-    r"(?:^|(?<=[.!?;,] )|(?<=\b(?:so|as) ))(?P<who>[A-Z][a-z]+)"
+    r"(?:^|(?<=[.!?;,] )|(?<=\b(?:so|as) ))(?:(?P<who>[A-Z][a-z]+)"
+    r"|(?:[Tt]he|[Oo]ur|[Mm]y) (?P<job>[a-z]+(?:man|woman|master|er|or|ist|ess|ant|ian)))"
     r"(?= (?:wants|needs|would like|asked for|asks for) (?:to have )?"
     r"(?:the|my|his|her|both|all|an?)\b)"
 )
-"""Who asks for things that are not for "me"."""
+"""Who asks for things that are not for "me", by name or by what is his job."""
 _NO_NAMES = word_set("nobody none neither nothing few everybody everyone anybody anyone most many")
 """They may stand where somebody's name does, and some of them deny what is wanted."""
 
@@ -46,6 +47,7 @@ def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
         return "my" if known and is_stranger(who) else found[0]
 
     def wanting(found: re.Match[str]) -> str:
-        return "somebody" if is_stranger(found["who"].casefold()) else found[0]
+        who = (found["who"] or found["job"]).casefold()
+        return "somebody" if is_stranger(who) else found[0]
 
     return _WANTS.sub(wanting, _OWNED.sub(told, instruction))

@@ -58,6 +58,9 @@ def tower(context: Context, clause: TowerClause) -> None:
         elif len(things) > 1:
             things = _upward(context, things, clause, text, listed=len(themes) == len(things))
         indices = [context.single(thing, thing.name) for thing in things]
+    for end, phrase in clause.not_at:
+        if end_of(context, phrase, things) == things[_LAST[end]]:
+            raise ReferenceProblem(phrase.text, "say which one is there instead", 3)
     if len(things) < 2 and not clause.base:
         raise ReferenceProblem(text, "a stack needs at least two things", 2)
     bottom = indices[0]
@@ -224,6 +227,10 @@ def _upward(
     if len(rest) > 1 or (rest and not named):
         # The widest below, and of equals the one that is named first.
         rest.sort(key=lambda thing: -max(context.scene.infos[thing.name].size[:2]))
+        for end, phrase in clause.not_at:
+            # Rather than at that end it is the next to it.
+            if end not in named and rest[1:] and rest[_LAST[end]] == end_of(context, phrase, rest):
+                rest.insert(1 if end == "bottom" else -1, rest.pop(_LAST[end]))
         order = ", ".join(thing.name for thing in rest)
         context.discourse.notes.append(f"stack from the bottom up, by width: {order}")
     if "middle" in named:
@@ -233,4 +240,5 @@ def _upward(
     return [*below, *rest, *([named["top"]] if "top" in named else [])]
 
 
+_LAST = {"bottom": 0, "top": -1}
 _LAYERS_WITH_A_MIDDLE = ("bottom", "middle", "top")

@@ -208,6 +208,7 @@ def _is_so(condition: Condition, thing: Thing, place: Thing | None, scene: Scene
         known = info is not None and bool(info.parts)
         if info is not None and condition.word == "empty":
             seen = info.container and info.kind not in _HOLDS_UNSEEN
+            seen |= info.container and not state_holds("empty", thing, scene)  # a thing is in it
             known |= seen or is_flat(info) or bool(info.boards)
         elif (
             len(

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL
 from etot_cli.reasoning.language.words.categories import is_eaten, is_keeping, is_poured
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
@@ -60,6 +61,31 @@ def check_taken(
             above = context.discourse.things(*themes)
             if all(touches(one, other, context.scene) for one in above for other in below):
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
+
+
+def check_also(
+    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether what was put somewhere is to be elsewhere "as well".
+
+    Raises:
+        ReferenceProblem: it is, which it cannot be.
+    """
+    discourse = context.discourse
+    it = all(np.pronoun and not np.modifiers for np in group.things.phrases)
+    also = _IT_ALSO.search(context.sentence) if it and {*themes} <= discourse.put else None
+    before = [at for thing in discourse.things(*themes) for at in discourse.placed.get(thing, ())]
+    told = [place for place in (*before, *places) if place is None or place.beside]
+    there, now = (
+        {*discourse.things(*(at.where for at in found if at and at.where is not None))}
+        for found in (before, places)
+    )
+    if also and there and now and not (told or there & now):
+        why = "it is to be elsewhere, and cannot be there as well"
+        raise ReferenceProblem(group.things.text, why, 4, word=also[1].split()[-1])
+
+
+_IT_ALSO = Expression(r"\b(?:it|them)\b[^,.;:~]* (as well|too|also)\b")
 
 
 def check_swept(context: Context, clause: PutClause) -> None:

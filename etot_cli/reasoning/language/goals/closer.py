@@ -42,6 +42,10 @@ def set_closer(
         marks = [place.where for place in places if place.where is not None]
         under, around = certain(context, marks), things_of(context, step.places[0].referents())
         upon = under and under <= moved - own and own <= moved
+        nears = [near for place in places for near in place.beside]
+        beside = certain(context, [index for near in nears for index in near.landmarks])
+        if not marks and beside and beside <= moved - own and own <= moved:
+            return group  # beside another of them (see :mod:`.sided`)
         there = things_of(context, marks)
         names, others = {t.name for t in there}, {t.name for t in around}
         one_of_them = there < around and not {*step.places[0].referents()} & discourse.undecided

@@ -51,7 +51,7 @@ def any_of(context: Context, themes: Sequence[int], clause: TowerClause, before:
             raise ReferenceProblem(first.text, "say which ones to stack", 2)
         _choose_apart(context, themes, before)
         return [*themes][:: 1 if clause.upward else -1]  # "one red block, then the other"
-    ordered = clause.upward is not None or clause.bottom or clause.middle or clause.top
+    ordered = clause.upward is not None or clause.not_at or ends
     if len(themes) > 1 or ordered or not alike:
         raise ReferenceProblem(first.text, "say which ones to stack", 2)
     found: list[int] = []

@@ -29,8 +29,9 @@ from etot_cli.reasoning.language.goals.left_alone import (
     is_of_boards,
     what_is_there,
 )
-from etot_cli.reasoning.language.goals.ruled_out import is_not_chosen, rule_out_things
+from etot_cli.reasoning.language.goals.ruled_out import rule_out_things
 from etot_cli.reasoning.language.goals.turned import leave_among_turned
+from etot_cli.reasoning.language.goals.unchosen import is_not_chosen, keep_others
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
@@ -164,6 +165,9 @@ def _keep(context: Context, clause: AvoidClause, things: Things) -> None:
     role = _role_of_kept(context, clause, things)
     indices = _left_by_what_moves(context, clause) or context.phrases.things(things, role)
     kept = context.discourse.things(*indices)
+    for np in things.phrases if len(kept) == 1 else ():
+        if np.determiner == "either" and not np.modifiers and np.head in ("", "one"):
+            raise ReferenceProblem(np.text, "say which two", 3)
     if clause.avoid is Avoid.HARM:
         harmed = " and ".join(thing.address for thing in kept)
         context.discourse.notes.append(f"no plan may harm {harmed}")
@@ -378,14 +382,5 @@ def _avoid_others(context: Context, clause: AvoidClause) -> None:
             if isinstance(step, Put):
                 check_alone(context, only, step.what, step.places, in_the_end=True)
         return
-    spoken = {
-        thing.name
-        for referent in context.discourse.referents
-        for option in referent.options
-        for thing in option
-    }
-    others = tuple(
-        name for name, info in context.scene.infos.items() if name not in spoken and info.movable
-    )
-    if others:
-        context.constraints.append(Constraint(_KEEPS[clause.avoid], others))
+    text = clause.things.phrases[0].text if clause.things else ""
+    keep_others(context, _KEEPS[clause.avoid], text)

@@ -20,6 +20,7 @@ from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
+from etot_cli.reasoning.language.goals.unchosen import is_not_chosen
 from etot_cli.reasoning.language.grammar.syntax.clauses import AvoidClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Toward
 from etot_cli.reasoning.language.reference.geometry.space import (
@@ -188,6 +189,9 @@ def rule_out(
             on = place.relation is Relation.ON
             meant = (thing.address,) if on else addresses(thing, context.scene)
             places += [(place.relation, item) for item in meant]
+    alone = len(names) == 1  # of all that must not be on the tray, the tray itself is not anyway
+    if alone and any(address.partition(".")[0] in names for _, address in places):
+        raise ReferenceProblem(text, "nothing is in or on itself; say of what", 3)
     if places:
         context.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
     return found
@@ -223,20 +227,3 @@ def not_beside(
         for marks in product(*map(context.discourse.each, near.landmarks))
     )
     return tuple(replace(place, beside=(*place.beside, *denied)) for place in places)
-
-
-def is_not_chosen(context: Context, index: int, *, which: bool = False) -> bool:
-    """Whether "the other one" is what a choice leaves, of which is noted; ``which``: it matters.
-
-    Raises:
-        ReferenceProblem: it matters, or the choice leaves several.
-    """
-    referents = context.discourse.referents
-    referent = referents[index]
-    if not referent.distinct_from or len(referent.options) < 2:
-        return False
-    chosen = sum(len(referents[other].options[0]) for other in referent.distinct_from)
-    if which or len(things_in(referent.options)) - chosen > 1:
-        raise ReferenceProblem(referent.text, "say which one", 3)
-    context.discourse.notes.append(f"{referent.text!r} is the one that is not chosen")
-    return True

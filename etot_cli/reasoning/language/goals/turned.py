@@ -27,7 +27,7 @@ from etot_cli.reasoning.builtin.relations import is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import so_many_turned
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.goals.ruled_out import is_not_chosen
+from etot_cli.reasoning.language.goals.unchosen import is_not_chosen
 from etot_cli.reasoning.language.grammar.syntax.phrases import AS_FOUND, NounPhrase, State
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds

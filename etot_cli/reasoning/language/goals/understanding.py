@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.goals.clauses import steps_of
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.fetched import set_down
 from etot_cli.reasoning.language.goals.grasps import grasped
+from etot_cli.reasoning.language.goals.sided import beside_each_other
 from etot_cli.reasoning.language.goals.turned import in_turn
 from etot_cli.reasoning.language.goals.turns import Timed, continues, in_order
 from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
@@ -314,6 +315,7 @@ class Understanding:
             for before, step, after in zip((None, *said), said, (*said[1:], None), strict=False)
             if not (self._narrowed(step, after) or self._is_left_so(before, step))
         ]
+        steps = beside_each_other(steps, discourse.referents)
         steps = grasped(steps, self.context.grasps, complete=complete)
         steps, constraints = in_turn(
             steps, self.context.constraints, discourse.referents, self._scene

@@ -117,6 +117,5 @@ FALLING_TO_THE_FLOOR = """
     (on|onto|to) the (floor|ground), hitting the (floor|ground)
 """
 ANYTHING_ELSE = """
-    anything else, any other (object|thing|things|objects), other (objects|things),
-    the (others|rest)
+    anything else, any other (object|thing|things|objects), other (objects|things)
 """

@@ -27,9 +27,10 @@ TASK = f"""
     [this is] what (i|we) (want|need|would like) [to (see|have)] [is (this|the following)] ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
     [the|a] [desired|required|intended]
-    (desired|final|goal|target|end|wanted|required|termination|success)
-    (state|configuration|arrangement|result|situation|setup|condition|conditions|layout|
-    picture) ~comma,
+    (desired|final|goal|target|end|wanted|required|termination|success|expected|intended)
+    (state|states|configuration|arrangement|result|results|situation|setup|condition|conditions|
+    layout|picture|criterion|criteria|outcome|effect|effects) ~comma,
+    [the] (effect[s]|outcome|result|postcondition[s]|post condition[s]) ~comma,
     [{FROM_HERE} ~comma]
     (achieve|reach|accomplish|obtain|realize|realise|establish|produce)
     (this|the following [state|configuration|result|goal|arrangement|situation|conditions]) ~comma,

@@ -40,8 +40,9 @@ _AWAY_FROM = "[well|far] (away from|clear of)"
 _ON_THE_WAY = f"""
     [~comma] (while|when|as) (doing (it|so|that|this)|you do (it|so|that|this)), {manner.ON_THE_WAY}
 """
-_EVERYTHING_ELSE = "everything else, anything else, all else, the rest [of it|of them]"
-_OTHERS = "the others [of them]"
+_EVERYTHING_ELSE = "everything else, anything else, all else, the rest of it"
+_NOTHING_ELSE = "nothing else|no other (object|objects|thing|things|item|items)"
+_OTHERS = "the others [of them], the rest of them"
 _THERE = "[up|down|over] (there|here)"
 _STAYS = either(
     sequence(predicates.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
@@ -49,13 +50,17 @@ _STAYS = either(
 )
 _THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
 _THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))
-_ALL_ELSE = either(phrase(_EVERYTHING_ELSE, _THE_REST), phrase(_OTHERS, _THE_OTHERS))
+_ALL_ELSE = either(
+    phrase(_EVERYTHING_ELSE, _THE_REST),
+    phrase("the rest", Things((NounPhrase(words=("the rest",), text="the rest"),))),
+    phrase(_OTHERS, _THE_OTHERS),
+)
 OTHERS_STILL = sequence(
     either(
         sequence(_ALL_ELSE, _STAYS),
         phrase(
-            "nothing else (should|must|shall|may|can|is to) "
-            "(be (moved|touched|changed)|move|change)",
+            f"({_NOTHING_ELSE}) (should|must|shall|may|can|is to|are to) "
+            "(be (moved|touched|changed|disturbed|displaced)|move|change)",
             _THE_REST,
         ),
         sequence("leav(e|ing), keep[ing]", _ALL_ELSE, optional(manner.AS_IT_IS)),
@@ -73,7 +78,10 @@ OTHERS_STILL = sequence(
 )
 UNTOUCHED = either(
     sequence(_ALL_ELSE, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE)),
-    phrase("nothing else (moved|touched|changed)", AvoidClause(Avoid.MOVE, _THE_REST)),
+    phrase(
+        f"({_NOTHING_ELSE}) (moved|touched|changed|disturbed|displaced)",
+        AvoidClause(Avoid.MOVE, _THE_REST),
+    ),
     sequence(THINGS, manner.UNTOUCHED, build=partial(AvoidClause, Avoid.MOVE, left=True)),
 )
 """The same without a verb ("bolts untouched")."""

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, THING_NOUNS
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, THING_NOUNS, is_descriptive
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
@@ -108,7 +108,71 @@ def _left_for_last(said: re.Match[str]) -> str:
     return f"{begun}{rest}, {what} last"
 
 
+_SORTED = r"(?:sort|arrang|distribut|organi[sz]|plac)ed"
+_SORT = r"(?:sort|arrange|distribute|organi[sz]e|place)"
+_LIKE_THIS = r"(?:as follows|like this|like so|this way|in (?:this|the following) way|as listed)"
+_PART = r"(?:top|upper|middle|lower|bottom) (?:board|shelf|drawer|level|compartment)"
+_ROW = rf"(?:the )?({_PART})(?: ?:| is| ->)? (?:the )?(\w+)(?=[.,;]|$)[.,;]?"
+_ROWS = Expression(
+    r"\b((?:sort|arrange|distribute|shelve|store|put)(?: away)? (?:all |both )?"
+    rf"(?:(?:of )?(?:the|my|our) )?(?:\w+ )?\w+s(?: (?:in|on|into|onto) {NAMED} \w+)?)[:.;]"
+    rf"(?P<rows>(?: {_ROW}){{2,}})"
+)
+
+
+def _row_by_row(said: re.Match[str]) -> str:
+    """What is in each of several drawers or on each board, told by its colour alone ("bottom board:
+    blue").
+    """
+    rows = re.findall(_ROW, said["rows"])
+    if not all(is_descriptive(what) for _, what in rows):
+        return said[0]
+    told = (f"the {what} one {'in' if 'draw' in at else 'on'} the {at}" for at, what in rows)
+    return f"{said[1]}: {', '.join(told)}"
+
+
 LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Precondition: the drawer is open. Effect: …": what is not so yet is made so before
+    (
+        r"(^|[.;\n] ?)pre ?-?conditions?:(?! ?(?:none|no)\b) ?([^.;:\n]+)[.;\n] ?"
+        r"(?=(?:(?:desired|expected|intended|required) )?"
+        r"(?:effects?|post ?-?conditions?|results?|outcome|goal(?: \w+)?):)",
+        r"\1make sure that \2. ",
+    ),
+    (r"\bpost[ -]condition(?=s?:)", "postcondition"),
+    # "I need the pens sorted as follows: …", "sort the pens as follows: …"
+    (
+        rf"(^|[.;!] )({ASKED})(?:(?:i|we) (?:want|need|would like)(?: to have)? ({NAMED} [^.,;:]*?)"
+        rf" (?:to be )?{_SORTED}|{_SORT} ({NAMED} [^.,;:]*?)),? {_LIKE_THIS}[:,] ",
+        lambda said: f"{said[1]}{said[2]}sort {said[3] or said[4]}: ",
+    ),
+    (_ROWS, _row_by_row),
+    # "Empty the box: everything in it goes on the tray"
+    (
+        rf"\b((?:empty|unload|unpack|clear)(?: out)? {NAMED} (?:\w+ )??\w+)(?::| -|;) "
+        r"(?=(?:everything|all|anything|whatever is|what is) (?:that is )?(?:in|on|inside) it\b)",
+        r"\1. ",
+    ),
+    # "Start with the cup: it goes on the tray. Next come the pens, they belong in the box"
+    (
+        rf"(^|[.;!] ){ASKED}(?:start|begin) with ({_ONE}(?: and {_ONE})?)[:,;] "
+        r"(?:it|that one|they|those|these) (?=(?:goes|go|belongs?|should|must)\b)",
+        r"\1first, \2 ",
+    ),
+    (
+        r"(^|[.;!,] )(?:and )?(?:next|then|after that|finally|last)(?: up)? "
+        rf"(?:comes?|is|are|follows?) ({_ONE}(?:(?:, {_ONE})*,? and {_ONE})?)[:,;] "
+        r"(?:and )?(?:it|that one|they|those|these|which) (?=(?:goes|go|belongs?|should|must)\b)",
+        r"\1then \2 ",
+    ),
+    # "Distribute the pens so that each cup contains exactly one"
+    (
+        r"\b(?:distribute|divide|share out|spread)(?: out)? (?:all )?(?:the|my|our) "
+        r"((?:\w+ )?\w+s)(?: among \w+)? so that (?:each|every) ((?:\w+ )?\w+) "
+        r"(?:contains|holds|has|gets|receives|bears) (?:exactly|just|only)? ?one"
+        r"(?: of them)?(?: in it| on it)?(?=[.;!]|$)",
+        r"distribute the \1 over the \2s, one in each",
+    ),
     (
         r"(?P<before>^|[.;\n] ?)(?:pick(?: up)?|grasp|object|item): ?(?P<thing>[^.,;:\n]+)"
         r"[.,;\n]\s*(?:and )?(?:place|put|drop|target|destination): ?(?P<place>[^.,;:\n]+)",

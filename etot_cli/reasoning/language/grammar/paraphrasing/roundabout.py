@@ -21,6 +21,8 @@ _FREE = (
     r"where (?:nothing else (?:is|stands|lies)(?: (?:yet|already))?|there is nothing(?: else)?"
     r"|there is (?:still )?(?:room|space)|it is (?:free|empty))"
 )
+_MUST = r"should|must|shall|has to|have to|is to|are to|needs? to|ought to"
+_SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _THAT = "(?:that one|that|it|this)"
 _SOMETHING = (
     rf"{PEOPLE} (?:(?:just|also|really|only) )?(?:(?:will )?needs?|wants?|would like"
@@ -39,7 +41,42 @@ def _of_one_sort(said: re.Match[str]) -> str:
     return f"neither {first} {noun} nor {second} {noun}" if told else said[0]
 
 
+def _holding_in_the_end(said: re.Match[str]) -> str:
+    """How a thing is to be in the end, told by what is on it."""
+    begun, what, upon, at, inner, within, around = said.groups()
+    more = f", and {inner} should be {within} {around}" if inner else ""
+    return f"{begun}{upon} should be {at} {what}{more}"
+
+
 ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Stack the cups. The red one must not be on top"
+    (
+        r"^((?:please )?(?:stack|pile)(?: up)? (?:(?:all|both)(?: of)? )?(?:the|these|my) "
+        r"(?:\w+ ){0,2}?\w+s(?: up)?(?: on (?:the|my) (?:\w+ )?\w+)?)"
+        r"(?:[.;!] (?:but |and )?|,? and )((?:(?:do not|never) (?:put|place|have) )?"
+        rf"the (?:\w+ ){{1,2}}one (?:(?:{_MUST}|goes|belongs)\b )?(?:not )?(?:(?:be|go) )?"
+        r"(?:on|at) (?:the )?(?:very )?(?:top|bottom)(?=[.!]|$))",
+        r"\1, but \2",
+    ),
+    # "The tray should end up with the cup on it and the pen inside the cup"
+    (
+        rf"(^|[.;!] )({_SOME}) (?:{_MUST}) (?:end up|be left|finish up|finish) with ({_SOME}) "
+        r"(on(?: top of)?|in|inside) it(?:,? and (?:with )?"
+        rf"({_SOME}) (on|in|inside) ({_SOME}))?(?=[.;!]|$)",
+        _holding_in_the_end,
+    ),
+    # "With the cup placed on top of it"
+    (
+        rf"\bwith ({_SOME}) (?:stacked|placed|put|set|piled|positioned) "
+        r"(?=(?:(?:right|directly) )?(?:on|onto|in|into|inside|next to|beside) )",
+        r"with \1 ",
+    ),
+    # "Everything out of the box and into the bin" is moved once
+    (
+        rf"\b(everything|all of it|all) (?:out of|off(?: of)?) ({_SOME}),? and "
+        r"(?=(?:into|onto|in|on|to) )",
+        r"everything from \2 ",
+    ),
     (
         rf"\b((?P<sort>{_CATEGORY})\b[^.;]*[.;] [^.;]*?\bthe (?:{_COMPARED}) )(?:piece|one)\b"
         r"(?! of\b)",

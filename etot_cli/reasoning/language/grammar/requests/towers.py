@@ -8,7 +8,6 @@ from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
-    one_of,
     optional,
     phrase,
     separated,
@@ -38,6 +37,7 @@ from etot_cli.reasoning.language.grammar.requests.tower_bases import (
     PLACED_LAYERS,
     SO,
 )
+from etot_cli.reasoning.language.grammar.requests.tower_ends import END, ENDS, NOT, STAYS
 from etot_cli.reasoning.language.grammar.syntax.clauses import TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Things
 from etot_cli.reasoning.language.words import manner, places, predicates, small_words, verbs
@@ -47,35 +47,25 @@ from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
 
-_END = one_of({"bottom": manner.AT_BOTTOM, "middle": manner.AT_MIDDLE, "top": manner.AT_TOP})
 _UPWARDS = ("bottom", "middle", "top")
-_STAYS = "stays"
-_ENDS = separated(
-    either(
-        sequence(noun_phrase, optional(predicates.BE), _END, build=lambda np, end: (np, end)),
-        sequence(
-            noun_phrase,
-            f"({predicates.STAY}|staying|remaining|kept|left) ({manner.AS_IT_IS})",
-            build=lambda np: (np, _STAYS),
-        ),
-    ),
-    LIST,
-    most=3,
-)
 
 
 def _tower(
     things: Things, upward: bool | None, ends: Any, base: tuple[Destination, ...] = ()
 ) -> TowerClause | None:
     named = {end: np for np, end in ends or ()}
-    still = named.pop(_STAYS, None)
-    if ends and len(named) + bool(still) < len(ends):
+    if len(named) < len(ends or ()):
+        return None
+    still = named.pop(STAYS, None)
+    denied = [(end.removeprefix(NOT), named.pop(end)) for end in [*named] if NOT in end]
+    if any(end == "middle" for end, _ in denied):
         return None
     if still and (base or "bottom" in named):
         return None
     if still:
         named["bottom"] = still
-    return TowerClause(things, upward, base=base, stays=still is not None, **named)
+    stays, not_at = still is not None, tuple(denied)
+    return TowerClause(things, upward, base=base, stays=stays, not_at=not_at, **named)
 
 
 _BETWEEN_SIZES = "medium"
@@ -175,7 +165,7 @@ _UPWARD = sequence(
 _LAYER = sequence(
     noun_phrase,
     optional(predicates.BE),
-    optional(either(_END, phrase(manner.UPON_THAT, "upon")), ""),
+    optional(either(END, phrase(manner.UPON_THAT, "upon")), ""),
     build=lambda np, end: (np, end),
 )
 _MORE_LAYERS = some(
@@ -230,9 +220,9 @@ def _begun_or_ended(turn: Any) -> tuple[tuple[NounPhrase, str], ...] | None:
 _TOWER_ENDS = optional(
     either(
         sequence(OPTIONAL_COMMA, TURN, build=_begun_or_ended),
-        sequence(SO, _ENDS),
+        sequence(either(SO, sequence(OPTIONAL_COMMA, "but")), ENDS),
         # In "a tower with the blue block at the bottom" "the blue" is no thing of its own.
-        sequence(_ENDS, build=lambda ends: ends if ends[0][0].determiner else None),
+        sequence(ENDS, build=lambda ends: ends if ends[0][0].determiner else None),
         sequence(OPTIONAL_COMMA, manner.WIDEST_BELOW, build=lambda: ()),
     ),
     None,
@@ -314,7 +304,7 @@ _TOWER = either(
     ),
     ON_A_BASE,
     LAYERED,
-    sequence(A_TOWER, optional(DESTINATIONS, ()), SO, _ENDS, build=_of_its_ends),
+    sequence(A_TOWER, optional(DESTINATIONS, ()), SO, ENDS, build=_of_its_ends),
     sequence(
         # "Make a pile: yellow on top of the red block"
         A_TOWER,
@@ -350,6 +340,7 @@ _TOWER = either(
         # "Stack the blocks on the tray from bottom to top in the order red, blue"
         either(
             sequence(verbs.STACK, THINGS, optional("up")),
+            sequence(verbs.TURN_INTO, THINGS, f"(in|into) {verbs.A_TOWER}"),
             sequence(THINGS, predicates.MODAL, "(stacked|piled) [up]"),
             sequence(verbs.BUILD, verbs.OUT_OF, THINGS),
         ),
@@ -389,7 +380,7 @@ def _only_layers(first: Any, more: Any) -> TowerClause | None:
 STACKED = either(
     PLACED_LAYERS,
     PAIR_BY_PAIR,
-    sequence(_ENDS, build=_only_ends),
+    sequence(ENDS, build=_only_ends),
     sequence(_LAYER, _MORE_LAYERS, build=_only_layers),
     sequence(
         THINGS,

@@ -312,7 +312,8 @@ def _said(node: object) -> Iterator[str]:
             yield "open" if opens else "closed"
             yield from ("open", "closed", _DENIAL) if guarded else ()
             yield from ("open", "all") if node.whatever_opened else ()
-        case TowerClause(things=Things(phrases=phrases)):
+        case TowerClause(things=Things(phrases=phrases), not_at=denied):
+            yield from (_DENIAL for _ in denied)
             yield from (said for said, count in NUMBERS.items() if count == len(phrases))
             yield from ("stacked", "vertical", _ORDER, "top", "middle", "bottom", "biggest",
                         "largest", "widest", "smallest")  # fmt: skip

@@ -179,6 +179,8 @@ class TowerClause(Struct, frozen=True):
     bottom: NounPhrase | None = None
     middle: NounPhrase | None = None
     top: NounPhrase | None = None
+    not_at: tuple[tuple[str, NounPhrase], ...] = ()
+    """Ends, and which of them must not be there."""
     base: tuple[Destination, ...] = ()
     """What the bottom one goes on, where it is not to stay."""
     stays: bool = False

@@ -1,0 +1,109 @@
+"""What is left alone while something else is done: all else, or what a choice leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+from math import comb
+
+from etot_cli.reasoning.builtin.goal import (
+    Constraint,
+    Keep,
+    Pick,
+    Put,
+    Referent,
+    Thing,
+    things_in,
+)
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.goals.context import Context
+
+_MOST_WAYS = 64
+"""In which a choice may leave things, all of which are told."""
+
+
+def is_not_chosen(context: Context, index: int, *, which: bool = False) -> bool:
+    """Whether "the other one" is what a choice leaves, of which is noted; ``which``: it matters.
+
+    Raises:
+        ReferenceProblem: it matters, or the choice leaves more.
+    """
+    referents = context.discourse.referents
+    referent = referents[index]
+    if not referent.distinct_from or len(referent.options) < 2:
+        return False
+    chosen = sum(len(referents[other].options[0]) for other in referent.distinct_from)
+    number = max(len(option) for option in referent.options)
+    if which or len(things_in(referent.options)) - chosen > number:
+        raise ReferenceProblem(referent.text, "say which one", 3)
+    what = "is the one that is" if number == 1 else "are those that are"
+    context.discourse.notes.append(f"{referent.text!r} {what} not chosen")
+    return True
+
+
+def keep_others(context: Context, keep: Keep, text: str) -> None:
+    """Nothing but what was spoken of may be touched or moved, nor what is not chosen of that;
+    ``text``: "the others" of "one of the cups" and "the rest" of that are the other cups.
+
+    Raises:
+        ReferenceProblem: which are chosen is not clear.
+    """
+    discourse, infos = context.discourse, context.scene.infos
+    if text in ("the others", "the rest") and not discourse.mentions:
+        raise ReferenceProblem(text, "nothing was spoken of before it", 2)
+    moved = [i for step in context.done if isinstance(step, Put | Pick) for i in _moved(step)]
+    of_these = [i for i in moved if text == "the others" or " of " in discourse.referents[i].text]
+    if text in ("the others", "the rest") and of_these:
+        left = _left_by_choice(context, of_these, text)
+        several = all(len(referent.options[0]) > 1 for referent in left)
+        if left and (several or text == "the rest"):
+            _keep_unchosen(context, keep, left)
+            return
+    spoken = {thing.name for said in discourse.referents for thing in things_in(said.options)}
+    others = tuple(name for name, info in infos.items() if name not in spoken and info.movable)
+    left = _left_by_choice(context, range(len(discourse.referents)), text)
+    if others:
+        context.constraints.append(Constraint(keep, others))
+    _keep_unchosen(context, keep, left)
+
+
+def _moved(step: Put | Pick) -> tuple[int, ...]:
+    return step.what if isinstance(step, Put) else (step.what,)
+
+
+def _keep_unchosen(context: Context, keep: Keep, left: Sequence[Referent]) -> None:
+    first = len(context.discourse.referents)
+    context.discourse.referents += left
+    context.constraints += (Constraint(keep, (), referent=first + at) for at in range(len(left)))
+
+
+def _left_by_choice(context: Context, indices: Iterable[int], text: str) -> list[Referent]:
+    """What is not chosen of what can be moved.
+
+    Raises:
+        ReferenceProblem: that is not clear, or there are too many ways.
+    """
+    referents, infos = context.discourse.referents, context.scene.infos
+    pools: dict[frozenset[Thing], list[int]] = {}
+    for index in dict.fromkeys(indices):
+        pool = frozenset(things_in(referents[index].options))
+        free = all(t.name in infos and infos[t.name].movable and not t.part for t in pool)
+        if free and len(referents[index].options) > 1:
+            pools.setdefault(pool, []).append(index)
+    found: list[Referent] = []
+    for pool, chosen in pools.items():
+        sizes = [{len(option) for option in referents[index].options} for index in chosen]
+        rest = max(0, len(pool) - sum(map(max, sizes)))
+        clear = all(len(size) == 1 for size in sizes)
+        clear &= all(
+            one in referents[other].distinct_from or other in referents[one].distinct_from
+            for one, other in combinations(chosen, 2)
+        )
+        clear &= not any(pool & other for other in pools if other != pool)
+        if not clear or comb(len(pool), rest) > _MOST_WAYS:
+            raise ReferenceProblem(text, "say which ones", 3)
+        things = sorted(pool, key=lambda thing: list(infos).index(thing.name))
+        if rest:
+            ways = tuple(combinations(things, rest))[::-1]
+            found.append(Referent(ways, text, tuple(chosen)))
+    return found
