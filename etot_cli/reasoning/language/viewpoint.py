@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.world.state import SceneState
 
@@ -18,11 +19,23 @@ _YOURS = (
     r"|(?:the way|as) (?:you|the (?:robot|arm)) sees? (?:it|them|things)"
 )
 _SIDE = r"(?P<hand>\b(?:to|on) )(?:your|the (?:robot|arm)'s) (?P<side>(?:left|right)(?: side)? of)"
+_WHO = (
+    r"(?:i|we|he|she|they|(?:some|every|any)(?:body|one)|people"
+    r"|(?:my|our|his|her|their|an?|the) (?!robot|arm\b)(?:(?!as\b|and\b)\w+ ){0,2}?\w+)"
+)
+_WHOSE = rf"(?:my|our|his|her|their|{_WHO}(?:'s|'|s'))"
 _OTHERS = (
-    rf"(?:{_SEEN} )?from (?:my|our|his|her|their|the (?:user|operator|camera)(?:'s)?) {_VIEW}"
-    rf"|{_SEEN} (?:from|by) (?:me|us|him|her|them|(?:my|the (?!robot|arm))[\w ]+?(?=[,.;!?]|$))"
-    rf"|(?:{_SEEN} )?from where (?:i|we|he|she|they) (?:am|are|is|stand|look|sit)s?"
-    r"|(?:the way|as) (?:i|we|he|she|they) (?:sees?|looks? at) (?:it|them|things)"
+    rf"(?:{_SEEN} )?from (?:{_WHOSE}|the (?:user|operator|camera)) {_VIEW}"
+    rf"|(?:{_SEEN} )?from (?:the |a )?{_VIEW} of {_WHO}"
+    rf"|{_SEEN} (?:from|by) (?:me|us|him|her|them|some(?:body|one)|an? \w+"
+    r"|(?:my|the (?!robot|arm))[\w ]+?(?=[,.;!?]|$))"
+    rf"|(?:{_SEEN} )?from {_WHOSE} side(?! of)"
+    rf"|(?:{_SEEN} )?from where (?:{PEOPLE}|they|the (?:user|operator|camera)) "
+    r"(?:(?:will|would) )?(?:am|are|is|be|stand|look|sit)s?"
+    rf"|(?:the way|as|how) {_WHO} (?:(?:will|would|can|might|is|are|am) )*"
+    r"(?:see(?:s|ing)?|fac(?:es?|ing)|view(?:s|ing)?|look(?:s|ing)? at) (?:it|them|things|this)"
+    rf"|(?:the way|as|how) (?:it|they|things|this) (?:looks?|appears?|(?:is|are) seen) "
+    rf"(?:to|for|from|by) (?:me|us|him|her|them|{_WHO})"
 )
 _TOLD = Expression(rf",? ?\b(?P<said>(?P<yours>{_YOURS}|{_SIDE})|{_OTHERS})\b", re.IGNORECASE)
 

@@ -92,6 +92,7 @@ WITHOUT_MEANING = f"""
     ~comma if you would [be so (kind|good|nice)], ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
     do not (ask [me] [why|about (it|that)]|worry [about (it|that|a thing)]|mind me),
+    do not make me (do (it|that) [myself]|ask (twice|again)|beg),
     if (i|we) (remember|recall) [(it|that)] (rightly|correctly|right|well),
     if memory serves [me] [(right|well|correctly)], to [the best of] my knowledge,
     (if i am not|unless i am) [very much] mistaken, unless i am [quite] wrong,

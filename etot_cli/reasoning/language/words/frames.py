@@ -72,7 +72,7 @@ GREETINGS = f"""
     thanks for (your|the) help [(yesterday|today|earlier|last time)],
     ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
     great, um, [my] dear ~comma, now then, come on,
-    (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma, [good] morning ~comma,
+    (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP},
     [just] as a [first|quick|simple|little|short] (warm up|test|exercise|try) [~comma]
 """

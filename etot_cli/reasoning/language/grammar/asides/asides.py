@@ -47,8 +47,12 @@ _CONFIRMED = Expression(
     r"(?:(?:then|so|if (?:so|yes|it can|possible|you can)|well|ok|okay|good|please),? )*"
     r"(?:please )?do (?:it|that|so)(?:,? (?:then|please|now|right away|for me))*"
 )
+_THEN = Expression(rf"(?:^then\b|\b(?:until|till|by|before|after) then\b|\bthen(?: {COMMA}|$))")
+"""It may speak of a time that was told ("she comes at three, so do it then")."""
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
+_MYSELF = word_set("myself ourselves himself herself themselves")
+_SWEEPING = word_set("everything all both each every rest other others")
 _OF_SEVERAL = word_set("they them those these")
 
 
@@ -189,9 +193,19 @@ def _left_of(clauses: Sequence[Clause], at: int, cut: Collection[int]) -> str:
 
 
 def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
-    """Whether a pronoun may mean what only an aside before it names."""
+    """Whether a pronoun may mean what only an aside before it names, "then" when that is, or
+    "everything" what somebody does himself.
+    """
+    himself = any(_MYSELF & {*item.said.split()} for part in parted for item in part.asides)
+    if himself and any(_SWEEPING & {*part.rest.split()} for part in parted):
+        return True  # "I will do the cups myself. Put everything away"
     meaning = frozenset[str]()
+    told = False
     for part in parted:
+        told |= any(item.kind != "anyway" for item in part.asides)
+        if part.rest and told and _THEN.search(part.rest):
+            return True
+        told = not part.rest
         for item in part.asides:
             if names_stranger(item.said, is_name) or wants_such_a_thing(item.said, is_name):
                 # "My teeth are in the cup, so do not touch it": the cup.

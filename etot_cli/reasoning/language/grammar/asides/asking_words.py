@@ -5,8 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    NUMBERS,
+    SIDES,
+    STATES,
+    THING_NOUNS,
+    word_set,
+)
 
 IsName = Callable[[str], bool]
 """Whether something in the scene is called by a word."""
@@ -62,6 +69,11 @@ REFERRING = word_set(
     "anything all both each every any same here there first last which whichever whatever whoever"
 )
 """They may speak of what was asked for ("one of them is enough")."""
+NO_STRANGERS = (
+    REFERRING | LINKS | VERB_WORDS | OTHER_VERBS | {*STATES, *LEVELS, *SIDES, *NUMBERS}
+    | {*THING_NOUNS}
+)  # fmt: skip
+"""None of these is a thing that no scene has."""
 BEFORE_NAMES = word_set("the a an my your our his her their this that these those both all")
 PLACED = word_set("in on into onto at next beside near off out")
 

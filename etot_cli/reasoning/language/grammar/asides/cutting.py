@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.grammar.asides.mishaps import (
     is_unspoilt,
     may_befall,
 )
-from etot_cli.reasoning.language.grammar.asides.people import is_of_people, is_of_relative
+from etot_cli.reasoning.language.grammar.asides.people import is_of_people
 from etot_cli.reasoning.language.grammar.asides.reasons import (
     is_comment,
     is_made_possible,
@@ -33,14 +33,13 @@ from etot_cli.reasoning.language.grammar.asides.reasons import (
     is_warning,
 )
 from etot_cli.reasoning.language.grammar.asides.remarks import is_remark, is_unused
+from etot_cli.reasoning.language.grammar.asides.talk import is_talk
 from etot_cli.reasoning.language.grammar.asides.telling import (
     exclaims,
     goes_there,
     goes_there_later,
     goes_with_somebody,
-    is_about_to,
     stranger_is_there,
-    tells_of_others,
     there_is_such,
 )
 from etot_cli.reasoning.language.grammar.asides.told_of_things import (
@@ -56,6 +55,8 @@ from etot_cli.reasoning.language.words.known import all_words
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
 _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
 
+_ASKED = Expression(r"(?:(?:so|please|kindly|but|and) )*(?:can|could|would|will|please|kindly)\b")
+"""What begins a request."""
 _DOES_WITH_IT = Expression(r"you \w+ (?:up )?(?:it|them|either|both|any|anything)\b")
 """What the robot does comes later than what is done before it."""
 
@@ -81,26 +82,17 @@ def is_no_phrase(aside: Clause, is_name: IsName) -> bool:
     told = told or wants_such_a_thing(aside.said, is_name)
     told = told or is_in_passing(aside.said) or tells_fact(_whole_of(aside), is_name)
     somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
-    told = told or (aside.joint == "before" and somebody) or is_of_relative(aside.said, is_name)
+    told = told or (aside.joint == "before" and somebody)
     told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
-    told = (
-        told
-        or exclaims(aside.said, is_name)
-        or tells_of_others(aside.said, is_name, before_so=True)
-    )
-    return told or strange or outside or _is_of_own_body(aside.said, is_name)
+    told = told or there_is_such(aside.said, is_name)
+    told = told or exclaims(aside.said, is_name) or is_talk(aside.said, is_name, before_so=True)
+    return told or strange or outside
 
 
 def _whole_of(clause: Clause) -> str:
     """What a clause says, as a sentence of its own where "which" stands for what it is about."""
     told = clause.kind == "comment" and not is_of_people(clause.said)
     return f"it {clause.said}" if told else clause.said
-
-
-def _is_of_own_body(said: str, is_name: IsName) -> bool:
-    """Whether a clause is about somebody's hands or the like ("my hands are full")."""
-    mine = said.startswith(("my ", "our ")) and is_of_people(said)
-    return mine and not any(map(is_name, said.split()))
 
 
 class _Place(Struct, frozen=True):
@@ -222,7 +214,8 @@ def _tells_what_for(place: _Place) -> bool:
     you can open it, …" and "so that it stands, …" may ask for that.
     """
     said, joint = place.said, place.clause.joint
-    if joint == "so" and (tells_fact(said, place.is_name) or is_unused(said)):
+    told = tells_fact(said, place.is_name) or (place.leads and is_talk(said, place.is_name))
+    if joint == "so" and (told or is_unused(said)):
         return True  # "We had soup, so I am not hungry"
     ahead = place.leads and joint == "so that"
     ahead = ahead and is_of_people(said) and not said.startswith("you ")
@@ -238,23 +231,17 @@ def _only_tells(place: _Place) -> bool:
     is_there = so and (goes_there(said, is_name) or stranger_is_there(said, is_name))
     on_the_way = at + 1 < len(clauses) and goes_to_it(said, place.behind, first=first)
     feared = whole and (fears_for(said) or may_befall(said))
-    of_others = whole and (
-        goes_there_later(said, is_name) or tells_of_others(said, is_name, before_so=so)
+    set_off = whole or is_of_people(said) or _is_set_off(clauses, at, is_name)
+    of_others = (whole and goes_there_later(said, is_name)) or (
+        set_off and is_talk(said, is_name, before_so=so)
     )
     added = place.trails and (
         is_unspoilt(said)
-        or (
-            place.clause.comma
-            and (
-                goes_there(said, is_name)
-                or is_about_to(said, is_name)
-                or there_is_such(said, is_name)
-            )
-        )
+        or (place.clause.comma and (goes_there(said, is_name) or there_is_such(said, is_name)))
     )
     return (
         (wanted_for or is_there or on_the_way or feared or of_others or added)
-        or (first and exclaims(said, is_name))
+        or (sum(len(item.said.split()) for item in clauses[:at]) < 2 and exclaims(said, is_name))
         or ((not first or whole) and goes_with_somebody(said, is_name))
         or dislikes(said)
         or is_hindering(said)
@@ -262,6 +249,18 @@ def _only_tells(place: _Place) -> bool:
         or is_remark(said, is_name)
         or bool(told_of_thing(said, is_name))
         or tells_fact(said, is_name)
+    )
+
+
+def _is_set_off(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
+    """Whether a clause may be a sentence, as may all that is told before a request."""
+    behind = clauses[at + 1] if at + 1 < len(clauses) else None
+    if behind and behind.joint == "and" and is_talk(behind.said, is_name):
+        return _is_set_off(clauses, at + 1, is_name)
+    return _is_whole(clauses, at) or (
+        behind is not None
+        and bool(_ASKED.match(f"{behind.joint} {behind.said}".strip()))
+        and (at == 0 or clauses[at].joint == "and")
     )
 
 

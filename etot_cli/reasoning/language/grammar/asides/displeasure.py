@@ -1,5 +1,5 @@
 """Whether a clause only tells how things are that somebody does not like so, or that somebody has
-left so: a reason for what is asked of the same things next.
+left so, or what somebody asked for: a reason for what is asked of the same things next.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import LINKS
 from etot_cli.reasoning.language.words.lexicon import STATES, word_set
 from etot_cli.reasoning.language.words.patterns import words_of
 
@@ -80,6 +81,11 @@ _MOVED_NEXT = Expression(
     r"(?:(?:please|but|and|so|just|rather|instead|then|(?:can|could|would|will) you) )*"
     r"(?:open|close|shut) (?:it|them|that)\b(?! one\b)"
 )
+_ASKED_FOR = Expression(
+    rf"{PEOPLE} (?:(?:has|have|had|just|also|already) )*(?:asked for|ordered|requested|chosen) "
+    rf"(?:the|that|this) (?:(?!(?:{'|'.join(sorted(LINKS))})\b)\w+ ){{0,3}}?(?P<m>\w+)(?P<n>)"
+)
+"""Of what was asked for, more is said next; it is neither placed nor told from others by this."""
 _HELPING = word_set(
     "helps lets makes needs wants asks tells gets keeps allows means matters is has"
 )
@@ -124,7 +130,7 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
 
 def _found(said: str) -> tuple[str, str] | None:
     """What a clause is about, and whether it says that it is open or closed."""
-    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _BUMPED, _HALF_DONE, _MISPLACED):
+    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _BUMPED, _HALF_DONE, _MISPLACED, _ASKED_FOR):
         if found := pattern.fullmatch(said):
             told = found.groupdict()
             if told.get("does") in _HELPING:

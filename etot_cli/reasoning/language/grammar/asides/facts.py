@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     BEFORE_NAMES,
     CHANGING,
     DECREEING,
+    NO_STRANGERS,
     PLACED,
     PROPOSING,
     REFERRING,
@@ -28,13 +29,11 @@ from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, somebody
 from etot_cli.reasoning.language.grammar.asides.remarks import is_forbidding
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_told_apart_by
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS, all_words
+from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
-    NUMBERS,
     SIDES,
     STATES,
-    THING_NOUNS,
     word_set,
 )
 
@@ -116,11 +115,6 @@ HOLDING_TRUE = word_set(
     """
 )
 """What somebody does who may ask for something by what he goes on to say."""
-_STRANGE = (
-    REFERRING | LINKS | VERB_WORDS | OTHER_VERBS | {*STATES, *LEVELS, *SIDES, *NUMBERS}
-    | {*THING_NOUNS}
-)  # fmt: skip
-"""None of these is a thing that no scene has."""
 _MEANT = word_set(
     """
     going asking telling wanting hoping having planning getting wishing expecting counting relying
@@ -190,15 +184,15 @@ def _is_thing(words: Sequence[str], is_name: IsName) -> bool:
     if words[0] not in BEFORE_NAMES or len(words) == 1:
         return False
     *before, noun = words[1:]
-    strange = noun not in _STRANGE
+    strange = noun not in NO_STRANGERS
     return (is_name(noun) or strange) and all(
-        is_told_apart_by(word, is_name) or word not in _STRANGE for word in before
+        is_told_apart_by(word, is_name) or word not in NO_STRANGERS for word in before
     )
 
 
 def _is_strange(subject: Sequence[str], is_name: IsName) -> bool:
     """Whether something is told of what is not in the scene ("the bus will not wait")."""
-    known = any(map(is_name, subject)) or {*subject[1:]} & _STRANGE
+    known = any(map(is_name, subject)) or {*subject[1:]} & NO_STRANGERS
     return subject[0] in BEFORE_NAMES and len(subject) > 1 and not known
 
 
@@ -278,7 +272,7 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
 
 def _is_habit(told: _Doing, verb: str, then: str) -> bool:
     """Whether a verb in the present says what somebody does as people do, and robots do not."""
-    if verb in HOLDING_TRUE or verb in _STRANGE - OTHER_VERBS - VERB_WORDS:
+    if verb in HOLDING_TRUE or verb in NO_STRANGERS - OTHER_VERBS - VERB_WORDS:
         return False
     if verb in ("keep", "keeps"):
         return then.endswith("ing") and then not in _LASTING

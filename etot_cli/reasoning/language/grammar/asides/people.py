@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from etot_cli.reasoning.language.grammar.asides.asking_words import IsName
 from etot_cli.reasoning.language.words.expressions import Expression
 
 _RELATIONS = (
@@ -10,7 +9,7 @@ _RELATIONS = (
     "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
     "patients?|grand(?:ma|pa)|granny|grandad|uncle|aunt|cousin|niece|nephew|parents|toddler|grandchild(?:ren)?|lady|ladies|gentlem[ae]n|wom[ae]n|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
 )
-_OWN = (
+OWN = (
     "hands?|feet|foot|back|eyes|knees?|arms?|legs?|head|fingers|throat|nose|shins?|elbows?|toes?|hips?"
     "|ankles?|wrists?|shoulders?|bus|train|taxi|shift"
 )
@@ -21,7 +20,7 @@ PEOPLE = (
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
     rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)"
-    rf"|(?:my|our) (?:{_OWN}))"
+    rf"|(?:my|our) (?:{OWN}))"
 )
 ON_ARRIVAL = (
     r"(?:when(?:ever)?|once|after|before|until|till|by the time|as soon as) "
@@ -53,11 +52,3 @@ def somebody(said: str) -> tuple[str, str] | None:
     """Who a clause is about, and what it says of him; none where it is about no person."""
     found = _SOMEBODY.match(said)
     return (found["who"], said[found.end() :]) if found else None
-
-
-_RELATIVE = Expression(rf"^(?:the|my|our|your|his|her) (?:\w+ )?(?:{_RELATIONS}) ")
-
-
-def is_of_relative(said: str, is_name: IsName) -> bool:
-    """Whether a clause is about somebody and no thing of the scene ("the boss is on his way")."""
-    return bool(_RELATIVE.match(said)) and not any(map(is_name, said.split()))

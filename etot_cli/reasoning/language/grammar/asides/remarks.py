@@ -7,11 +7,10 @@ goes, where something is, or what tells one thing from another.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from etot_cli.reasoning.language.grammar.asides.asking_words import (
     ASKING,
-    BEFORE_NAMES,
     BIDDING,
     DOING,
     PLACED,
@@ -21,12 +20,17 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     IsName,
     asks_besides,
 )
-from etot_cli.reasoning.language.grammar.asides.people import ON_ARRIVAL, deed_of, is_of_people
+from etot_cli.reasoning.language.grammar.asides.people import (
+    ON_ARRIVAL,
+    PEOPLE,
+    deed_of,
+    is_of_people,
+)
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_in_passing
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import lacks_room
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, STATES, word_set
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, STATES
 
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = Expression(
@@ -38,7 +42,7 @@ _HAPPENED = Expression(
     r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?|will not (?:bend|let (?:me|us)))\b"
     r"|^(?:am going to need|"
     r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
-    rf"|^do not want (?:any(?:one|body|thing) |it |them )?(?=to (?:{_MISHAPS})\b)"
+    rf"|^do not want (?:(?:anything|it|them|him|her|us|{PEOPLE}) )?(?=to (?:{_MISHAPS})\b)"
     r"|^(?:wants?|needs?|have|has|plans?|hopes?|would like|(?:am|are|is) (?:going|about)"
     r"|will have) to |^will (?!be\b|need\b|[^~]* (?:myself|ourselves)$)"
     r"|^(?:need|want) something to \w+(?: (?:with|on|from|in))?$"
@@ -55,14 +59,6 @@ _HABIT = Expression(
     r"^(?:take|have|drink|eat|like|love|prefer)s? (?:my|our|his|her|their) (?P<what>\w+) "
 )
 """What somebody has as he likes it, which is no thing of the scene ("I take my tea with lemon")."""
-_TAKES = Expression(
-    r"^(?!you\b)[^~]+? (?:(?:always|usually|only) )?"
-    r"(?:takes?|has|have|drinks?|eats?) (?!(?:the|an?|it|them|that|this|these|those|to)\b)"
-    r"(?:no |some |lots of |plenty of )?\w+(?: (?:and|or|but no) (?:no )?\w+)?"
-    r"(?: (?:in|with|on|for) (?:(?:his|her|my|our|their) )?(?:tea|coffee|cereal|porridge|toast"
-    r"|breakfast|lunch|dinner|everything))?$"
-)
-"""What somebody takes in general ("my husband takes sugar in his tea")."""
 _UNUSED = Expression(
     r"^(?:nobody|no one) (?:is going to |will |would |ever |really )*"
     r"(?:use|need|drink|eat|read|wear)s? "
@@ -71,16 +67,7 @@ _DOES = Expression(
     r"^(?:(?:will|might|may|could|can|would|does not|do not|did not|"
     r"will not|can not|keeps?) )?(?P<verb>\w+)"
 )
-_TIDYING = [["cleaning"], ["tidying"], ["packing"], ["moving"], ["clearing"], ["sorting"]]
-"""What people are at who do not say what the robot is to do about it."""
-_MAKING = [["making"], ["baking"], ["cooking"], ["building"], ["packing"]]
-"""What people are at who tell what for, where the scene has none of it ("making soup")."""
-_AT_TABLE = word_set("some today tonight now for and of breakfast lunch dinner supper dessert")
-"""With what they make, and for when, which is nothing to the robot."""
 _OUTSIDE = Expression(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
-_TOO = Expression(
-    r"^(?:it|they|that|(?:the|my|your|our) [^~]+) (?:is|are|looks?|gets?) (?:far |much )?too \w+"
-)
 _IN_GENERAL = Expression(
     rf"(?:^it is (?:(?:already|nearly|almost|just|about) )*(?:half past|(?:a )?quarter (?:past|to)"
     rf"|{'|'.join(sorted(set(NUMBERS) - {'a', 'an'}))})(?: (?:past|to) \w+)?(?: already)?$"
@@ -129,8 +116,7 @@ def is_remark(said: str, is_name: IsName) -> bool:
         return False
     if deed:
         happened, habit = _HAPPENED.match(deed), _HABIT.match(deed)
-        takes = _TAKES.match(said) and not (ASKING | REFERRING | WORK - {"take"}) & {*words[2:]}
-        if _UNUSED.match(said) or takes or (habit and _is_of_no_thing(habit, words, is_name)):
+        if habit and _is_of_no_thing(habit, words, is_name):
             return True
         if happened is None:
             verb, *more = deed.split()
@@ -148,22 +134,11 @@ def is_remark(said: str, is_name: IsName) -> bool:
         placed = PLACED & {*did} and any(map(is_name, did))
         if did[:1] == ["to"] or (placed and happened[0].startswith(("like", "love", "hate"))):
             return False  # "nobody is to use it", "she likes the cup on the tray"
-        if did[:1] in _TIDYING and not any(map(is_name, words)):
-            return True
-        if did[:1] in _MAKING and did[1:] and not any(map(_is_known_to(is_name), did[1:])):
-            return True
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
         return not ((WORK | ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
-    outside = _TOO.search(said) or (_OUTSIDE.search(said) and not any(map(is_name, words)))
-    told = _TOO.sub("", said).split()  # "too close" is no "close"
-    asking = (WORK | ASKING | REFERRING) & {*told}
+    outside = _OUTSIDE.search(said) and not any(map(is_name, words))
+    asking = (WORK | ASKING | REFERRING) & {*words}
     return bool(_IN_GENERAL.match(said) or (outside and not asking))
-
-
-def _is_known_to(is_name: IsName) -> Callable[[str], bool]:
-    """Whether a word may be about the scene, or about what is done in it."""
-    known = all_words() - BEFORE_NAMES - _AT_TABLE
-    return lambda word: word in known or is_name(word)
 
 
 def _is_of_no_thing(habit: re.Match[str], words: Sequence[str], is_name: IsName) -> bool:

@@ -7,7 +7,6 @@ exclamations ("Bedtime!", "What a lovely day!").
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection
 
 from etot_cli.reasoning.language.grammar.asides.asking_words import (
@@ -15,47 +14,27 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     BEFORE_NAMES,
     CHANGING,
     DECREEING,
+    NO_STRANGERS,
     PROPOSING,
     REFERRING,
     WORK,
     IsName,
 )
-from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
-    NUMBERS,
     SIDES,
     STATES,
     THING_NOUNS,
-    is_descriptive,
     word_set,
 )
 
-_IRREGULAR = word_set(
-    """
-    is are was were has have had broke came fell rang gave began went got sank ran flew died stank
-    hurt burnt grew blew froze rose spoke stole tore woke wore
-    """
-)
-"""Forms of verbs that are no nouns, and have no ending of their own."""
-_SEEMING = word_set("smells looks tastes sounds feels seems begins starts rings is was")
-"""They may follow a noun without an article; before others that may be a verb ("polish shoes")."""
 _ASKING = (
     (ASKING | CHANGING | WORK | PROPOSING | DECREEING)
     - word_set("to by than end ends come comes join joins")
 ) | word_set("live lives stay stays sit sits stand stands rest rests lie lies hold holds")
 """Of none of these is passed over what it is said of, whatever that is."""
-_NO_SUBJECT = (
-    REFERRING | LINKS | VERB_WORDS | OTHER_VERBS | {*STATES, *LEVELS, *SIDES, *NUMBERS}
-    | {*THING_NOUNS}
-)  # fmt: skip
-_AS_WELL = word_set("too also well likewise next please ditto instead there here then")
-"""Behind what something is asked for once more ("the spare keys too")."""
-_WHERE = word_set("in on into onto beside near off under behind between with from to for of and")
-"""They may say where something is to go ("the spare keys in a bag")."""
-_BEFORE_VERBS = word_set("just really still already always often soon almost")
 _TIME = Expression(
     r"(?:it is )?(?:(?!next\b|last\b|each\b|every\b|first\b|second\b|this\b|same\b|one\b|any\b)"
     r"\w+ ){0,2}?(?!sometime|anytime|meantime|meanwhile)(?:\w*time|break|over|recess)"
@@ -78,10 +57,6 @@ _PLACED_THERE = Expression(
 )
 
 
-_HOW_LONG = Expression(
-    r" (?:all (?:day|night|week|morning|the time)(?: long)?|every (?:day|night)"
-    r"|this (?:morning|afternoon|evening|week))"
-)
 _THERE_IS = Expression(
     r"there (?:is|are|was|were) (?:(?:still|already|also|even) )?"
     r"(?:(?:an?|some|so much|too much|such an?) |(?=(?:\w+ ){1,2}(?:in|on|inside) (?:it|them)$))"
@@ -101,31 +76,6 @@ def exclaims(said: str, is_name: IsName) -> bool:
     return bool(found) and not any(
         is_name(word) or word in (_ASKING | VERB_WORDS) - BEFORE_NAMES for word in said.split()[1:]
     )
-
-
-def tells_of_others(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
-    """Whether a whole clause is about something that is not in the scene, and asks for nothing.
-
-    Nobody goes on with "so" behind what is asked for in a clause without a verb ("the spare keys").
-    """
-    words = _HOW_LONG.sub("", said.replace(" 's ", "s ")).split()
-    if _THERE_IS.match(said):
-        return there_is_such(said, is_name)
-    if any(map(is_name, words)) or _ASKING & {*words} or re.match(rf"{PEOPLE}\b", said):
-        return False
-    first = int(words[:1] != [] and words[0] in BEFORE_NAMES)
-    for at in range(first + 1, min(first + 3, len(words))):
-        subject = [word for word in words[first:at] if word not in _BEFORE_VERBS]
-        if not subject or any(word in _NO_SUBJECT for word in subject):
-            return False
-        if is_descriptive(subject[-1]):
-            continue
-        told = _may_be_verb(words[at], subject[-1]) if first else words[at] in _SEEMING
-        more = words[at + 1 :]
-        if told and not (REFERRING | _AS_WELL) & {*more}:
-            sure = words[at] in _IRREGULAR or words[at].endswith("ed")
-            return sure or (bool(more or before_so) and not _WHERE & {*more})
-    return False
 
 
 def there_is_such(said: str, is_name: IsName) -> bool:
@@ -154,33 +104,7 @@ def stranger_is_there(said: str, is_name: IsName) -> bool:
     if found is None or not is_name(found["where"]):
         return False
     what = found["what"].split()
-    return not any(is_name(word) or word in _NO_SUBJECT for word in what)
-
-
-_ABOUT_TO = Expression(
-    r"(?P<who>(?!it\b|they\b|this\b|that\b|these\b|those\b)\w+) (?:is|am|are) (?:just )?"
-    r"(?:about|going) to (?P<does>\w+)(?: (?:soon|now|today|tonight|later|it|there))?"
-)
-
-
-def is_about_to(said: str, is_name: IsName) -> bool:
-    """Whether a clause tells, behind a request, what somebody is about to do ("Tom is about to
-    draw"), with nothing that is named.
-    """
-    found = _ABOUT_TO.fullmatch(said)
-    if found is None or found["does"] in ASKING | CHANGING | DECREEING:
-        return False
-    return not (is_name(found["who"]) or found["who"] in _NO_SUBJECT)
-
-
-def _may_be_verb(word: str, subject: str) -> bool:
-    """Whether a word behind its subject says what that does or did."""
-    if word in _IRREGULAR:
-        return True
-    if word.endswith("ed"):
-        return len(word) > len("need") and not is_descriptive(word)
-    several = subject.endswith("s") and not subject.endswith("ss")
-    return word.endswith("s") and not word.endswith(("ss", "us", "is")) and not several
+    return not any(is_name(word) or word in NO_STRANGERS for word in what)
 
 
 _SOON = Expression(r" (?:next|soon|later|shortly|afterwards|tonight|in a \w+)$")

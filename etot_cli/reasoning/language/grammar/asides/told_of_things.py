@@ -71,6 +71,7 @@ _NO_PLACE = Expression(
     rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
+    r"|^are (?:in|on|at) (?:each other|one another) 's (?:spot|place|position|seat)s?$"
     r"|^(?:(?:always|constantly|often|just|only|easily) )*(?:roll|slide|slip|fall|tip|topple)s? "
     r"(?:off|over|away|down|around|everywhere|out)(?: (?:again|easily|constantly))?$"
     rf"|^(?:is|are) (?:going|turning) (?:{TURNED})$"

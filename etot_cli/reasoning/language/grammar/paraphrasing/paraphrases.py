@@ -109,7 +109,18 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1 \2 ",
     ),
     (r"^(please |(?:could|can) you )?(without \w+ing any other [^,.;]*), ([^.;]*)", r"\1\3 \2"),
-    (r"^(?:hi|hello|hey)(?: there)?[!,.] ", ""),
+    (
+        r"^(?:(?:hi|hello|hey|(?:good )?(?:morning|afternoon|evening|day))"
+        r"(?: (?:there|all|everybody|everyone))?[!,.] )+",
+        "",
+    ),
+    (r"\bend up (?:sitting|resting) (?=(?:on|in|at|next|beside|behind|to|between) )", "end up "),
+    (
+        rf"\b((?:done|finished|through) with {NAMED} (?:(?!for\b)\w+ )*\w+) "
+        r"for (?:today|tonight|now|the (?:day|moment))(?=[.,;!])",
+        r"\1",
+    ),
+    (r"\b((?:can|could|would|will) you (?:please )?)at least (?!\w+ing\b)", r"\1"),
     # A place behind what follows tells which that is: where it goes was said before
     (rf",? followed by (?={NAMED} (?:(?!and\b)\w+ )+{WHERE})", ", then likewise "),
     (
