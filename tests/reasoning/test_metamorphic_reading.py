@@ -95,9 +95,7 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
 @pytest.mark.parametrize(("name", "text"), sample(11))
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
-    framed = (
-        r"(?i)(i |i'\w+ |since |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
-    )
+    framed = r"(?i)(i |i'\w+ |since |can |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
     framed += r"which |when i |end with |as for |with |now |on the |if |unless |is |are |"
     framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |"
@@ -146,7 +144,7 @@ SIDED = [
         r"(is|be|been|were|someone|somebody|has|i|thing) left\b"
         r"|left (open|closed|shut|untouched|alone|exactly|where|standing|lying|sitting)"
         r"|\bwant .* left (in|on) |\byour (left|right) of"  # the robot's, whoever looks
-        r"|just left|right (on|into|in)\b|either side",
+        r"|just left|right (on|into|in)\b|either side|like this:|the robot sees",
         text,
     )
     and not re.search(r"(?i)\b(first|second|third|last|swap|back)\b", text)

@@ -148,9 +148,8 @@ def _by_then(reading: Reading) -> Reading | None:
     return None if going else _in_the_end(reading)
 
 
-_BY_THEN = either(
-    sequence(SENTENCE, build=_by_then), sequence(EMPTY_WORDS, plain(TO_BE_EMPTY), EMPTY_WORDS)
-)
+_TO_BE_EMPTY = sequence(EMPTY_WORDS, plain(TO_BE_EMPTY), EMPTY_WORDS)
+_BY_THEN = either(sequence(SENTENCE, build=_by_then), _TO_BE_EMPTY)
 
 
 def _aside(joined: tuple[str, Reading]) -> tuple[str, Reading]:
@@ -168,7 +167,9 @@ WHOLE = either(
     sequence(SENTENCE, COMMA, small_words.TRAILING_LAST, _END, build=_in_the_end),
     sequence(SENTENCE, COMMA, manner.IN_THIS_ORDER, _END, build=_in_sequence),
     sequence(taking_turns(SENTENCE), _END, optional(QUESTION)),
-    sequence(_BY_THEN, OPTIONAL_COMMA, small_words.SOMEBODY_COMES, _END),
+    # Built at the end, as a sentence may be read in hundreds of ways up to there.
+    sequence(SENTENCE, OPTIONAL_COMMA, small_words.SOMEBODY_COMES, _END, build=_by_then),
+    sequence(_TO_BE_EMPTY, OPTIONAL_COMMA, small_words.SOMEBODY_COMES, _END),
     sequence(_GREETING, small_words.SOMEBODY_COMES, OPTIONAL_COMMA, _BY_THEN, _END),
     sequence(
         _GREETING,
