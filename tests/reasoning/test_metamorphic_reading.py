@@ -95,7 +95,8 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
 @pytest.mark.parametrize(("name", "text"), sample(11))
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
-    framed = r"(?i)(i |i'\w+ |since |can |could|would|the |my |there\b|some(one|body|thing) |(you )?see |"
+    framed = r"(?i)(i |i'\w+ |since |can |could|would|the |my |there\b|some(one|body|thing) |"
+    framed += r"(you )?see |"
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
     framed += r"which |when i |end with |as for |with |now |on the |if |unless |is |are |"
     framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |"
