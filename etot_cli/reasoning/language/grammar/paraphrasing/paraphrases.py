@@ -110,8 +110,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     ),
     (r"^(please |(?:could|can) you )?(without \w+ing any other [^,.;]*), ([^.;]*)", r"\1\3 \2"),
     (
-        r"^(?:(?:hi|hello|hey|(?:good )?(?:morning|afternoon|evening|day))"
-        r"(?: (?:there|all|everybody|everyone))?[!,.] )+",
+        r"^(?:(?:(?:oh )?(?:hi|hello|hey)|(?:good )?(?:morning|afternoon|evening|day))"
+        r"(?: (?:there|again|all|everybody|everyone))?[!,.] )+",
         "",
     ),
     (r"\bend up (?:sitting|resting) (?=(?:on|in|at|next|beside|behind|to|between) )", "end up "),
