@@ -50,7 +50,7 @@ _MOST_BEFORE = 5
 _DOING = words_of((verbs.OPEN, verbs.CLOSE, LOOK_FOR)) | known.VERB_WORDS
 _JOINTS = (COMMA, "and", "then", "first")
 SHOWN_WORDS = 4
-MAX_READINGS = 128
+MAX_READINGS = 112
 """Readings of one sentence that are held against the scene, each some milliseconds; sensible
 sentences have up to 94."""
 _REMEMBERED = 64
