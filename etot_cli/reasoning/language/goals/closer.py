@@ -50,9 +50,6 @@ def set_closer(
         names, others = {t.name for t in there}, {t.name for t in around}
         one_of_them = there < around and not {*step.places[0].referents()} & discourse.undecided
         same = bool(there) and (names == others or one_of_them)
-        near = certain(context, [i for p in places for item in p.beside for i in item.landmarks])
-        if near and near <= moved - own and (abreast := _beside_on(closer, whole)):
-            closer, same, there = abreast, True, set()
         if not upon and not (same and (there != around or any(p.beside for p in places))):
             break
         if not own <= moved:
@@ -132,15 +129,6 @@ def _of_the_same(group: PutGroup, whole: PutGroup) -> PutGroup:
     side = at.beside and not any(item.phrases for item in at.beside) and not at.targets
     if not side or more or others or not surface.targets or surface.beside:
         return group
-    return structs.replace(group, destinations=(structs.replace(surface, beside=at.beside),))
-
-
-def _beside_on(group: PutGroup, whole: PutGroup) -> PutGroup | None:
-    """What goes beside others of them on the one thing that they all go on; else None."""
-    (at, *more), (surface, *others) = group.destinations, whole.destinations
-    upon = surface.toward in (Toward.ON, Toward.TO) and surface.targets and not surface.beside
-    if more or others or not upon or at.toward is not Toward.BESIDE:
-        return None
     return structs.replace(group, destinations=(structs.replace(surface, beside=at.beside),))
 
 

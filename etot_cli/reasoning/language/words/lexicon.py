@@ -55,6 +55,8 @@ PACKS = (
     "bag",
 )
 """Nouns for what food and the like is sold in."""
+PADS = ("pad", "deck", "bundle")
+"""Nouns for what consists of things of one sort, and holds nothing ("sticky note pad")."""
 _SPELLINGS = """
     tyre/tire mould/mold doughnut/donut yoghurt/yogurt fibre/fiber aluminium/aluminum
     jewellery/jewelry pyjama/pajama plough/plow moustache/mustache cosy/cozy litre/liter axe/ax

@@ -77,8 +77,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
             ("above|over", "bottom|lower|middle", "top|topmost|highest"),
         )
     ),
-    # As those say it who think in another language
-    (r"(?<!\bthe )\b(near|beside|behind|alongside) of (?=(?:the|my|an?|it|them|that)\b)", r"\1 "),
     # "Start with the cup: into the box"
     (
         r"(^|[.;!] )((?:start|begin) with ((?:the|my) [^.,;:]*?)): "

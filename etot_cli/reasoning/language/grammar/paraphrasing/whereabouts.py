@@ -46,7 +46,7 @@ def _with_of(said: re.Match[str]) -> str:
 
 WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # Prepositions as in other languages ("behind of", "near from", "in front the box")
-    (r"(?<=\w )(?:at )?(behind|beside|between|near) (?:of|from) (?=\w)", r"\1 "),
+    (r"(?<=\w )(?:at )?(behind|beside|alongside|between|near) (?:of|from) (?=\w)", r"\1 "),
     (r"(?<=\w )(?<!the )(?:next of|beside to) (?=\w)", "next to "),
     (rf"(?<=\w )(?<!and )(in front|on top) (?={NAMED} )(?!\w+ (?:other|(?:\w+ )?one)\b)", _with_of),
     (r"(?<=\w )in (left|right) of (?=\w)", r"to the \1 of "),

@@ -51,9 +51,8 @@ def idle_words(
         if word in SIZES and word.endswith(("er", "est")):
             why = f"{only}; {word!r} compares it with nothing"
             raise ReferenceProblem(phrase, why, 2, word=word)
-    if (
-        phrase.startswith("front ") and not things[0].part
-    ):  # "in front box" may be meant to be before it
+    # "In front box" may be meant to be before it.
+    if phrase.startswith("front ") and not things[0].part:
         raise ReferenceProblem(phrase, f"{only}; say 'in front of' or 'in'", 2, word="front")
     notes.append(f"{idle[0]!r} or not, {only}")
     return idle

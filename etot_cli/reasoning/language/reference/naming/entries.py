@@ -41,6 +41,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     NAMED_FOR_A_SORT,
     ONLY_SO_CALLED,
     OTHER_SORTS,
+    PADS,
     RACKED,
     SIZES,
     basic_color,
@@ -168,9 +169,8 @@ class Entry(Struct, frozen=True):
         """Whether its label is for a pack of several such things ("pill box" of the pills)."""
         solid = self.info is not None and not self.info.container
         (*said, pack) = self.called[0]
-        if pack == "pad" and said[-1:] == ["note"]:
-            return solid and noun == "notes"  # "the sticky notes" of a sticky note pad
-        return solid and said == [singular(noun)] != [noun] and pack in PACKS
+        several = said[-1:] == [singular(noun)] != [noun]
+        return solid and several and (pack in PADS or (pack in PACKS and len(said) == 1))
 
     def is_pack_of(self, before: str, word: str) -> bool:
         """Whether its label is for a pack of that ("soy sauce bottle", "coke can")."""
