@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 from etot_cli.reasoning.builtin.goal import Pick, Place, Put, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import carriers
+from etot_cli.reasoning.builtin.relations import carriers, is_closed, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
@@ -86,6 +86,26 @@ def check_also(
 
 
 _IT_ALSO = Expression(r"\b(?:it|them)\b[^,.;:~]* (as well|too|also)\b")
+
+
+def check_not_open(context: Context, index: int, text: str) -> None:
+    """Whether what comes "before opening" something comes behind what is put into that.
+
+    Raises:
+        ReferenceProblem: it does, and that is closed at the start: it has to be open by then.
+    """
+    scene, discourse = context.scene, context.discourse
+    things = {*discourse.things(index)}
+    closed = all(is_closed(scene, part) for thing in things for part in parts_of(scene, thing))
+    again = any(discourse.turned.get(thing) is False for thing in things)  # "close it … open it"
+    placed = (place for places in discourse.placed.values() for place in places if place)
+    filled = (p.where for p in placed if p.relation is Relation.INSIDE and p.where is not None)
+    told = closed and not again and _BEFORE_OPENING.search(context.sentence)
+    if told and things & {*discourse.things(*filled)}:
+        raise ReferenceProblem(text, "it has to be open by then; say first what comes first", 4)
+
+
+_BEFORE_OPENING = Expression(r"\bbefore (?:(?:you|we|it is|they are) )?open(?:ing|ed)?\b")
 
 
 def check_swept(context: Context, clause: PutClause) -> None:

@@ -13,6 +13,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.again import again
 from etot_cli.reasoning.language.goals.alone import check_so_many_to_turn
 from etot_cli.reasoning.language.goals.arrangements import tower
+from etot_cli.reasoning.language.goals.clashes import check_not_open
 from etot_cli.reasoning.language.goals.closer import closer_said
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.grasps import grasp
@@ -189,6 +190,8 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                     ensure(context, state)
             for index in in_turns(context, clause.things, clause.turns, Role.PART):
                 index = _moved(context, clause, index)
+                if clause.opens:
+                    check_not_open(context, index, clause.things.text)
                 context.steps.append(Open(index) if clause.opens else Close(index))
                 if clause.opens:  # "there" is rather in there than where something went before
                     context.discourse.last_places = _into(context, index)

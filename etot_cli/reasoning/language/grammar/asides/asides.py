@@ -17,6 +17,7 @@ from etot_cli.reasoning.language.grammar.asides.displeasure import is_answered
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open, is_wondering
 from etot_cli.reasoning.language.grammar.asides.named_in_asides import (
     are_spoken_of,
+    is_of_held_one,
     named_in,
     names_stranger,
     of_which,
@@ -103,6 +104,8 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     if not are_spoken_of(topics, rest):
         return None
     if not all(is_answered(item.said, rest) for item in asides):
+        return None
+    if any(is_of_held_one(item.said, rest) for item in asides):
         return None
     kept = (
         said

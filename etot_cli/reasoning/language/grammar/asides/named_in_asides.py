@@ -26,6 +26,11 @@ _IS_ONE = Expression(
 )
 """Before what is no other thing ("the vase was a gift")."""
 _WHICH_ONE = Expression(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
+_HELD = Expression(
+    rf"(?:{PEOPLE}|they) (?:\w+ )??(?:has|have|had|took|uses?|needs?|wants?|reserved|got|keeps?)"
+    r"(?: (?:got|taken|reserved))? (?:the|my|his|her|our) (?:\w+ ){1,3}?(?P<noun>\w+)"
+)
+"""What somebody has who tells so, told from others of its kind."""
 _OF_A_KIND = Expression(
     r" (?:(?:allergic|partial|addicted) to|(?:afraid|scared|fond|sick|tired) of"
     r"|likes?|loves?|hates?|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"
@@ -43,6 +48,14 @@ def are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> boo
         for topic in topics
         if topic
     )
+
+
+def is_of_held_one(said: str, rest: Sequence[str]) -> bool:
+    """Whether somebody has one of what is spoken of next by its noun alone, which may be another
+    one ("my son has the yellow cup, so put the cup on the plate").
+    """
+    held = _HELD.fullmatch(said)
+    return held is not None and any(re.search(rf"\bthe {held['noun']}\b", words) for words in rest)
 
 
 def of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:
