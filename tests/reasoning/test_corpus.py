@@ -16,17 +16,16 @@ from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.branching import branches_of
 from etot_cli.reasoning.builtin.goal import Goal
 from etot_cli.reasoning.builtin.wording import formal
-from etot_cli.reasoning.language.grammar.sentences.reader import parsed
 from etot_cli.reasoning.language.instructions import goal_of
 from etot_cli.skills.action import Verb
 from etot_cli.world.state import SceneState, owner_of
 from tests.reasoning import corpus_scenes
+from tests.reasoning.reading_time import is_in_time
 
 CORPUS: dict[str, dict[str, dict[str, str]]] = yaml.load(
     (Path(__file__).parent / "corpus.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader
 )
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
-LIMIT_S = 1.0
 
 
 def cases(kind: str) -> list[Any]:
@@ -38,16 +37,10 @@ def cases(kind: str) -> list[Any]:
 
 
 def told(text: str, scene: SceneState) -> Goal | InstructionError:
-    """What a sentence is read as, or why not, in less than a second, twice what an idle machine
-    takes at most; tried twice: a virtual machine that stands still is charged to whoever runs.
-    """
-    for _ in range(2):
-        parsed.cache_clear()
-        start = time.process_time()
-        found = goal_or_refusal(text, scene)
-        if time.process_time() - start < LIMIT_S:
-            return found
-    pytest.fail(f"reading it takes longer than {LIMIT_S} s: {text}")
+    """What a sentence is read as, or why not; fails where that takes too long."""
+    found: list[Goal | InstructionError] = []
+    assert is_in_time(lambda: found.append(goal_or_refusal(text, scene))), "it takes too long"
+    return found[-1]
 
 
 def goal_or_refusal(text: str, scene: SceneState) -> Goal | InstructionError:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 import re
-import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -20,7 +19,6 @@ from etot_cli.reasoning.language.goals.interpretation import interpret
 from etot_cli.reasoning.language.grammar.sentences.reader import (
     UnreadableError,
     normalized,
-    parsed,
     read,
 )
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
@@ -28,14 +26,13 @@ from etot_cli.reasoning.language.words import known, verbs
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import SceneState
 from tests.reasoning import corpus_scenes, scenes
-from tests.reasoning.test_corpus import CORPUS, LIMIT_S, told
+from tests.reasoning.reading_time import is_in_time
+from tests.reasoning.test_corpus import CORPUS, told
 
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
 READ = [(name, text) for name, found in CORPUS.items() for text in found["read"]]
 REMARK = re.compile(r"the [\w ]+ (is|are) [^,]*\bzorp\b[^,]*,.*\b(it|them)\b", re.IGNORECASE)
 """What is told of a thing that a pronoun takes up: "The twine is frayed, into A with it"."""
-
-"""Reading any sentence takes less than this [s of processor time]."""
 
 
 def meaning(text: str, scene: SceneState, vocabulary: Vocabulary | None = None) -> str | None:
@@ -380,16 +377,7 @@ def test_things_described_at_random_are_read_or_refused_in_time(name: str) -> No
 
 
 def is_read_in_time(text: str, vocabulary: Vocabulary, scene: SceneState = BREAKFAST) -> bool:
-    """Tried twice: a virtual machine that stands still is charged to whoever runs."""
-    return any(reading_s(text, vocabulary, scene) < LIMIT_S for _ in range(2))
-
-
-def reading_s(text: str, vocabulary: Vocabulary, scene: SceneState = BREAKFAST) -> float:
-    """How long reading takes [s of processor time]."""
-    parsed.cache_clear()
-    start = time.process_time()
-    meaning(text, scene, vocabulary)
-    return time.process_time() - start
+    return is_in_time(lambda: meaning(text, scene, vocabulary))
 
 
 @pytest.mark.parametrize(
