@@ -10,18 +10,21 @@ from etot_cli.reasoning.builtin.goal import Put, Step, Thing
 from etot_cli.reasoning.builtin.relations import bearers, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.understanding import Understanding
-from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
+from etot_cli.reasoning.language.grammar.conditions.how_things_are import EVERYTHING
+from etot_cli.reasoning.language.grammar.parsers.trees import nodes, pronouns
+from etot_cli.reasoning.language.grammar.sentences.as_things_are import NOTHING
 from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Spoken
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     AvoidClause,
     MoveClause,
-    PickClause,
-    PutClause,
     ReorientClause,
+    themes,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    CLEARED,
     Condition,
     Destination,
+    Modifier,
     NounPhrase,
     Things,
     Toward,
@@ -78,43 +81,70 @@ def _asked_for(
         tuple(said for said in clauses if (said.only_if == given) is is_first)
         for is_first in (True, False)
     )
-    if (given.either or given.some is not None) and "it" in pronouns(first[0].clause):
+    several = given.either or (given.some is not None and given.there is None)
+    if several and "it" in pronouns(first[0].clause):
         raise ReferenceProblem(given.text, "say which of them is meant", 3)
     start = first[0].position - 1
-    about = tuple(_named(np, start) for np in given.named if not np.pronoun)
-    ahead = (*about, *(_named(np, start) for np in _themes(first)))
-    asked = {given.so: (*about, *first), not given.so: (*ahead, *second)}
-    known.read(_plain(asked[not holds]))  # it has to be understood, too
-    if asked[holds] == ahead and first[1:]:
+    told = {so: _named(_told(given, so, holds=holds), start) for so in (True, False)}
+    if given.there is not None:
+        absent = (s.clause for s in clauses if s.only_if and s.only_if.so is given.denied)
+        ones = (n for n in nodes((*absent,)) if isinstance(n, NounPhrase))
+        if any("one" in (np.head, np.pronoun, "" if np.words else np.determiner) for np in ones):
+            raise ReferenceProblem("one", "name what is meant", 3, word="one")
+        if any(isinstance(n, Modifier) and n.words == CLEARED for n in nodes(first[0].clause)):
+            told[given.so] = _named(given.place.targets if given.place else (), start)
+    told[not given.so] += _named(_themes(first), start)
+    ways_out = {given.so: first, not given.so: second}
+    to_do = {so: tuple(s for s in ways_out[so] if s.clause != NOTHING) for so in ways_out}
+    now, otherwise = to_do[holds], to_do[not holds]
+    known.read(_plain((*told[not holds], *otherwise)))  # it has to be understood, too
+    if first[1:] and not ways_out[holds]:
         why = "that is not so; say whether all of it hangs on that"
         raise ReferenceProblem(given.text, why, 3)
     so = "so" if holds else "not so"
     state.context.discourse.notes.append(f"{given.text!r}: that is {so}")
     state.conditional = True
-    state.undone |= asked[holds] == ahead
-    now, otherwise = (first, second) if holds is given.so else (second, first)
+    state.undone |= not now
     stays = (isinstance(said.clause, AvoidClause) for said in now)
     state.let_be |= bool(now and otherwise) and all(stays)
-    return _plain(asked[holds])
+    return _plain((*told[holds], *now))
+
+
+def _told(given: Condition, so: bool, *, holds: bool) -> Iterable[NounPhrase]:
+    """What a condition speaks of, for what is asked for where it is ``so``: what is not there can
+    be meant only there, as whatever might have been.
+    """
+    if given.there is None:
+        return given.named
+    places, anything = given.place.targets if given.place else (), given.there.head == EVERYTHING
+    one = replace(given.subjects[0], determiner="any")
+    if so is given.denied:
+        return places if anything else (one, *places)  # "if there is none, put one in it"
+    if holds is so:
+        return (*places, given.there)
+    return (*places, replace(one, words=("object",)) if anything else one)
 
 
 def _plain(reading: Iterable[Spoken]) -> tuple[Spoken, ...]:
     return tuple(replace(said, only_if=None) for said in reading)
 
 
-def _named(np: NounPhrase, at: int) -> Spoken:
-    return Spoken(ReorientClause(Things((np,)), only_named=True), at)
+def _named(nps: Iterable[NounPhrase], at: int) -> tuple[Spoken, ...]:
+    return tuple(
+        Spoken(ReorientClause(Things((np,)), only_named=True), at) for np in nps if not np.pronoun
+    )
 
 
 def _themes(clauses: Iterable[Spoken]) -> tuple[NounPhrase, ...]:
-    """What the first of some clauses is about, which "it" may mean in what is asked for instead."""
+    """What the first of some clauses that names things is about, which "it" may mean in what is
+    asked for instead.
+    """
     for said in clauses:
-        match said.clause:
-            case PutClause(groups=(group, *_)):
-                return tuple(np for np in group.things.phrases if not np.pronoun)
-            case PickClause(things=things) | MoveClause(things=things):
-                return tuple(np for np in things.phrases if not np.pronoun)
-        break
+        found = themes(said.clause)
+        if any(not np.pronoun for np in found):
+            return found
+        if not isinstance(said.clause, MoveClause):
+            break
     return ()
 
 
@@ -143,7 +173,8 @@ def _holds(state: Understanding, condition: Condition) -> bool:
     """
     attempt = state.copy()
     scene = attempt.context.scene
-    subjects = _meant(attempt, condition.subjects)
+    anything = condition.there is not None and condition.there.head == EVERYTHING
+    subjects = () if anything else _meant(attempt, condition.subjects)
     places = _holders(attempt, condition.place) if condition.place else ()
     about = (*subjects, *places)
     touched = _touched(state)
@@ -151,7 +182,8 @@ def _holds(state: Understanding, condition: Condition) -> bool:
         _overlap(at, other) for thing in about for at in _around(thing, scene) for other in touched
     ):
         raise ReferenceProblem(condition.text, "what is done before it may change that", 3)
-    ways = [{_is_so(condition, t, at, scene) for t in subjects} for at in places or (None,)]
+    subjects = tuple(map(Thing, scene.states)) if anything else subjects
+    ways = [_ways(condition, subjects, at, scene) for at in places or (None,)]
     if any(way != ways[0] for way in ways):
         raise ReferenceProblem(condition.text, "say what it is in or on", 3)
     (so, *_) = ways
@@ -160,6 +192,26 @@ def _holds(state: Understanding, condition: Condition) -> bool:
             raise ReferenceProblem(condition.text, "that is so of some of them only", 3)
         return condition.some
     return so == {not condition.denied}
+
+
+def _ways(
+    condition: Condition, subjects: Iterable[Thing], place: Thing | None, scene: SceneState
+) -> set[bool]:
+    """How it is with several things, of which one is enough where one is said to be there.
+
+    Raises:
+        ReferenceProblem: that cannot be told of all, and of none it is said.
+    """
+    found: set[bool] = set()
+    problem: ReferenceProblem | None = None
+    for thing in subjects:
+        try:
+            found.add(_is_so(condition, thing, place, scene))
+        except ReferenceProblem as error:
+            problem = error
+    if problem is not None and not (condition.there is not None and True in found):
+        raise problem
+    return found
 
 
 def _holders(state: Understanding, place: Destination) -> tuple[Thing, ...]:

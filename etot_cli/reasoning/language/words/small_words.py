@@ -160,9 +160,12 @@ UNLESS = "unless"
 OTHERWISE = "otherwise, else, or else"
 IF_NOT = """
     if not, if (it|that|this) is not, if they are not, if (it|that|this) is not (so|the case),
-    if not so, if no
+    if not so, if no, if there is (not [any|one]|none), if there are (not [any]|none)
 """
-IF_SO = "if (it|that|this) is, if they are, if so, if (it|that|this) is (so|the case), if yes"
+IF_SO = """
+    if (it|that|this) is, if they are, if so, if (it|that|this) is (so|the case), if yes,
+    if there (is|are)
+"""
 IF_THERE = {
     True: """
         if (it|that) is [already] there [already], if (it|that) already is [there],
@@ -175,3 +178,7 @@ IF_THERE = {
 """Before what is asked for where what a condition says is not so, or is so for all that."""
 IN_THAT_CASE = "in (which|that) case"
 """The same behind "unless", of all that it says, be it denied or not."""
+DO_NOTHING = """
+    [just] (do nothing|do not do anything) [at all], nothing (has|needs|is) to be done,
+    there is nothing to do, you are done, leave it at that
+"""

@@ -24,16 +24,23 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Condition,
     Destination,
+    Modifier,
     NounPhrase,
     Toward,
 )
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION
 from etot_cli.reasoning.language.words import nouns, predicates, small_words
+from etot_cli.reasoning.language.words.lexicon import singular
+from etot_cli.reasoning.language.words.places import Prep
 
 EMPTY = "empty"
-_NOW = optional("still, already, now, currently, at the moment, right now, at present")
+NOW = optional("still, already, now, currently, at the moment, right now, at present")
 _THERE = (Toward.INSIDE, Toward.ON, Toward.TO)
 _ALL = ("both", "all", "each", "every")
+_SOME = frozenset({"", "a", "an", "any", "some", "one", "no", "any of the", "one of the"})
+_STATES = frozenset({"open", "closed", EMPTY})
+EVERYTHING = "everything"
+_ANYTHING = frozenset({"anything", "something", "nothing"})
 
 
 def condition_of(nps: tuple[NounPhrase, ...], denied: bool, so: Any) -> Condition | None:
@@ -75,6 +82,35 @@ def _neither_of_them(nps: tuple[NounPhrase, ...], so: Any) -> Condition | None:
     return None if found is None else replace(found, denied=True, some=False)
 
 
+def _there_is(np: NounPhrase, so: Any) -> Condition | None:
+    """That something is in or on something, or in a state, whichever it is ("a pen in the cup")."""
+    noun, anything = np.head, np.head in _ANYTHING
+    if np.determiner not in _SOME or np.modifiers or np.owner or noun in ("", "left"):
+        return None
+    if anything and np.words[1:]:
+        return None
+    every = replace(np, determiner="every" if singular(noun) == noun else "all")
+    condition = condition_of((replace(np, determiner="the"),), False, so)
+    if condition is None:
+        return None
+    where, told = condition.place, replace(np, determiner="the")
+    if anything:
+        told = replace(np, words=(EVERYTHING,))
+    if where is None:
+        told = replace(told, words=(condition.word, *np.words))
+    else:
+        at = Prep.IN if where.toward is Toward.INSIDE else Prep.ON
+        told = told.told_by(Modifier(at, where.targets))
+    none = np.determiner == "no" or noun == "nothing"
+    return replace(condition, subjects=(every,), denied=none, some=not none, there=told)
+
+
+def _such_a(np: NounPhrase) -> Condition | None:
+    """That there is one in some state ("an open drawer")."""
+    state, *words = np.words or ("",)
+    return _there_is(replace(np, words=(*words,)), state) if state in _STATES else None
+
+
 def with_it(condition: Condition, it: NounPhrase | None) -> Condition | None:
     """A condition with what "it" is in it; None where a pronoun stays unclear."""
     subjects, where = condition.subjects, condition.place
@@ -112,13 +148,14 @@ def _joined(first: Condition, more: tuple[tuple[bool, Any], ...]) -> Condition |
 
 _WORD = either(OPEN_OR_CLOSED, phrase("empty", EMPTY), DESTINATIONS)
 _SO = sequence(
-    _NOW,
+    NOW,
     optional(phrase("not, no longer", True), False),
-    _NOW,
+    NOW,
     _WORD,
-    _NOW,
+    NOW,
     build=lambda denied, so: (denied, so),
 )
+_STANDING = optional("left, lying, standing, sitting, left (lying|standing|sitting)")
 _BE = f"is, are, {predicates.LIES}"
 _ONE = either(
     sequence(NP_LIST, _BE, _SO, build=lambda nps, so: condition_of(nps, *so)),
@@ -136,22 +173,32 @@ _ONE = either(
         _SO,
         build=_neither_of_them,
     ),
-    sequence(
-        "there is nothing [left|lying|standing] (in|inside|on)",
-        noun_phrase,
-        _NOW,
-        build=lambda np: condition_of((np,), False, EMPTY),
-    ),
+)
+_EMPTY = sequence(
+    "there is nothing [left|lying|standing] (in|inside|on)",
+    noun_phrase,
+    NOW,
+    build=lambda np: condition_of((np,), False, EMPTY),
+)
+_WHAT = either(noun_phrase, phrase("nothing", NounPhrase("", ("nothing",), text="nothing")))
+_OF_SOME = either(
+    sequence(NOW, _WHAT, NOW, _STANDING, _WORD, NOW, build=_there_is),
+    sequence(NOW, noun_phrase, NOW, build=_such_a),
+)
+_THERE_IS = either(
+    sequence("there (is|are)", _OF_SOME),
+    sequence(_WHAT, _BE, NOW, _STANDING, _WORD, NOW, build=_there_is),
 )
 _IS_SO = either(
     _ONE,
+    _THERE_IS,
     sequence(
-        _ONE,
+        either(_ONE, _EMPTY),
         some(
             sequence(
                 OPTIONAL_COMMA,
                 one_of({False: "and, and if", True: "or, or if"}),
-                either(_ONE, sequence(optional(_BE), _SO)),
+                either(_ONE, _EMPTY, sequence(optional(_BE), _SO)),
                 build=lambda *said: said,
             ),
             least=1,
@@ -174,6 +221,7 @@ ASKED = either(
         sequence("is, are", NP_LIST, _SO, QUESTION, build=lambda nps, so: condition_of(nps, *so)),
         _said,
     ),
+    spanned(sequence("(is|are) there", _OF_SOME, QUESTION), _said),
     sequence("(check|see|look|find out) (if|whether)", IS_SO),
 )
 """How things may be, which somebody is to see."""

@@ -258,7 +258,8 @@ def _said(node: object) -> Iterator[str]:
         case Condition(so=so, denied=denied, only=only):
             yield from ("only",) if only else ()
             yield from () if so and not denied else (_DENIAL,)
-            yield from () if node.some is None else ("both", "all", "either")
+            yield from () if so else ("open", "closed")  # "…; if it is closed, …"
+            yield from () if node.some is None else ("both", "all", "either", "any")
         case Modifier(words=words) if words == CLEARED:
             yield "empty"
         case Modifier(prep=prep, denied=denied):

@@ -14,6 +14,8 @@ from etot_cli.reasoning.language.grammar.conditions.how_things_are import (
     ASKED,
     CONDITION,
     EMPTY,
+    IS_SO,
+    NOW,
     condition_of,
     with_it,
 )
@@ -34,17 +36,22 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     OPTIONAL_COMMA,
     ahead,
 )
+from etot_cli.reasoning.language.grammar.phrases.being_so import OPEN_OR_CLOSED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    AvoidClause,
     Clause,
     EnsureClause,
     MoveClause,
     PickClause,
     PutClause,
     PutGroup,
+    ReorientClause,
+    named,
     put_to,
+    themes,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Condition,
@@ -62,6 +69,7 @@ _VERBS = openings_of(
 ) - word_set("house hand jam post seat station stuff")
 """With which a request begins behind a condition without a comma."""
 _THAT_CASE = "that case"
+NOTHING = ReorientClause(Things(()), only_named=True)
 _IS_THERE = {"there": True, "not there": False}
 
 
@@ -71,30 +79,6 @@ def _only_if(condition: Condition, reading: Reading) -> Reading:
 
 def _otherwise(condition: Condition) -> Condition:
     return replace(condition, so=not condition.so)
-
-
-def _themes(clause: Clause) -> tuple[NounPhrase, ...]:
-    """What a clause is about."""
-    match clause:
-        case PutClause(groups=(PutGroup(things=things),)):
-            return things.phrases
-        case PickClause(things=things) | MoveClause(things=things):
-            return things.phrases
-        case EnsureClause(states=(state,)) if state.going:
-            return state.subjects
-    return ()
-
-
-def _named(clause: Clause) -> tuple[NounPhrase, ...]:
-    """The same, and where that goes."""
-    match clause:
-        case PutClause(groups=(PutGroup(destinations=where),)):
-            pass
-        case EnsureClause(states=(state,)):
-            where = state.destinations
-        case _:
-            where = ()
-    return (*_themes(clause), *(np for item in where for np in item.targets))
 
 
 def _held_by(nps: tuple[NounPhrase, ...], condition: Condition) -> Condition:
@@ -109,7 +93,7 @@ def _of_what_was_named(said: tuple[Reading, Condition]) -> list[tuple[Reading, C
     """
     reading, condition = said
     clause = reading[0].clause
-    if len(reading) > 1 or reading[0].order is not Order.SAID or not _themes(clause):
+    if len(reading) > 1 or reading[0].order is not Order.SAID or not themes(clause):
         return []
     (about, *more) = condition.subjects
     if condition.more:
@@ -121,14 +105,14 @@ def _of_what_was_named(said: tuple[Reading, Condition]) -> list[tuple[Reading, C
             if rest
         ]
     if about.determiner == "its" and about.owner is None and not more:
-        whose = (np for np in _named(clause) if not (np.pronoun or np.modifiers or np.owner))
+        whose = (np for np in named(clause) if not (np.pronoun or np.modifiers or np.owner))
         parts = (replace(about, determiner="the", owner=np) for np in whose)
         return [(reading, replace(condition, subjects=(part,))) for part in parts]
     if not about.pronoun:
         it = condition.place is not None and condition.place.targets[0].pronoun
-        holders = tuple(np for np in _named(clause) if not np.pronoun and np != about)
+        holders = tuple(np for np in named(clause) if not np.pronoun and np != about)
         return [(reading, _held_by(holders, condition))] if it and holders else [said]
-    meant = _themes(clause) if condition.place else _named(clause)
+    meant = themes(clause) if condition.place else named(clause)
     open_to = condition.place or condition.word == EMPTY
     if more or (open_to and meant[1:]):
         return []
@@ -161,10 +145,10 @@ def _another_way(before: Clause, instead: Any) -> list[Clause]:
             return [replace(before, things=instead)]
         case PutClause(groups=(PutGroup(destinations=where),)), Things(phrases=nps):
             # "…, otherwise the cup" goes there instead, or is where it goes
-            place = put_to(Things(_themes(before)), (Destination(Toward.TO, nps),))
+            place = put_to(Things(themes(before)), (Destination(Toward.TO, nps),))
             return [put_to(instead, where), *([] if nps[1:] else [place])]
-        case ((PutClause() | EnsureClause()), (Destination(), *_)) if _themes(before):
-            return [put_to(Things(_themes(before)), instead)]
+        case ((PutClause() | EnsureClause()), (Destination(), *_)) if themes(before):
+            return [put_to(Things(themes(before)), instead)]
     return []
 
 
@@ -173,6 +157,13 @@ def _or_else(condition: Condition, reading: Reading, otherwise: Any) -> list[Rea
     if otherwise is None:
         return [_only_if(condition, reading)]
     said, instead = otherwise
+    if isinstance(said, tuple):  # "if it is open …, if it is closed …"
+        nps, word = said
+        same = {np.words for np in nps if not np.pronoun} <= {np.words for np in condition.subjects}
+        opposite = {word, condition.word} == {"open", "closed"}
+        if condition.denied or condition.more or not (same and opposite):
+            return []
+        said = False
     if said in _IS_THERE:  # "put it there, if it is there already …"
         if condition.place is None or condition.more:
             return []
@@ -188,6 +179,18 @@ def _or_else(condition: Condition, reading: Reading, otherwise: Any) -> list[Rea
         at = reading[0].position + 1
         ways = [(replace(reading[0], clause=clause, position=at),) for clause in clauses]
     return [(*_only_if(condition, reading), *_only_if(_otherwise(condition), way)) for way in ways]
+
+
+def _done_meanwhile(condition: Condition, reading: Reading) -> Reading | None:
+    """What is done once "as long as" things are so; nobody knows how long else something lasts."""
+    lasting = (
+        isinstance(s.clause, AvoidClause | EnsureClause) or _stays(s.clause) for s in reading
+    )
+    return None if any(lasting) else _only_if(condition, _of_its_own(condition, reading))
+
+
+def _stays(clause: Clause) -> bool:
+    return isinstance(clause, PutClause) and clause.stays
 
 
 def _put_elsewhere(
@@ -228,7 +231,7 @@ def _of_its_own(condition: Condition, reading: Reading) -> Reading:
         return _put_elsewhere(
             reading, lambda to: at if to == Destination(Toward.HERE, word="there") else to
         )
-    if more or condition.word == "closed" or about.pronoun:
+    if more or condition.word == "closed" or about.pronoun or condition.there:
         return reading
     own = _into(lambda np: np.pronoun == "it" and not np.modifiers, about)
     return _put_elsewhere(reading, own, "it", "this", "that")
@@ -275,17 +278,21 @@ def as_things_are(sentence: Parser) -> Parser:
     Args:
         sentence: what may be asked for.
     """
+    sentence = either(sentence, plain(phrase(small_words.DO_NOTHING, NOTHING)))
     otherwise = sequence(
         OPTIONAL_COMMA,
         optional("and, but, or"),
-        one_of(
-            {
-                None: small_words.OTHERWISE,
-                False: small_words.IF_NOT,
-                True: small_words.IF_SO,
-                _THAT_CASE: small_words.IN_THAT_CASE,
-                **{there: small_words.IF_THERE[so] for there, so in _IS_THERE.items()},
-            }
+        either(
+            one_of(
+                {
+                    None: small_words.OTHERWISE,
+                    False: small_words.IF_NOT,
+                    True: small_words.IF_SO,
+                    _THAT_CASE: small_words.IN_THAT_CASE,
+                    **{there: small_words.IF_THERE[so] for there, so in _IS_THERE.items()},
+                }
+            ),
+            sequence("if", NP_LIST, "is, are", NOW, OPEN_OR_CLOSED, NOW, build=lambda *said: said),
         ),
         OPTIONAL_COMMA,
         optional("then"),
@@ -325,6 +332,9 @@ def as_things_are(sentence: Parser) -> Parser:
         ),
         lambda found: _or_else(*found),
     )
+    as_long_as = sequence(
+        EMPTY_WORDS, "(as|so) long as", IS_SO, COMMA, sentence, build=_done_meanwhile
+    )
     also = spanned(
         sequence(
             "if",
@@ -339,6 +349,7 @@ def as_things_are(sentence: Parser) -> Parser:
     )
     return either(
         leading,
+        as_long_as,
         variants(
             quiet(
                 sequence(EMPTY_WORDS, ASKED, otherwise, optional(otherwise, None), build=_answered)

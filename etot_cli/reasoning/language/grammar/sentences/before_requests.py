@@ -6,10 +6,6 @@ from operator import add
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.language.grammar.conditions.if_so import (
-    AS_SOMETHING_IS_THERE,
-    IF_ANYTHING_IS_THERE,
-)
 from etot_cli.reasoning.language.grammar.conditions.left_alone import OTHERS_STILL
 from etot_cli.reasoning.language.grammar.conditions.prohibitions import AVOID, WITHOUT
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
@@ -27,7 +23,6 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     not_ahead,
     noun_phrase,
 )
-from etot_cli.reasoning.language.grammar.parsers.trees import pronouns
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS
 from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY
@@ -47,7 +42,7 @@ from etot_cli.reasoning.language.grammar.sentences.before_and_after import (
 )
 from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN, JOINED
 from etot_cli.reasoning.language.grammar.sentences.end_states import END_STATES
-from etot_cli.reasoning.language.grammar.sentences.joining import Joined, chained
+from etot_cli.reasoning.language.grammar.sentences.joining import chained
 from etot_cli.reasoning.language.grammar.sentences.led_clauses import LED_CLAUSE
 from etot_cli.reasoning.language.grammar.sentences.meanwhile import MEANWHILE
 from etot_cli.reasoning.language.grammar.sentences.named_ahead import NAMED_AHEAD
@@ -81,19 +76,6 @@ def _started_with(first: NounPhrase, done: Reading) -> Reading | None:
     if not isinstance(clause, PutClause | MoveClause) or clause.turns != Turns():
         return None
     return (replace(done[0], clause=replace(clause, turns=Turns(first=(first,)))), *done[1:])
-
-
-def _emptied_first(emptied: Reading, more: Joined) -> Reading | None:
-    """What takes all out of something, and what is asked for behind that; what "it" is that is then
-    put or taken anywhere, that or what was in it, stays unclear.
-    """
-    for _, reading in more:
-        for clause in (said.clause for said in reading):
-            put = clause.groups if isinstance(clause, PutClause) else ()
-            about = tuple(group.things for group in put) or (clause,)
-            if not isinstance(clause, MoveClause) and [*pronouns(about)]:
-                return None
-    return chained(emptied, more)
 
 
 def _placed_there(np: NounPhrase, things: Things) -> PutClause:
@@ -180,11 +162,10 @@ WITH_MORE_BEFORE_IT = either(
     sequence(TOLD_BEHIND, "~comma [so|and|then]", CHAIN, build=add),
     sequence(verbs.TIDY_AWAY, COMMA, plain(PAIRS)),
     sequence(
-        plain(either(IF_NOT_SO, IF_ANYTHING_IS_THERE)),
+        plain(IF_NOT_SO),
         optional(sequence(OPTIONAL_COMMA, "and, but", plain(OTHERS_STILL)), ()),
         build=add,
     ),
-    sequence(plain(AS_SOMETHING_IS_THERE), some(JOINED, least=1, most=6), build=_emptied_first),
     sequence(
         "if you (could|would)", CHAIN, COMMA, f"[then] ({frames.WOULD_BE_NICE}), that would do"
     ),

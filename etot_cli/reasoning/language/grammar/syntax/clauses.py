@@ -284,3 +284,27 @@ Clause = (
     | AgainClause
     | AvoidClause
 )
+
+
+def themes(clause: Clause) -> tuple[NounPhrase, ...]:
+    """What a clause that puts, takes or turns things is about."""
+    match clause:
+        case PutClause(groups=(PutGroup(things=things),)):
+            return things.phrases
+        case PickClause(things=things) | MoveClause(things=things):
+            return things.phrases
+        case EnsureClause(states=(state,)) if state.going:
+            return state.subjects
+    return ()
+
+
+def named(clause: Clause) -> tuple[NounPhrase, ...]:
+    """The same, and where that goes."""
+    match clause:
+        case PutClause(groups=(PutGroup(destinations=where),)):
+            pass
+        case EnsureClause(states=(state,)):
+            where = state.destinations
+        case _:
+            where = ()
+    return (*themes(clause), *(np for item in where for np in item.targets))

@@ -223,6 +223,8 @@ class Condition(Struct, frozen=True):
     more: tuple[Condition, ...] = ()
     """What has to be so as well, or (``either``) may be so instead."""
     either: bool = False
+    there: NounPhrase | None = None
+    """What there is, if it holds ("a pen in the cup"), of all the subjects that may be so."""
     text: str = ""
     """As written."""
 

@@ -62,9 +62,16 @@ _OTHERWISE = Expression(
 """Behind a condition: what is asked for where that does not hold."""
 
 
+_OTHER_STATE = Expression(
+    r"(?:but |and )?if (?P<about>[\w ]+?) (?:is|are) (?:\w+ )?(?:open|closed|shut)(?: \w+)?,"
+)
+
+
 def _is_else(before: str, part: str) -> bool:
     """Whether a sentence says what is asked for where the condition before it does not hold."""
-    return bool(_IF.search(before) and _OTHERWISE.match(part))
+    other = _OTHER_STATE.match(part)
+    same = other and (other["about"] in ("it", "they") or f"if {other['about']} " in before)
+    return bool(_IF.search(before) and (same or _OTHERWISE.match(part)))
 
 
 _ADDED = Expression(r"(?:and |but )?without (?:ever )?\w+ing (?P<what>[^,]*)")
