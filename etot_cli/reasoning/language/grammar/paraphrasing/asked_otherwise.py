@@ -116,6 +116,12 @@ def _goes_along(said: re.Match[str]) -> str:
 
 
 ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Please kindly to put one in the box and other one on the tray", by who speaks another tongue
+    (
+        r"\b(please(?: kindly)?|kindly) to (?=(?:put|place|move|take|pick|bring|open|close)\b)",
+        r"\1 ",
+    ),
+    (r"\b(one [^.;]*? and )(?=other one\b)", r"\1the "),
     # "You will have to turn it for that": of what goes somewhere, as "it has to be turned" is
     (
         r"(^|[.;!] )(?:for (?:that|this),? )?you (?:will )?(?:probably )?(?:have|need) to "

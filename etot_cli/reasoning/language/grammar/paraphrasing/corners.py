@@ -7,6 +7,15 @@ from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
 _SIDE = r"(left|right|far|near|front|back)(?: (?:hand )?(?:side|edge|end|part|half))?"
 CORNERS_AND_SIDES: tuple[tuple[str, str], ...] = (
+    # "Cup: back left corner of the table"
+    (
+        r"(^|[.;\n] ?)((?!(?:take|pick|grab|get|lift|fetch|grasp|hold)\b)"
+        r"(?:(?:the|my) )?\w+(?: \w+){0,2})[:,] (?:the )?"
+        r"((?:front|back|rear|far|near|upper|lower|top|bottom) (?:left|right) corner|"
+        r"(?:left|right|front|back|rear|far|near) edge)"
+        rf"( of the {TABLE})?(?=[.;!\n]|$)",
+        r"\1\2 at the \3\4",
+    ),
     (
         r"\bthe (left|right) corner,? (?:at|on|in|to|towards) the (front|back|rear)"
         r"(?: (?:side|end))?\b",

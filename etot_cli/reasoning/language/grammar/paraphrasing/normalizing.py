@@ -24,7 +24,8 @@ _TERSE_LINE = Expression(_LINE)
 _ARTICLE = Expression(r"\b(?:the|an?|my|your|this|that|these|those|it|them)\b", re.IGNORECASE)
 _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
-    r"(?: the following| these)? ?(?:steps)?:\s*)?"
+    r"(?: the following| these| this)? ?(?:steps|things)?"
+    r"(?: in (?:this |the following )?order)?:\s*)?"
 )
 _UH = Expression(
     r"(?P<before>\w+)(?P<comma>,?)\s+(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+(?P<after>\w+)",
@@ -48,6 +49,12 @@ _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _QUOTES = Expression('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')
 _ITEMS = Expression(r"(?:[.)]\s|\bstep\b)")
 """Without such signs nothing is listed by numbers or letters."""
+_IN_BRACKETS = Expression(
+    r"\(([a-h1-8])\) (?=(?:the|an?|my|our|both|all|every|each|no|neither|nothing)\b)"
+)
+"""The number or letter of one of several things that are told in one sentence ("that (a) the box is
+open and (b) …"); no name is followed by an article ("block (a) and block (b)").
+"""
 _ARTICLE_LEFT_OUT = Expression(
     r"\b(?:(out of) (?=way\b)|((?<!start )(?<!starting )(?:at|by)) (?=end\b)|"
     r"(on) (?=(?:left|right)(?:$|[,.:;!?\n]"
@@ -123,10 +130,14 @@ def _listed(text: str) -> str:
             mark = rf"(?:\(?{label}[.)]|step {label}\b[.):,]?(?: [{_BULLETS}])?)\s+(?=[a-z])"
             begun = r"(?:^|[.:;,\n]\s*(?:and |then )*)" if items else _LIST_HEAD
             found = re.search(f"{begun}{mark}", rest)
-            found = found or (re.search(rf"\s{mark}", rest) if items else None)
+            found = found or (re.search(rf"(?:,?\s(?:and|then))*\s{mark}", rest) if items else None)
             if found is None:
                 break
             items, rest = [*items, rest[: found.start()]], rest[found.end() :]
         if len(items) > 1:
             return "\n ".join((*items[1:], rest))
+    marks = [(found.start(), found[1]) for found in _IN_BRACKETS.finditer(text)]
+    signs = "".join(sign for _, sign in marks)
+    if marks[1:] and ("abcdefgh".startswith(signs) or "12345678".startswith(signs)):
+        return _IN_BRACKETS.sub("", text)
     return text

@@ -24,6 +24,7 @@ _FREE = (
 _MUST = r"should|must|shall|has to|have to|is to|are to|needs? to|ought to"
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _THAT = "(?:that one|that|it|this)"
+_HAS = "(?:has|have|is|are|was|were)"
 _SOMETHING = (
     rf"{PEOPLE} (?:(?:just|also|really|only) )?(?:(?:will )?needs?|wants?|would like"
     r"|(?:have|has|needs?|wants?|would like|(?:am|is|are) (?:going|trying)) to"
@@ -49,6 +50,54 @@ def _holding_in_the_end(said: re.Match[str]) -> str:
 
 
 ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Make sure that in the end the cup is on the tray and neither pen has been moved"
+    (
+        r"\b((?:(?:at|in) the end|make sure|ensure|see to it)\b[^.;!?]*?)(?:, and|,| and) "
+        rf"(?:(neither|no|none of the) (\w+(?: \w+)??) {_HAS}|({_NOUN}) {_HAS} not)(?: been)? "
+        r"(mov|touch)ed(?=[.;!]|$)",
+        lambda said: (
+            f"{said[1]}; do not {'move' if said[5] == 'mov' else 'touch'} "
+            f"{said[4] or ('either ' if said[2] == 'neither' else 'any ') + said[3]}"
+        ),
+    ),
+    # "Constraint: the cup may not be moved. Task: …"
+    (
+        r"(^|[.;\n] ?)(?:hard )?(?:constraint|restriction|rule)s?: ?"
+        r"(?:([^.;:]*?) (?:is|are) not (?:to be )?(?=(?:moved|touched|opened|closed)\b)|"
+        r"(?=[^.;:]*\b(?:may|can|do|must|never|no|nothing|neither|without|only|keep|off)\b))",
+        lambda said: f"{said[1]}{said[2]} must not be " if said[2] else said[1],
+    ),
+    # "Starting with the cup and followed by the pen, put both of them in the box"
+    (
+        rf"(^|[.;!] )(?:starting|beginning) with ({_NOUN}),? (?:and )?(?:followed by|then)"
+        rf" ({_NOUN}), (?=[^.;]*\b(?:both|them)\b)",
+        r"\1first \2 and then \3, ",
+    ),
+    # "I would be happy with the cup on the tray"
+    (
+        r"\b(i|we) would be (?:very |quite |really )?(?:happy|glad|pleased) (?:with|to have) "
+        rf"(?=(?:{NAMED}|any|one|two|three)\b[^.;,]*? (?:in|on|inside|next to)\b)",
+        r"\1 would like ",
+    ),
+    (r"\bany (?=(?:two|three|four) (?:of )?)", ""),
+    # "I do not want the cup on the tray, only the pen"
+    (
+        rf"\b(i|we) do not want ({_NOUN}) ((?:in|on|inside) {_NOUN}), (?:only|just) ({_NOUN})"
+        r"(?=[.;!]|$)",
+        r"\1 do not want \2 \3, but \1 want \4 \3",
+    ),
+    (rf"(, (?:and )?not (?:in|on|into|onto|inside) {_NOUN}) either(?=[.;!]|$)", r"\1"),
+    # "It belongs in the fridge, not out here": where it is now, so nowhere else
+    (
+        rf"\b((?:belongs?|goes|go) (?:in|on|inside|into|onto) {_NOUN}), (?:and )?"
+        r"not (?:out |over |up |down )?here(?=[.;!]|$)",
+        r"\1",
+    ),
+    # "The pens must all stay where they are"
+    (
+        rf"\b({_NOUN}s) ({_MUST}) all (?=(?:remain|stay|be|go|end)\b)",
+        lambda said: f"all {said[1]} {said[2]} ",
+    ),
     # "Stack the cups. The red one must not be on top"
     (
         r"^((?:please )?(?:stack|pile)(?: up)? (?:(?:all|both)(?: of)? )?(?:the|these|my) "

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from operator import add
+
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.conditions.left_alone import UNTOUCHED
-from etot_cli.reasoning.language.grammar.conditions.prohibitions import NOTHING_ELSE, NOTHING_MORE
+from etot_cli.reasoning.language.grammar.conditions.prohibitions import (
+    NOTHING_ELSE,
+    NOTHING_MORE,
+    WITHOUT,
+)
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     NOTHING,
     Parser,
@@ -251,7 +257,11 @@ JOINED = either(
         small_words.THEN_JOINTS,
         OPTIONAL_COMMA,
         EMPTY_WORDS,
-        either(_ONCE_MORE_OR_NARRATED, HEADLINE),
+        either(
+            _ONCE_MORE_OR_NARRATED,
+            # "…, and then the cup on the tray, without touching the pen"
+            sequence(HEADLINE, optional(plain(WITHOUT), ()), build=add),
+        ),
     ),
     joint(
         # "Into the bin with the apple, then with the pear"

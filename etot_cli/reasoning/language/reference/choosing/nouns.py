@@ -85,7 +85,7 @@ def matched(
     if not phrase.joined:
         quantity = quantity_of(phrase.determiner)
         plain = not (phrase.modifiers or phrase.without or quantity.every or words[1:])
-        return match_words(
+        match = match_words(
             words,
             vocabulary,
             phrase.text,
@@ -98,6 +98,9 @@ def matched(
                 item.prep is Prep.SIDE and item.words[0] == "from" for item in phrase.modifiers
             ),
         )
+        if phrase.determiner == "a pair of" and any(entry.is_pair() for entry in match.entries):
+            raise ReferenceProblem(phrase.text, "say whether that is one thing or two", 2)
+        return match
     adjectives, head = words[:-1], words[-1]
     own = phrase.words[:-1]
     ways = [word for word in own if basic_color(word)]

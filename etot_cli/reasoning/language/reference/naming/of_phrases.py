@@ -38,7 +38,9 @@ def packed(phrase: NounPhrase) -> NounPhrase | None:
         inner.determiner or inner.modifiers or is_descriptive(inner.words[0])
     ):
         return plain.called(*inner.words, phrase.head)
-    if pack == "pair" and inner.words[-1] in PAIRED and not inner.determiner:
+    # Of glasses to drink from nobody speaks of "pairs"; "a pair" may be two of them.
+    glasses = phrase.head == "pairs" and inner.words[-1] == "glasses"
+    if pack == "pair" and (glasses or inner.words[-1] in PAIRED) and not inner.determiner:
         pair = plain.called(*inner.words)
         return replace(pair, modifiers=(*inner.modifiers, *pair.modifiers))
     return None
