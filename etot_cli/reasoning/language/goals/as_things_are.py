@@ -182,8 +182,8 @@ def _holds(state: Understanding, condition: Condition) -> bool:
         _overlap(at, other) for thing in about for at in _around(thing, scene) for other in touched
     ):
         raise ReferenceProblem(condition.text, "what is done before it may change that", 3)
-    subjects = tuple(map(Thing, scene.states)) if anything else subjects
-    ways = [_ways(condition, subjects, at, scene) for at in places or (None,)]
+    everything = tuple(map(Thing, scene.states))
+    ways = [_ways(condition, subjects or everything, at, scene) for at in places or (None,)]
     if any(way != ways[0] for way in ways):
         raise ReferenceProblem(condition.text, "say what it is in or on", 3)
     (so, *_) = ways
@@ -202,6 +202,10 @@ def _ways(
     Raises:
         ReferenceProblem: that cannot be told of all, and of none it is said.
     """
+    one_is_enough = condition.there is not None
+    subjects = [thing for thing in subjects if not (one_is_enough and thing == place)]
+    if not subjects:  # "if the teapot contains tea"
+        raise ReferenceProblem(condition.text, "say what is in or on it", 3)
     found: set[bool] = set()
     problem: ReferenceProblem | None = None
     for thing in subjects:
@@ -209,7 +213,7 @@ def _ways(
             found.add(_is_so(condition, thing, place, scene))
         except ReferenceProblem as error:
             problem = error
-    if problem is not None and not (condition.there is not None and True in found):
+    if problem is not None and not (one_is_enough and True in found):
         raise problem
     return found
 

@@ -49,7 +49,8 @@ _ROOM = (
     r"|(?:the|that) (?:whole )?(?:surface|spot|area))"
 )
 _WHERE = (
-    r"(?: (?:left|to (?:work|write|cook|eat|play|breathe)|(?:over |in )?here|there|now"
+    r"(?: (?:left|to (?:work|write|cook|eat|play|breathe)|(?:over |in )?here|there"
+    r"|now|later(?: on)?|soon"
     r"|(?:in|on|for) (?:the|a|an|my|our|this|some|another) (?:\w+ ){0,2}?\w+"
     r"|for (?:something|other things|more things|(?:something|anything) else|\w+ing)))*"
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from msgspec.structs import replace
@@ -87,8 +88,9 @@ def _there_is(np: NounPhrase, so: Any) -> Condition | None:
     noun, anything = np.head, np.head in _ANYTHING
     if np.determiner not in _SOME or np.modifiers or np.owner or noun in ("", "left"):
         return None
-    if anything and np.words[1:]:
-        return None
+    much = np.determiner in ("", "some") and singular(noun) == noun and not np.may_be_much
+    if np.words[1:] or isinstance(so, str) if anything else much:
+        return None  # of tea in a cup no scene knows, and "it" is no one of what is open
     every = replace(np, determiner="every" if singular(noun) == noun else "all")
     condition = condition_of((replace(np, determiner="the"),), False, so)
     if condition is None:
@@ -96,13 +98,26 @@ def _there_is(np: NounPhrase, so: Any) -> Condition | None:
     where, told = condition.place, replace(np, determiner="the")
     if anything:
         told = replace(np, words=(EVERYTHING,))
+    elif np.determiner.endswith("of the"):
+        told = told.called(singular(noun))
     if where is None:
-        told = replace(told, words=(condition.word, *np.words))
+        told = replace(told, words=(condition.word, *told.words))
     else:
         at = Prep.IN if where.toward is Toward.INSIDE else Prep.ON
         told = told.told_by(Modifier(at, where.targets))
     none = np.determiner == "no" or noun == "nothing"
     return replace(condition, subjects=(every,), denied=none, some=not none, there=told)
+
+
+def _holding(holder: NounPhrase, denied: bool, what: NounPhrase, at: Toward) -> Condition | None:
+    """That there is something in or on a thing, said of that ("the cup has a pen in it")."""
+    where = (Destination(at, (holder,)),)
+    if what.determiner in nouns.THE_WORDS:
+        return condition_of((what,), denied, where)
+    found = _there_is(what, where)
+    if not denied or found is None:
+        return found
+    return None if found.denied else replace(found, denied=True, some=False)
 
 
 def _such_a(np: NounPhrase) -> Condition | None:
@@ -185,7 +200,18 @@ _OF_SOME = either(
     sequence(NOW, _WHAT, NOW, _STANDING, _WORD, NOW, build=_there_is),
     sequence(NOW, noun_phrase, NOW, build=_such_a),
 )
+_HOLDS = one_of({False: "has, contains, holds", True: "does not (have|contain|hold)"})
+_WITHIN = one_of(
+    {Toward.INSIDE: "in (it|there), inside [it]", Toward.ON: "on (it|top), on top of it"}
+)
 _THERE_IS = either(
+    sequence(noun_phrase, NOW, _HOLDS, NOW, _WHAT, NOW, _WITHIN, NOW, build=_holding),
+    sequence(
+        noun_phrase,
+        one_of({False: "contains", True: "does not contain"}),
+        _WHAT,
+        build=partial(_holding, at=Toward.INSIDE),
+    ),
     sequence("there (is|are)", _OF_SOME),
     sequence(_WHAT, _BE, NOW, _STANDING, _WORD, NOW, build=_there_is),
 )

@@ -67,6 +67,12 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?=[^.;:]*\b(?:may|can|do|must|never|no|nothing|neither|without|only|keep|off)\b))",
         lambda said: f"{said[1]}{said[2]} must not be " if said[2] else said[1],
     ),
+    # "… It can go on the shelf instead, on the top board, and the pen in the cup"
+    (
+        r"(?<=[.;!] )((?!(?:if|when|once|unless|as)\b)[^.;!?:,]+?) instead"
+        r"(?=,? and\b|, (?:in|on|inside)\b)",
+        r"instead, \1",
+    ),
     # "Starting with the cup and followed by the pen, put both of them in the box"
     (
         rf"(^|[.;!] )(?:starting|beginning) with ({_NOUN}),? (?:and )?(?:followed by|then)"

@@ -45,11 +45,15 @@ from etot_cli.reasoning.language.words import manner, predicates, small_words, v
 from etot_cli.reasoning.language.words.nouns import THE_WORDS
 from etot_cli.reasoning.language.words.places import Prep
 
+_ONE = frozenset({"a", "an", "some", "one", "one of the", "any of the", "any one of the"})
+
 
 def _if_not_so(subjects: tuple[NounPhrase, ...], word: str, moved: MoveClause) -> MoveClause | None:
     """In "if the drawer is closed, open it": what is open already stays so anyway."""
     again = moved.things.phrases[0].pronoun and len(moved.things.phrases) == 1
-    if not again or moved.opens == (word == "open"):
+    # "If one of the drawers is open, close it" is about the one that is
+    one = any(np.determiner in _ONE or np.head in ("anything", "something") for np in subjects)
+    if not again or one or moved.opens == (word == "open"):
         return None
     return MoveClause(Things(subjects), moved.opens, guarded=True)
 
