@@ -111,9 +111,9 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         said
         for part in parted
         for said in (
-            named_in(of_which(part.before, rest), is_name),
+            named_in(of_which(part.before, rest), is_name, rest),
             part.rest,
-            named_in((item.said for item in part.after), is_name),
+            named_in((item.said for item in part.after), is_name, rest),
         )
     )
     return Plain(
@@ -122,6 +122,15 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         tuple(_as_told(item, part) for part in parted for item in part.asides
               if item.kind == "anyway"),
     )  # fmt: skip
+
+
+def only_tells(text: str, is_name: IsName) -> bool:
+    """Whether nothing is asked for by a text, so that nothing can be taken back behind it."""
+    return all(
+        clauses[at].is_polite or is_aside(clauses, at, is_name)
+        for clauses in map(clauses_of, sentences_of(text))
+        for at in range(len(clauses))
+    )
 
 
 def _without_confirmation(sentences: Sequence[str]) -> list[str]:
@@ -209,11 +218,13 @@ def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
         if part.rest and told and _THEN.search(part.rest):
             return True
         told = not part.rest
-        for item in part.asides:
+        for item in part.before if part.rest else part.asides:
             if names_stranger(item.said, is_name) or wants_such_a_thing(item.said, is_name):
                 # "My teeth are in the cup, so do not touch it": the cup.
                 several = stranger_is_there(item.said, is_name) and " are " in item.said
                 meaning |= _OF_SEVERAL if several else PRONOUNS
+            elif named_in((item.said,), is_name):
+                meaning = frozenset()  # what was named last is meant
         if part.rest:
             if refers_back(part.rest.split(), is_name, meaning):
                 return True

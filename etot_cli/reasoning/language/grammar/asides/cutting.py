@@ -57,6 +57,9 @@ _IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your")
 
 _ASKED = Expression(r"(?:(?:so|please|kindly|but|and) )*(?:can|could|would|will|please|kindly)\b")
 """What begins a request."""
+_NEXT = Expression(
+    r"^(?:(?:then|afterwards|after that|next|please|also|you can|(?:can|could|would) you) )+"
+)
 _DOES_WITH_IT = Expression(r"you \w+ (?:up )?(?:it|them|either|both|any|anything)\b")
 """What the robot does comes later than what is done before it."""
 
@@ -116,13 +119,15 @@ class _Place(Struct, frozen=True):
     def behind(self) -> str:
         """What the next clause says."""
         after = self.clauses[self.at + 1 : self.at + 2]
-        return after[0].said.removeprefix("then ") if after else ""
+        return _NEXT.sub("", after[0].said) if after else ""
 
     @property
     def is_last(self) -> bool:
         """Whether nothing that asks for anything else follows."""
         polite = all(item.is_polite for item in self.clauses[self.at + 1 :])
-        return polite or is_doing((self.behind.split() or [""])[0])
+        first = (self.behind.split() or [""])[0]
+        goes_on = first == "with" and not any(map(self.is_name, self.said.split()))
+        return polite or is_doing(first) or goes_on
 
     @property
     def trails(self) -> bool:
@@ -202,10 +207,13 @@ def _is_for_later(place: _Place) -> bool:
     said = place.said
     does = f"{said} ".startswith("you do ") or _DOES_WITH_IT.match(said)
     named = does or any(map(place.is_name, said.split()))
-    if place.at == 0 and not all(item.is_polite for item in place.clauses[1:]):
+    if all(item.is_polite for item in place.clauses[: place.at]) and not all(
+        item.is_polite for item in place.clauses[1:]
+    ):
         # "Before you do that, …" is about an order.
         told = not re.match(r"(?:you|we|i)\b", said)
-        return befalls(said) or (told and not named and is_remark(said, place.is_name))
+        told = told and (is_remark(said, place.is_name) or is_talk(said, place.is_name, timed=True))
+        return befalls(said) or (told and not named)
     return place.trails and (befalls(said) or not named)
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
+from etot_cli.reasoning.language.grammar.asides.people import ON_ARRIVAL_THEN, PEOPLE
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import LINKS
@@ -82,8 +82,10 @@ _MOVED_NEXT = Expression(
     r"(?:open|close|shut) (?:it|them|that)\b(?! one\b)"
 )
 _ASKED_FOR = Expression(
-    rf"{PEOPLE} (?:(?:has|have|had|just|also|already) )*(?:asked for|ordered|requested|chosen) "
-    rf"(?:the|that|this) (?:(?!(?:{'|'.join(sorted(LINKS))})\b)\w+ ){{0,3}}?(?P<m>\w+)(?P<n>)"
+    rf"{PEOPLE} (?:(?:has|have|had|just|also|already|always|often) )*"
+    rf"(?:ask(?:ed|s)? for|(?:is|are) waiting for|ordered|requested|chosen) "
+    rf"(?:the|that|this|his|her|their) "
+    rf"(?:(?!(?:{'|'.join(sorted(LINKS))})\b)\w+ ){{0,3}}?(?P<m>\w+)(?P<n>)"
 )
 """Of what was asked for, more is said next; it is neither placed nor told from others by this."""
 _HELPING = word_set(
@@ -130,6 +132,7 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
 
 def _found(said: str) -> tuple[str, str] | None:
     """What a clause is about, and whether it says that it is open or closed."""
+    said = ON_ARRIVAL_THEN.sub("", said)
     for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _BUMPED, _HALF_DONE, _MISPLACED, _ASKED_FOR):
         if found := pattern.fullmatch(said):
             told = found.groupdict()

@@ -101,7 +101,7 @@ _CALLING = (
 """Of a sentence with one of these nothing is passed over."""
 
 
-def is_talk(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
+def is_talk(said: str, is_name: IsName, *, before_so: bool = False, timed: bool = False) -> bool:
     """Whether this is what a sentence or clause is.
 
     Nobody goes on with "so" behind what is asked for in a clause without a verb ("the spare keys").
@@ -110,6 +110,7 @@ def is_talk(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
         said: normalized, with commas as words of their own.
         is_name: whether something in the scene is called by a word.
         before_so: whether the next clause begins with that.
+        timed: whether it stands behind "before".
     """
     if _ON_ME.fullmatch(said):
         return True
@@ -126,7 +127,7 @@ def is_talk(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
     begun = words[: words.index(COMMA)] if COMMA in words else words
     if begun[:1] == ["there"] and {*begun[1:2]} & {"is", "was", "are", "were"}:
         return not (_REFERRING | {*STATES}) & {*begun[2:]}
-    return _is_of_stranger(begun, timed=timeless != told, before_so=before_so)
+    return _is_of_stranger(begun, timed=timed or timeless != told, before_so=before_so)
 
 
 def _is_of_stranger(words: Sequence[str], *, timed: bool, before_so: bool) -> bool:
@@ -153,7 +154,7 @@ def _may_be_verb(word: str, subject: str) -> bool:
     """Whether a word behind its subject says what that does or did."""
     if word in _FINITE or is_past(word):
         return not is_descriptive(word)
-    several = subject.endswith("s") and not subject.endswith("ss")
+    several = subject.endswith("s") and not subject.endswith(("ss", "us"))
     return word.endswith("s") and not word.endswith(("ss", "us", "is")) and not several
 
 

@@ -36,9 +36,11 @@ _IN_PASSING = Expression(
     r"|(?:it|they) (?:is|are) (?:going|about) to (?:be|get) (?P<done>\w+(?:ed|t|n))"
     r"(?: (?:today|tomorrow|tonight|soon|later|next week|this week|in a (?:minute|moment)))?)"
 )
-_WHENEVER = Expression(r" (?:when|whenever|if|as soon as) (?:it|they|i|we|somebody|one) [^~]+$")
+_WHENEVER = Expression(rf" (?:when|whenever|if|as soon as) (?:it|they|one|{PEOPLE}) [^~]+$")
 """When something does what it does ("the tube leaks when it lies down")."""
-_YONDER = Expression(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
+_YONDER = Expression(
+    r"(?: (?:(?:over|up|down|in|out) )?(?:here|there))?(?: since (?:last )?\w+(?: o 'clock)?)?$"
+)
 _PREDICATE = Expression(
     r"(?:(?:is|are|was|were|has|have|had)(?: not| been| got)?|(?:does|do|did|will|can) not"
     r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|broke"
@@ -71,6 +73,8 @@ _NO_PLACE = Expression(
     rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
+    r"|^(?:is|are) (?:(?:just|much|simply|so much|a lot|also) )*(?:easier|safer|quicker|handier)"
+    r"(?: to (?:reach|get at|get to|find|see|grab|use|clean))?(?: (?:there|that way|like that))?$"
     r"|^are (?:in|on|at) (?:each other|one another) 's (?:spot|place|position|seat)s?$"
     r"|^(?:(?:always|constantly|often|just|only|easily) )*(?:roll|slide|slip|fall|tip|topple)s? "
     r"(?:off|over|away|down|around|everywhere|out)(?: (?:again|easily|constantly))?$"
