@@ -37,8 +37,7 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     words_in,
 )
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import STATES, word_set
+from etot_cli.reasoning.language.words.lexicon import word_set
 
 MOST = 4
 """Remarks of one instruction; who has more to tell may be asking for something by it."""
@@ -165,8 +164,6 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     ):
         return _Parted("", tuple(clauses))
     cut = [at for at in range(len(clauses)) if is_aside(clauses, at, is_name)]
-    if cut and all(at in cut or _is_sigh(item.said, is_name) for at, item in enumerate(clauses)):
-        cut = [*range(len(clauses))]
     # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
     outside = len(cut) == len(clauses) and not is_of_people(sentence)
     forced = outside or any(is_no_phrase(clauses[at], is_name) for at in cut)
@@ -183,15 +180,6 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
         tuple(clauses[at] for at in cut if at < first),
         tuple(clauses[at] for at in cut if at > first),
     )
-
-
-def _is_sigh(said: str, is_name: IsName) -> bool:
-    """Whether a few words beside what somebody tells ask for nothing: no verb, no pronoun and
-    nothing that is named is among them ("silly me").
-    """
-    words = {*said.split()}
-    asking = VERB_WORDS - {"me"} | OTHER_VERBS | BEFORE_NAMES | PRONOUNS | {*STATES}
-    return len(words) <= MOST and not (words & asking or any(map(is_name, words)))
 
 
 def _left_of(clauses: Sequence[Clause], at: int, cut: Collection[int]) -> str:

@@ -47,12 +47,6 @@ _LEFT_SO = Expression(
     rf"(?:{PEOPLE}|they|you) (?:(?:have|has|had|just|again|always|once) )*"
     rf"(?:left|leaves?|forgot|keeps? leaving) {_thing('e')}{_how('f')}"
 )
-_BUMPED = Expression(
-    rf"{PEOPLE} (?:(?:keeps?|always|constantly|often|just|have|has|had|nearly|almost) )*"
-    r"(?:bump|bang|hit|knock|hurt|stub|trip|catch|scrape|bruise|caught)\w*"
-    r"(?: (?:my|our|his|her|their) (?:\w+ )??\w+)? (?:on|into|against|over|in) "
-    rf"{_thing('g')}(?P<h>)"
-)
 _HALF_DONE = Expression(
     rf"do not (?:just |simply )?(?:leave|keep) {_thing('i')}"
     rf"(?: (?:only|just))?(?: (?:half|partly|slightly))? "
@@ -133,7 +127,7 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
 def _found(said: str) -> tuple[str, str] | None:
     """What a clause is about, and whether it says that it is open or closed."""
     said = ON_ARRIVAL_THEN.sub("", said)
-    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _BUMPED, _HALF_DONE, _MISPLACED, _ASKED_FOR):
+    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _HALF_DONE, _MISPLACED, _ASKED_FOR):
         if found := pattern.fullmatch(said):
             told = found.groupdict()
             if told.get("does") in _HELPING:

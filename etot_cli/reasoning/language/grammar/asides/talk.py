@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.grammar.asides.facts import (
     HOLDING_TRUE,
     is_past,
 )
-from etot_cli.reasoning.language.grammar.asides.people import OWN, PEOPLE
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.grammar.text.splitting import COMMA
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS
@@ -80,11 +80,6 @@ _HAPPENS = word_set(
 _SOME_PLACE = Expression(
     r"(?:this|the|our|my) (?:whole |entire )?(?:place|room|world|house) (?:is|looks|smells|feels) "
 )
-_ON_ME = Expression(
-    r"(?:there is|(?:i|we) have(?: got)?) (?!to\b)(?:\w+ ){1,4}?(?:on|under|in|all over) "
-    rf"(?:my|our) (?:{OWN})"
-)
-"""On somebody's body, where the robot finds nothing, whatever it is called ("grease")."""
 _SIDE = Expression(r"\b(?:(?:on|to|at) (?:the|my|our|his|her|their) )?(?:left|right) (?:hand|side)")
 _CALLING = (
     (ASKING - word_set("not never no none nothing if when until could only go goes would like"))
@@ -112,8 +107,6 @@ def is_talk(said: str, is_name: IsName, *, before_so: bool = False, timed: bool 
         before_so: whether the next clause begins with that.
         timed: whether it stands behind "before".
     """
-    if _ON_ME.fullmatch(said):
-        return True
     told = BEFORE_SUBJECT.sub("", said.replace(" 's ", "s "))
     timeless = _WHEN.sub("", told)
     words = timeless.split()

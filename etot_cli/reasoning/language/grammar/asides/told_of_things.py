@@ -52,12 +52,6 @@ _A_BIT = Expression(
     r" (?:a (?:little|bit|lot)|quite a bit|by now|all the time|so often|every time)(?= |$)"
 )
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
-_TOO_BIG = Expression(
-    r"^(?:is|are) (?:just |far |much |a bit |a little )*too \w+ "
-    r"(?:to (?:stand|fit|lie|sit|go|be put)(?: (?:up|upright|straight|standing up|in|inside))?|for)"
-    r"(?: (?:(?:in|into|on|onto|inside) )?(?:there|it|that|(?:the|my) (?:\w+ ){0,3}\w+))?$"
-)
-"""Why something lies rather than stands somewhere, or goes elsewhere."""
 _NOT_STAYING = (
     r"(?:can|must|should|may|does|do) not (?:be (?:left|kept)|stay|remain"
     r"|(?:stand|lie|sit|belong|live|be|go)(?= (?:(?:up|down|over|out) )?(?:here|there)$))"
@@ -161,7 +155,7 @@ def _named_until(words: Sequence[str], is_name: IsName) -> int:
 
 def is_idle(predicate: str, is_name: IsName) -> bool:
     """Whether a predicate is such a one."""
-    if _TOO_BIG.match(predicate) or _TOO_SO.fullmatch(predicate):
+    if _TOO_SO.fullmatch(predicate):
         return True
     predicate = _TOO_SO.sub("is so", _A_BIT.sub("", predicate))
     needed = _NEEDED.match(predicate)
