@@ -34,7 +34,7 @@ _WITHIN = Expression(
     r"(?:(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
     rf"|(?P<reason>because|since(?! {_SOME_TIME})|now that|given that|seeing (?:as|that)"
     r"|considering that|although|even though|even if|in case"
-    rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
+    rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b| you found\b))\b"
     rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
     r"|before(?= (?:the|my|our) (?:\w+ ){1,2}(?:arrives?|comes?|starts?|begins?|leaves?)\b)"
     rf"|before(?= {BEFORE_IT_DOES}(?:$| {COMMA}))|or(?= (?:{PEOPLE}|it|they) \w+)"

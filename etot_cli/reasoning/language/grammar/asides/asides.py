@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause, clauses_of
 from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES, PRONOUNS, IsName
-from etot_cli.reasoning.language.grammar.asides.cutting import is_aside, is_no_phrase
+from etot_cli.reasoning.language.grammar.asides.cutting import is_aside
 from etot_cli.reasoning.language.grammar.asides.displeasure import is_answered
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open, is_wondering
 from etot_cli.reasoning.language.grammar.asides.named_in_asides import (
@@ -164,11 +164,8 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     ):
         return _Parted("", tuple(clauses))
     cut = [at for at in range(len(clauses)) if is_aside(clauses, at, is_name)]
-    # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
-    outside = len(cut) == len(clauses) and not is_of_people(sentence)
-    forced = outside or any(is_no_phrase(clauses[at], is_name) for at in cut)
     granted = any(clause.joint in GRANTED for clause in clauses)
-    if not (cut or granted) or (is_sentence(sentence) and not forced):
+    if not cut and (not granted or is_sentence(sentence)):
         return _Parted(sentence)
     left = [at for at in range(len(clauses)) if at not in cut]
     rest = " ".join(_left_of(clauses, at, cut) for at in left)

@@ -27,7 +27,6 @@ from etot_cli.reasoning.language.grammar.asides.mishaps import (
 from etot_cli.reasoning.language.grammar.asides.people import is_of_people
 from etot_cli.reasoning.language.grammar.asides.reasons import (
     is_comment,
-    is_made_possible,
     is_purpose,
     is_reason,
     is_warning,
@@ -43,18 +42,13 @@ from etot_cli.reasoning.language.grammar.asides.telling import (
     there_is_such,
 )
 from etot_cli.reasoning.language.grammar.asides.told_of_things import (
-    is_in_passing,
-    is_not_to_stay,
     told_of_thing,
 )
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import lacks_room, wants_such_a_thing
 from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import all_words
 
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
-_IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
-
 _ASKED = Expression(r"(?:(?:so|please|kindly|but|and) )*(?:can|could|would|will|please|kindly)\b")
 """What begins a request."""
 _NEXT = Expression(
@@ -62,34 +56,6 @@ _NEXT = Expression(
 )
 _DOES_WITH_IT = Expression(r"you \w+ (?:up )?(?:it|them|either|both|any|anything)\b")
 """What the robot does comes later than what is done before it."""
-
-
-def is_no_phrase(aside: Clause, is_name: IsName) -> bool:
-    """Whether an aside is one even where the grammar finds a phrase in it, such as a thing called
-    "seed box leaks".
-    """
-    words = () if not told_of_thing(aside.said, is_name) else aside.said.split()
-    strange = any(word not in all_words() and not is_name(word) for word in words)
-    first, verb = (*aside.said.split(), "", "")[:2]
-    outside = (
-        first not in all_words() and not is_name(first) and verb in ("is", "are", "has", "have")
-    )
-    told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
-    told = told or is_not_to_stay(aside.said) or is_desk_wish(aside.said) or lacks_room(aside.said)
-    told = told or (
-        aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
-    )
-    told = told or stranger_is_there(aside.said, is_name)
-    told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
-    told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
-    told = told or wants_such_a_thing(aside.said, is_name)
-    told = told or is_in_passing(aside.said) or tells_fact(_whole_of(aside), is_name)
-    somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
-    told = told or (aside.joint == "before" and somebody)
-    told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
-    told = told or there_is_such(aside.said, is_name)
-    told = told or exclaims(aside.said, is_name) or is_talk(aside.said, is_name, before_so=True)
-    return told or strange or outside
 
 
 def _whole_of(clause: Clause) -> str:

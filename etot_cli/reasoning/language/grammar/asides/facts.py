@@ -264,7 +264,7 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
                 or (named and then == "waiting")
                 or _is_asked_for({then} - {"coming"})
             )
-            return not (asked or _is_placed(more, is_name))
+            return not (asked or (then == "serving" and _is_placed(more, is_name)))
         over = first in ("was", "were") and not _is_placed(more, is_name)
         named &= not _is_complement(more, is_name)
         return then not in ("to", "after") and (over or not (named or _TOLD & {*more}))

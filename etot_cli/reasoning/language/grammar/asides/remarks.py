@@ -98,6 +98,10 @@ def is_unused(said: str) -> bool:
     return bool(_UNUSED.match(said))
 
 
+_PLACING = ("like", "love", "hate", "is", "are", "am", "has", "have")
+"""Behind which a place says where something is to be, or somebody is no thing of the scene."""
+
+
 def is_remark(said: str, is_name: IsName) -> bool:
     """Whether this tells what somebody did, or how things outside of the scene are."""
     if is_of_people(said) and (then := ON_ARRIVAL_THEN.search(said)):
@@ -128,7 +132,7 @@ def is_remark(said: str, is_name: IsName) -> bool:
         if happened[0].startswith(("would hate", "do not want")):
             return not any(map(is_name, words))
         placed = PLACED & {*did} and any(map(is_name, did))
-        if did[:1] == ["to"] or (placed and happened[0].startswith(("like", "love", "hate"))):
+        if did[:1] == ["to"] or (placed and happened[0].startswith(_PLACING)):
             return False  # "nobody is to use it", "she likes the cup on the tray"
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
         return not ((WORK | ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
