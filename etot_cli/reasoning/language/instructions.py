@@ -37,7 +37,7 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
     try:
         return read_plainly(text, scene, vocabulary)
     except (UnreadableError, ReferenceProblem) as error:
-        goal = None if mark_in(text) else _otherwise(said, scene, vocabulary)
+        goal = _otherwise(said, scene, vocabulary)
         if goal is None:
             raise _refused(error, instruction, scene, vocabulary) from None
         return goal
@@ -45,7 +45,8 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
 
 def _otherwise(said: str, scene: SceneState, vocabulary: Vocabulary) -> Goal | None:
     with suppress(UnreadableError, ReferenceProblem):
-        return read_plainly(normalized(said), scene, vocabulary, common=True)
+        if not mark_in(normalized(said)):
+            return read_plainly(normalized(said), scene, vocabulary, common=True)
     # Reading asides is a tenth of the grammar, which few instructions need.
     from etot_cli.reasoning.language.otherwise import read_otherwise
 

@@ -15,10 +15,11 @@ from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import Goal
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.plausibility import plans_of
-from etot_cli.reasoning.language.grammar.asides.asides import without_asides
+from etot_cli.reasoning.language.grammar.asides.asides import only_tells, without_asides
 from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized, read
+from etot_cli.reasoning.language.grammar.text.corrections import mark_in
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION, sentences_of, words_in
 from etot_cli.reasoning.language.plainly import is_name, read_plainly, reads
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
@@ -89,7 +90,8 @@ def read_otherwise(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """The goal of an instruction, some of whose words only tell something; None where no way to
     leave them out leads to one.
     """
-    for way in (_from_start, _below_heading, _as_end_state, _beside_asides):
+    ways = (_from_start, _below_heading, _as_end_state, _beside_asides)
+    for way in ways[-1:] if mark_in(normalized(instruction)) else ways:
         with suppress(UnreadableError, ReferenceProblem):
             return way(instruction, scene, vocabulary)
     return None
@@ -190,12 +192,11 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     Raises:
         UnreadableError, ReferenceProblem: there are none, or the rest is not read.
     """
-    plain = without_asides(
-        normalized(instruction),
-        partial(is_name, vocabulary=vocabulary),
-        partial(_is_sentence, vocabulary=vocabulary),
-    )
-    if plain is None:
+    text = normalized(instruction)
+    named = partial(is_name, vocabulary=vocabulary)
+    plain = without_asides(text, named, partial(_is_sentence, vocabulary=vocabulary))
+    mark = mark_in(text)
+    if plain is None or (mark and not only_tells(text[: mark.start()], named)):
         raise UnreadableError(instruction, "")
     for aside in plain.asides:
         if re.search(rf"{_IF}[^.,:;!?]*? (?:and|or) {re.escape(aside)}", normalized(instruction)):

@@ -103,6 +103,7 @@ WITHOUT_MEANING = f"""
     (the|this|that|my|all the|all this) (mess|clutter|chaos|muddle|noise|smell|dust),
     what a mess [(in|around|over|) here|[over|in|] there|this is],
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
+    ~comma [as] you [can] (see|know),
     ~comma i (think|believe|guess|suppose|reckon|would say), maybe, perhaps,
     chop chop, quick march, asap, as soon as (possible|you can),
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],

@@ -5,7 +5,11 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.manner import THE_ONE_HAND
 from etot_cli.reasoning.language.words.verbs import THE_ROBOT
 
-ANNOUNCED = "(two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)]"
+ANNOUNCED = """
+    (two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)],
+    [just] [a|one] (quick|small|last) (one|thing|request|favour|favor) [for you],
+    do (it|this) (the way|as|like) (i|we) (always|usually) (do|like|have|want) [it]
+"""
 """Before what is to be done."""
 TIDYING = """
     [it is] [now] time to (tidy|clean) up, (tidy up|clean up|cleanup) time,
@@ -70,9 +74,9 @@ GREETINGS = f"""
     for (safety|hygiene|security) reasons, for (heaven|pete|goodness|god) 's sake,
     believe it or not, you will not believe (it|this),
     thanks for (your|the) help [(yesterday|today|earlier|last time)],
-    ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm,
-    great, um, [my] dear ~comma, now then, come on,
-    (hang|hold) on [a (second|moment|minute)] ~comma, listen [up] ~comma,
+    ugh, oops, whoops, ouch, yikes, gosh, phew, aw, hmm, sigh, silly me,
+    great, um, uhm, uh, erm, er, [my] dear ~comma, now then, come on,
+    (hang on|hold on|wait) [a (second|moment|minute)] ~comma, listen [up] ~comma,
     (hey|hi|hello) there, alright, all right, so, and, but, {TASK}, {TIDY_UP},
     [just] as a [first|quick|simple|little|short] (warm up|test|exercise|try) [~comma]
 """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cache
+from itertools import takewhile
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -19,18 +20,23 @@ from etot_cli.reasoning.language.grammar.asides.where_needed import done_where_n
 from etot_cli.reasoning.language.grammar.text.splitting import COMMA
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.fillers import ANY_ONE, WITHOUT_MEANING
-from etot_cli.reasoning.language.words.frames import ANNOUNCED, TIDYING
+from etot_cli.reasoning.language.words.frames import ANNOUNCED, GREETINGS, TIDYING
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, word_set
 from etot_cli.reasoning.language.words.patterns import Begun
 
 _DOING = "|".join(sorted(VERB_WORDS | {"open", "close", "shut"}))
+_SOME_TIME = (
+    rf"(?:{'|'.join(sorted(NUMBERS))}|noon|midnight|yesterday|breakfast|lunch|dinner|last \w+)"
+    rf"(?: o 'clock)?(?:$| {COMMA})"
+)
 _WITHIN = Expression(
     r"(?:(?P<provided>(?:just )?(?:as|so) long as|provided(?: that)?)\b"
-    r"|(?P<reason>because|since|now that|given that|seeing (?:as|that)|considering that"
-    r"|although|even though|even if|in case"
-    rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b))\b"
+    rf"|(?P<reason>because|since(?! {_SOME_TIME})|now that|given that|seeing (?:as|that)"
+    r"|considering that|although|even though|even if|in case"
+    rf"|as(?= (?:{PEOPLE}|it) )(?! it is\b| you found\b))\b"
     rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
+    r"|before(?= (?:the|my|our) (?:\w+ ){1,2}(?:arrives?|comes?|starts?|begins?|leaves?)\b)"
     rf"|before(?= {BEFORE_IT_DOES}(?:$| {COMMA}))|or(?= (?:{PEOPLE}|it|they) \w+)"
     rf"|or(?= {THING_WILL}(?:$| {COMMA})))\b"
     r"|(?P<plain>(?:and|but|without)"
@@ -55,7 +61,7 @@ _AHEAD = Expression(
     r"(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
     r"|as(?= (?:it is|they are) (?:going|\w+ing|not|so|too|very|rather|quite|getting)\b)|though)\b"
     r"|(?P<comment>which|who)\b|(?P<purpose>otherwise)\b"
-    r"|(?P<plain>and so|and|but|that is why|therefore|hence)\b)"
+    r"|(?P<plain>and so|and|but|(?:and )?that is why|therefore|hence)\b)"
 )
 """Words that one begins with behind a comma, or as the first of a sentence."""
 
@@ -63,17 +69,20 @@ _AHEAD = Expression(
 @cache
 def _nothing_said() -> Begun:
     """What asks for nothing; its spellings are too many to be written out."""
-    return Begun.of({True: f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}"})
+    nothing = f"{WITHOUT_MEANING}, {TIDYING}, {ANY_ONE}, {ANNOUNCED}"
+    return Begun.of({"wherever": nothing, "outside": GREETINGS})
 
 
-def says_nothing(said: str) -> bool:
-    """Whether a sentence or clause asks for nothing."""
+def says_nothing(said: str, *, outside: bool = True) -> bool:
+    """Whether a sentence or clause asks for nothing; "er" does only ``outside`` what is asked for,
+    within which it takes something back.
+    """
     words = said.replace(",", f" {COMMA}").split()
     for row in (words, [COMMA, *words]):
         at: Begun | None = _nothing_said()
         for word in row:
             at = at and at.following.get(word)
-        if words and at and at.values:
+        if words and at and at.values and (outside or "wherever" in at.values):
             return True
     return False
 
@@ -119,19 +128,27 @@ class Clause(Struct, frozen=True):
         return " ".join(filter(None, (COMMA * self.comma, self.joint, self.said)))
 
     @property
+    def full(self) -> str:
+        """Without the comma."""
+        return f"{self.joint} {self.said}".strip()
+
+    @property
     def whole(self) -> str:
         """The clause with the joint that belongs to it."""
-        return self.said if self.kind == "plain" else f"{self.joint} {self.said}".strip()
+        return self.said if self.kind == "plain" else self.full
 
     @property
     def is_polite(self) -> bool:
         """Whether there is nothing to be told in it."""
-        return self.kind == "polite" or says_nothing(f"{self.joint} {self.said}".strip())
+        return self.kind in ("polite", "greeting") or says_nothing(self.full, outside=False)
 
 
 def clauses_of(sentence: str) -> list[Clause]:
     """The clauses of a sentence: what is asked for by "as long as", and what is done anyway."""
     clauses = list(_with_what_is_done(list(_clauses(sentence))))
+    for ends in (range(len(clauses)), reversed(range(len(clauses)))):
+        for at in takewhile(lambda end: says_nothing(clauses[end].full), ends):
+            clauses[at] = replace(clauses[at], kind="greeting")
     return [_asked_for(clauses, at) for at in range(len(clauses))]
 
 

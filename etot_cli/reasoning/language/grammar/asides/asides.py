@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause, clauses_of
 from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES, PRONOUNS, IsName
-from etot_cli.reasoning.language.grammar.asides.cutting import is_aside, is_no_phrase
+from etot_cli.reasoning.language.grammar.asides.cutting import is_aside
 from etot_cli.reasoning.language.grammar.asides.displeasure import is_answered
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open, is_wondering
 from etot_cli.reasoning.language.grammar.asides.named_in_asides import (
@@ -37,8 +37,7 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     words_in,
 )
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import STATES, word_set
+from etot_cli.reasoning.language.words.lexicon import word_set
 
 MOST = 4
 """Remarks of one instruction; who has more to tell may be asking for something by it."""
@@ -111,9 +110,9 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         said
         for part in parted
         for said in (
-            named_in(of_which(part.before, rest), is_name),
+            named_in(of_which(part.before, rest), is_name, rest),
             part.rest,
-            named_in((item.said for item in part.after), is_name),
+            named_in((item.said for item in part.after), is_name, rest),
         )
     )
     return Plain(
@@ -122,6 +121,15 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         tuple(_as_told(item, part) for part in parted for item in part.asides
               if item.kind == "anyway"),
     )  # fmt: skip
+
+
+def only_tells(text: str, is_name: IsName) -> bool:
+    """Whether nothing is asked for by a text, so that nothing can be taken back behind it."""
+    return all(
+        clauses[at].is_polite or is_aside(clauses, at, is_name)
+        for clauses in map(clauses_of, sentences_of(text))
+        for at in range(len(clauses))
+    )
 
 
 def _without_confirmation(sentences: Sequence[str]) -> list[str]:
@@ -156,13 +164,8 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     ):
         return _Parted("", tuple(clauses))
     cut = [at for at in range(len(clauses)) if is_aside(clauses, at, is_name)]
-    if cut and all(at in cut or _is_sigh(item.said, is_name) for at, item in enumerate(clauses)):
-        cut = [*range(len(clauses))]
-    # "Dinner is ready" and "the bowl for later" are sentences about things that are not there.
-    outside = len(cut) == len(clauses) and not is_of_people(sentence)
-    forced = outside or any(is_no_phrase(clauses[at], is_name) for at in cut)
     granted = any(clause.joint in GRANTED for clause in clauses)
-    if not (cut or granted) or (is_sentence(sentence) and not forced):
+    if not cut and (not granted or is_sentence(sentence)):
         return _Parted(sentence)
     left = [at for at in range(len(clauses)) if at not in cut]
     rest = " ".join(_left_of(clauses, at, cut) for at in left)
@@ -174,15 +177,6 @@ def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
         tuple(clauses[at] for at in cut if at < first),
         tuple(clauses[at] for at in cut if at > first),
     )
-
-
-def _is_sigh(said: str, is_name: IsName) -> bool:
-    """Whether a few words beside what somebody tells ask for nothing: no verb, no pronoun and
-    nothing that is named is among them ("silly me").
-    """
-    words = {*said.split()}
-    asking = VERB_WORDS - {"me"} | OTHER_VERBS | BEFORE_NAMES | PRONOUNS | {*STATES}
-    return len(words) <= MOST and not (words & asking or any(map(is_name, words)))
 
 
 def _left_of(clauses: Sequence[Clause], at: int, cut: Collection[int]) -> str:
@@ -209,11 +203,13 @@ def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
         if part.rest and told and _THEN.search(part.rest):
             return True
         told = not part.rest
-        for item in part.asides:
+        for item in part.before if part.rest else part.asides:
             if names_stranger(item.said, is_name) or wants_such_a_thing(item.said, is_name):
                 # "My teeth are in the cup, so do not touch it": the cup.
                 several = stranger_is_there(item.said, is_name) and " are " in item.said
                 meaning |= _OF_SEVERAL if several else PRONOUNS
+            elif named_in((item.said,), is_name):
+                meaning = frozenset()  # what was named last is meant
         if part.rest:
             if refers_back(part.rest.split(), is_name, meaning):
                 return True

@@ -27,7 +27,6 @@ from etot_cli.reasoning.language.grammar.asides.mishaps import (
 from etot_cli.reasoning.language.grammar.asides.people import is_of_people
 from etot_cli.reasoning.language.grammar.asides.reasons import (
     is_comment,
-    is_made_possible,
     is_purpose,
     is_reason,
     is_warning,
@@ -43,50 +42,20 @@ from etot_cli.reasoning.language.grammar.asides.telling import (
     there_is_such,
 )
 from etot_cli.reasoning.language.grammar.asides.told_of_things import (
-    is_in_passing,
-    is_not_to_stay,
     told_of_thing,
 )
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import lacks_room, wants_such_a_thing
 from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import all_words
 
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
-_IN_THE_WAY = tuple(f" in {whose} way" for whose in ("the", "my", "our", "your"))
-
 _ASKED = Expression(r"(?:(?:so|please|kindly|but|and) )*(?:can|could|would|will|please|kindly)\b")
 """What begins a request."""
+_NEXT = Expression(
+    r"^(?:(?:then|afterwards|after that|next|please|also|you can|(?:can|could|would) you) )+"
+)
 _DOES_WITH_IT = Expression(r"you \w+ (?:up )?(?:it|them|either|both|any|anything)\b")
 """What the robot does comes later than what is done before it."""
-
-
-def is_no_phrase(aside: Clause, is_name: IsName) -> bool:
-    """Whether an aside is one even where the grammar finds a phrase in it, such as a thing called
-    "seed box leaks".
-    """
-    words = () if not told_of_thing(aside.said, is_name) else aside.said.split()
-    strange = any(word not in all_words() and not is_name(word) for word in words)
-    first, verb = (*aside.said.split(), "", "")[:2]
-    outside = (
-        first not in all_words() and not is_name(first) and verb in ("is", "are", "has", "have")
-    )
-    told = aside.is_polite or aside.kind == "benefit" or aside.said.endswith(_IN_THE_WAY)
-    told = told or is_not_to_stay(aside.said) or is_desk_wish(aside.said) or lacks_room(aside.said)
-    told = told or (
-        aside.kind == "purpose" and (is_made_possible(aside.said) or befalls(aside.said))
-    )
-    told = told or stranger_is_there(aside.said, is_name)
-    told = told or goes_to_it(aside.said, "", first=True) or goes_there(aside.said, is_name)
-    told = told or is_unspoilt(aside.said) or goes_with_somebody(aside.said, is_name)
-    told = told or wants_such_a_thing(aside.said, is_name)
-    told = told or is_in_passing(aside.said) or tells_fact(_whole_of(aside), is_name)
-    somebody = is_of_people(aside.said) and not re.match(r"(?:you|we|i)\b", aside.said)
-    told = told or (aside.joint == "before" and somebody)
-    told = told or " or no " in aside.said or dislikes(aside.said) or is_hindering(aside.said)
-    told = told or there_is_such(aside.said, is_name)
-    told = told or exclaims(aside.said, is_name) or is_talk(aside.said, is_name, before_so=True)
-    return told or strange or outside
 
 
 def _whole_of(clause: Clause) -> str:
@@ -116,13 +85,15 @@ class _Place(Struct, frozen=True):
     def behind(self) -> str:
         """What the next clause says."""
         after = self.clauses[self.at + 1 : self.at + 2]
-        return after[0].said.removeprefix("then ") if after else ""
+        return _NEXT.sub("", after[0].said) if after else ""
 
     @property
     def is_last(self) -> bool:
         """Whether nothing that asks for anything else follows."""
         polite = all(item.is_polite for item in self.clauses[self.at + 1 :])
-        return polite or is_doing((self.behind.split() or [""])[0])
+        first = (self.behind.split() or [""])[0]
+        goes_on = first == "with" and not any(map(self.is_name, self.said.split()))
+        return polite or is_doing(first) or goes_on
 
     @property
     def trails(self) -> bool:
@@ -202,10 +173,13 @@ def _is_for_later(place: _Place) -> bool:
     said = place.said
     does = f"{said} ".startswith("you do ") or _DOES_WITH_IT.match(said)
     named = does or any(map(place.is_name, said.split()))
-    if place.at == 0 and not all(item.is_polite for item in place.clauses[1:]):
+    if all(item.is_polite for item in place.clauses[: place.at]) and not all(
+        item.is_polite for item in place.clauses[1:]
+    ):
         # "Before you do that, …" is about an order.
         told = not re.match(r"(?:you|we|i)\b", said)
-        return befalls(said) or (told and not named and is_remark(said, place.is_name))
+        told = told and (is_remark(said, place.is_name) or is_talk(said, place.is_name, timed=True))
+        return befalls(said) or (told and not named)
     return place.trails and (befalls(said) or not named)
 
 

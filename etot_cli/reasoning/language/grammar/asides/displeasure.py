@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
+from etot_cli.reasoning.language.grammar.asides.people import ON_ARRIVAL_THEN, PEOPLE
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import LINKS
@@ -47,12 +47,6 @@ _LEFT_SO = Expression(
     rf"(?:{PEOPLE}|they|you) (?:(?:have|has|had|just|again|always|once) )*"
     rf"(?:left|leaves?|forgot|keeps? leaving) {_thing('e')}{_how('f')}"
 )
-_BUMPED = Expression(
-    rf"{PEOPLE} (?:(?:keeps?|always|constantly|often|just|have|has|had|nearly|almost) )*"
-    r"(?:bump|bang|hit|knock|hurt|stub|trip|catch|scrape|bruise|caught)\w*"
-    r"(?: (?:my|our|his|her|their) (?:\w+ )??\w+)? (?:on|into|against|over|in) "
-    rf"{_thing('g')}(?P<h>)"
-)
 _HALF_DONE = Expression(
     rf"do not (?:just |simply )?(?:leave|keep) {_thing('i')}"
     rf"(?: (?:only|just))?(?: (?:half|partly|slightly))? "
@@ -82,8 +76,10 @@ _MOVED_NEXT = Expression(
     r"(?:open|close|shut) (?:it|them|that)\b(?! one\b)"
 )
 _ASKED_FOR = Expression(
-    rf"{PEOPLE} (?:(?:has|have|had|just|also|already) )*(?:asked for|ordered|requested|chosen) "
-    rf"(?:the|that|this) (?:(?!(?:{'|'.join(sorted(LINKS))})\b)\w+ ){{0,3}}?(?P<m>\w+)(?P<n>)"
+    rf"{PEOPLE} (?:(?:has|have|had|just|also|already|always|often) )*"
+    rf"(?:ask(?:ed|s)? for|(?:is|are) waiting for|ordered|requested|chosen) "
+    rf"(?:the|that|this|his|her|their) "
+    rf"(?:(?!(?:{'|'.join(sorted(LINKS))})\b)\w+ ){{0,3}}?(?P<m>\w+)(?P<n>)"
 )
 """Of what was asked for, more is said next; it is neither placed nor told from others by this."""
 _HELPING = word_set(
@@ -130,7 +126,8 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
 
 def _found(said: str) -> tuple[str, str] | None:
     """What a clause is about, and whether it says that it is open or closed."""
-    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _BUMPED, _HALF_DONE, _MISPLACED, _ASKED_FOR):
+    said = ON_ARRIVAL_THEN.sub("", said)
+    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _HALF_DONE, _MISPLACED, _ASKED_FOR):
         if found := pattern.fullmatch(said):
             told = found.groupdict()
             if told.get("does") in _HELPING:

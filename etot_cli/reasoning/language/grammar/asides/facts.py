@@ -67,7 +67,9 @@ _DONE = word_set(
     """
 )
 """Irregular participles."""
-_NO_REQUEST = OTHER_VERBS | word_set("fallen had run come")
+_SEVERAL = Expression(r" (?:\w*[^s]s|\w*children|ladies|people|women|men)$")
+_COMPLEMENT = word_set("of to about without")
+_NO_REQUEST = OTHER_VERBS | word_set("fallen had run come serve serving")
 """Participles and the like that nobody asks for."""
 _REQUESTS = (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
 _LASTING = word_set(
@@ -257,8 +259,14 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
         if more[:2] == ["going", "to"]:
             return not _is_asked_for(more[2:3])
         if then.endswith("ing"):
-            return not (then in _MEANT or _is_asked_for({then} - {"coming"}))
+            asked = (
+                then in _MEANT
+                or (named and then == "waiting")
+                or _is_asked_for({then} - {"coming"})
+            )
+            return not (asked or (then == "serving" and _is_placed(more, is_name)))
         over = first in ("was", "were") and not _is_placed(more, is_name)
+        named &= not _is_complement(more, is_name)
         return then not in ("to", "after") and (over or not (named or _TOLD & {*more}))
     if first in ("do", "does", "did", "can", "could", "will", "might"):
         able = told.denied or first in ("will", "might")
@@ -270,14 +278,21 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
     return _is_habit(told, first, then) and not _is_placed(more, is_name)
 
 
+def _is_complement(more: Sequence[str], is_name: IsName) -> bool:
+    """Whether things are named only by what somebody is fond, or no fan, of."""
+    of = (more[max(at - 3, 0) : at] for at, word in enumerate(more) if is_name(word))
+    doing = any(word in VERB_WORDS and word.endswith("ing") for word in more)
+    return not doing and all(_COMPLEMENT & {*words} for words in of)
+
+
 def _is_habit(told: _Doing, verb: str, then: str) -> bool:
     """Whether a verb in the present says what somebody does as people do, and robots do not."""
     if verb in HOLDING_TRUE or verb in NO_STRANGERS - OTHER_VERBS - VERB_WORDS:
         return False
     if verb in ("keep", "keeps"):
         return then.endswith("ing") and then not in _LASTING
-    if told.who in ("i", "we", "people"):
-        return not _is_asked_for([verb])
+    if told.who in ("i", "we", "people") or _SEVERAL.search(told.who):
+        return not (_is_asked_for([verb]) or verb.endswith("s"))
     stems = {verb.removesuffix("s"), verb.removesuffix("es"), f"{verb.removesuffix('ies')}y"}
     return verb.endswith("s") and (told.habit or not _is_asked_for({verb, *stems}))
 

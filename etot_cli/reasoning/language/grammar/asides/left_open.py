@@ -120,21 +120,11 @@ def is_desk_wish(said: str) -> bool:
     return bool(_TIDY_DESK.fullmatch(said))
 
 
-_CARRYING = Expression(
-    r"(?:i|we) (?:(?:just|also|still|soon) )?(?:am|are) (?:going|about) to "
-    r"(?:carry|take|bring|serve) (?:it|them|(?:the|my|our) (?:\w+ )?\w+) "
-    r"(?:out|away|along|home|outside|inside|upstairs|downstairs|over|through)"
-)
-"""With what is in the scene; the robot carries nothing there."""
-
-
 def is_plan(said: str, is_name: IsName) -> bool:
     """Whether somebody is about to do something himself with what is not in the scene, before "so"
     ("I have to put my lunch in the microwave").
     """
     found = _PLANNED.match(said)
-    if _CARRYING.fullmatch(said):
-        return True
     if not found or asks_besides(said):
         return False
     words = found["did"].split()

@@ -62,17 +62,6 @@ def may_befall(said: str) -> bool:
     return bool(_WILL.fullmatch(said))
 
 
-_SPARED = Expression(
-    rf"(?:{_THING} (?:do|does|will|can|could|would|shall) not (?:{BEFALLS})"
-    rf"|nothing (?:(?:will|can|could) )?(?:{BEFALLS}))"
-)
-
-
-def is_spared(said: str) -> bool:
-    """Whether a clause tells what is not to happen to a thing ("it will not roll off")."""
-    return bool(_SPARED.fullmatch(said))
-
-
 _FEARED = Expression(
     r"(?:i|we) (?:(?:really|just) )?(?:(?:do|would) not (?:want|like) to|(?:would )?hate to"
     r"|(?:must|can|should) not|(?:am|are) (?:afraid|scared|worried) (?:of|about|(?:that )?i might)"

@@ -4,20 +4,27 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import takewhile
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import Clause
 from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES, PRONOUNS, IsName
 from etot_cli.reasoning.language.grammar.asides.displeasure import in_state, is_misplaced
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open
-from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, is_of_people
-from etot_cli.reasoning.language.grammar.asides.told_of_things import (
-    is_not_to_stay,
-    is_told_apart_by,
-)
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
+from etot_cli.reasoning.language.grammar.asides.told_of_things import is_told_apart_by
 from etot_cli.reasoning.language.grammar.text.splitting import ASIDE
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import all_words
-from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, JOINT_NOUNS, NUMBERS, singular
+from etot_cli.reasoning.language.words.known import LINKS, OTHER_VERBS, VERB_WORDS, all_words
+from etot_cli.reasoning.language.words.lexicon import (
+    DESK_NOUNS,
+    JOINT_NOUNS,
+    LEVELS,
+    NUMBERS,
+    SIDES,
+    STATES,
+    is_descriptive,
+    singular,
+)
 
 _PARTS = frozenset(noun for nouns in JOINT_NOUNS.values() for noun in nouns)
 _LIKED = [["favourite"], ["favorite"], ["best"]]
@@ -31,17 +38,21 @@ _HELD = Expression(
     r"(?: (?:got|taken|reserved))? (?:the|my|his|her|our) (?:\w+ ){1,3}?(?P<noun>\w+)"
 )
 """What somebody has who tells so, told from others of its kind."""
-_OF_A_KIND = Expression(
-    r" (?:(?:allergic|partial|addicted) to|(?:afraid|scared|fond|sick|tired) of"
-    r"|likes?|loves?|hates?|can not (?:stand|eat|have)|do(?:es)? not (?:like|eat)) (?P<kind>\w+)$"
-)
+_NO_NAMES = VERB_WORDS | OTHER_VERBS | {*STATES, *LEVELS, *SIDES}
+_COUNTED = BEFORE_NAMES | {*NUMBERS, "which", "what"}
+_ONES = PRONOUNS | {"one", "other", "another"}
+
+
+def words_of(said: Iterable[str]) -> set[str]:
+    """The words of some sentences."""
+    return {word for sentence in said for word in sentence.replace(",", "").split()}
 
 
 def are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> bool:
     """Whether what is told of things may be why something is asked of them; else it may ask for
     something itself ("the shears are forbidden").
     """
-    words = {word for said in rest for word in said.replace(",", "").split()}
+    words = words_of(rest)
     referring = PRONOUNS | {"either", "one", "both"}
     return all(
         (referring | {*topic[-1:]}) & words or topic[-1] in {*DESK_NOUNS, *PRONOUNS}
@@ -68,34 +79,42 @@ def of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:
         yield f"the {open_one[1]}s" if open_one else aside.said
 
 
-def named_in(asides: Iterable[str], is_name: IsName) -> str:
+def named_in(asides: Iterable[str], is_name: IsName, rest: Sequence[str] = ()) -> str:
     """What asides name in the scene, as a remark. Of what stands too close to something else more
-    is said next, so that is named last and alone.
+    is said next, so that is named last and alone. What is named without an article ("I hate jam")
+    may be meant by a pronoun of the rest.
     """
+    told = [aside.split() for aside in asides]
+    if not any(any(_phrases(words, is_name)) for words in told) and _ONES & words_of(rest):
+        told = [_with_articles(words, is_name) for words in told]
     phrases, alone = list[str](), list[str]()
-    for aside in asides:
-        said = f"the {aside}" if _is_bare(aside, is_name) else _with_kind(aside, is_name)
-        found = [in_state(said, phrase) for phrase in _phrases(said.split(), is_name)]
-        alone += found[:1] if is_misplaced(said) else []
-        phrases += found[1:] if is_misplaced(said) else found
+    for words in told:
+        aside = " ".join(words)
+        found = [in_state(aside, phrase) for phrase in _phrases(words, is_name)]
+        alone += found[:1] if is_misplaced(aside) else []
+        phrases += found[1:] if is_misplaced(aside) else found
     remarks = (" and ".join(dict.fromkeys(named)) for named in (phrases, alone))
     return ". ".join(f"{named} {ASIDE}" for named in remarks if named)
 
 
-def _with_kind(said: str, is_name: IsName) -> str:
-    """What is said of somebody, with an article for the kind of thing that he likes or cannot
-    stand, of which the next sentence may mean the one that is there ("is allergic to lemons").
+def _with_articles(words: Sequence[str], is_name: IsName) -> list[str]:
+    """Words with an article before what is named without one ("she cannot sleep without teddy");
+    who is said to hate lemons may mean the one that is there. My tea with lemon is no lemon.
     """
-    found = _OF_A_KIND.search(said) if is_of_people(said) else None
-    known = found and found["kind"] != singular(found["kind"]) and is_name(found["kind"])
-    return (
-        f"{said[: found.start('kind')]}the {singular(found['kind'])}" if found and known else said
-    )
-
-
-def _is_bare(said: str, is_name: IsName) -> bool:
-    """Whether what cannot stay is named without an article ("honey must not stand up there")."""
-    return is_not_to_stay(said) and is_name(said.split()[0])
+    said, at = list[str](), 0
+    while at < len(words):
+        end = at + 1
+        while is_name(words[at]) and end < len(words) and is_name(words[end]):
+            end += 1
+        bare = is_name(words[at]) and not _NO_NAMES & {*words[at:end]}
+        before, behind = (words[at - 1] if at else ""), (words[end] if end < len(words) else "the")
+        bare &= not (_COUNTED & {*words[max(at - 2, 0) : at]} or is_descriptive(before))
+        if bare and (behind in all_words() or behind == "anymore"):
+            said += ["the", *words[at : end - 1], singular(words[end - 1])]
+        else:
+            said += words[at:end]
+        at = end
+    return said
 
 
 def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
@@ -122,7 +141,7 @@ def names_stranger(said: str, is_name: IsName) -> bool:
     return any(
         word in BEFORE_NAMES
         and words[at + 1] not in all_words()
-        and not any(map(is_name, words[at + 1 : at + 4]))
+        and not any(map(is_name, takewhile(lambda it: it not in LINKS, words[at + 1 : at + 4])))
         and not re.match(rf"{PEOPLE}\b", " ".join(words[at:]))
         for at, word in enumerate(words[:-1])
     )

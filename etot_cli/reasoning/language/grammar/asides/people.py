@@ -19,17 +19,21 @@ PEOPLE = (
     r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
     r"|(?:mr|mrs|ms|dr|miss) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
-    rf"(?:(?:old|little|young|elder|dear|poor|older|younger) )?(?:{_RELATIONS}|little ones?)"
+    rf"(?:(?:old|little|young|elder|dear|poor|older|younger|first|next|last|new) )?"
+    rf"(?:{_RELATIONS}|little ones?)"
     rf"|(?:my|our) (?:{OWN}))"
 )
 ON_ARRIVAL = (
-    r"(?:when(?:ever)?|once|after|before|until|till|by the time|as soon as) "
+    r"(?:when(?:ever)?|once|after|before|until|till|by the time|as soon as|every time"
+    r"|the (?:minute|moment|second|instant)) "
     rf"(?:{PEOPLE}|they) (?:(?:finally|first|next) )?(?:gets?|comes?|arrives?|returns?|wakes?|"
     r"(?:is|are|am) (?=back|home|up|here|done|in))"
     r"(?: (?:back|home|in|up|here|done|down|over|out|around|tonight|tomorrow|later|today|again)"
     r"| (?:from|for|to) (?:the |my |our |his |her |their )?\w+)*"
 )
 """When something is so with people."""
+ON_ARRIVAL_THEN = Expression(rf" {ON_ARRIVAL}$")
+"""Behind what somebody is or does it is no condition for what is asked for."""
 _PERSON = Expression(
     rf"^{PEOPLE} (?:just |already |also |really |always |still |usually |often |"
     r"never |hardly |rarely )*(?P<did>.+)$"

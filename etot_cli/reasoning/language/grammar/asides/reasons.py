@@ -12,7 +12,7 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     WORK,
     IsName,
 )
-from etot_cli.reasoning.language.grammar.asides.mishaps import befalls, is_spared
+from etot_cli.reasoning.language.grammar.asides.mishaps import befalls
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, is_of_people
 from etot_cli.reasoning.language.grammar.asides.remarks import is_remark
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_idle, told_of_thing
@@ -52,7 +52,7 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
         return bool(_SO_PEOPLE.match(said) or home) and not named
     if _SO_PEOPLE.match(said) or (_SO_NOTHING.match(said) and not named):
         return True
-    if _SO_OF_ITSELF.match(said) or is_made_possible(said) or is_spared(said):
+    if _SO_OF_ITSELF.match(said) or is_made_possible(said):
         return True
     told_of = told_of_thing(said, is_name)
     return bool(told_of and re.search(r" (?:is|are|looks?|seems?|feels?) ", said))

@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     asks_besides,
 )
 from etot_cli.reasoning.language.grammar.asides.people import (
-    ON_ARRIVAL,
+    ON_ARRIVAL_THEN,
     PEOPLE,
     deed_of,
     is_of_people,
@@ -77,9 +77,9 @@ _IN_GENERAL = Expression(
     r"|^(?:the |our |my )?(?:\w+ )?\w*time is (?:over|up)(?: now)?$"
     rf"|^(?:it is )?time (?:for|to) "
     rf"(?!(?:{'|'.join(sorted(VERB_WORDS))}|the|a|my)\b)\w+(?: up| out)?$"
-    r"|^(?:that|this|it) is where (?:i|we|it|they) "
-    r"(?:like|want|need|keep|prefer|belongs?|goes?|lives?)"
-    r"(?: it| them)?$|^(?:it|that|this) is (?:my|our|his|her) (?:favou?rite|best) \w+$"
+    rf"|^(?:that|this|it) is (?:where|how|why|when) (?:{PEOPLE}|it|they) "
+    r"(?:(?:always|usually|often) )?\w+(?: (?:for|at|to|after))?(?: it| them)?$"
+    r"|^(?:it|that|this) is (?:my|our|his|her) (?:favou?rite|best) \w+$"
     r"|^it is \w+time for (?:the|my|our) \w+(?: \w+)?$"
     r"|^let (?:me|us) (?:see|check|know) (?:what|if|whether|how)\b)"
 )
@@ -98,13 +98,13 @@ def is_unused(said: str) -> bool:
     return bool(_UNUSED.match(said))
 
 
-_THEN = Expression(rf" {ON_ARRIVAL}$")
-"""Behind what somebody is or does it is no condition for what is asked for."""
+_PLACING = ("like", "love", "hate", "is", "are", "am", "has", "have")
+"""Behind which a place says where something is to be, or somebody is no thing of the scene."""
 
 
 def is_remark(said: str, is_name: IsName) -> bool:
     """Whether this tells what somebody did, or how things outside of the scene are."""
-    if is_of_people(said) and (then := _THEN.search(said)):
+    if is_of_people(said) and (then := ON_ARRIVAL_THEN.search(said)):
         return not any(map(is_name, said.split())) and is_remark(said[: then.start()], is_name)
     words = said.split()
     deed = deed_of(said)
@@ -132,7 +132,7 @@ def is_remark(said: str, is_name: IsName) -> bool:
         if happened[0].startswith(("would hate", "do not want")):
             return not any(map(is_name, words))
         placed = PLACED & {*did} and any(map(is_name, did))
-        if did[:1] == ["to"] or (placed and happened[0].startswith(("like", "love", "hate"))):
+        if did[:1] == ["to"] or (placed and happened[0].startswith(_PLACING)):
             return False  # "nobody is to use it", "she likes the cup on the tray"
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
         return not ((WORK | ASKING) & {*did} or any(word.endswith("ing") for word in jointly))

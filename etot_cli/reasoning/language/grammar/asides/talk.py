@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.grammar.asides.facts import (
     HOLDING_TRUE,
     is_past,
 )
-from etot_cli.reasoning.language.grammar.asides.people import OWN, PEOPLE
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.grammar.text.splitting import COMMA
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS
@@ -80,11 +80,6 @@ _HAPPENS = word_set(
 _SOME_PLACE = Expression(
     r"(?:this|the|our|my) (?:whole |entire )?(?:place|room|world|house) (?:is|looks|smells|feels) "
 )
-_ON_ME = Expression(
-    r"(?:there is|(?:i|we) have(?: got)?) (?!to\b)(?:\w+ ){1,4}?(?:on|under|in|all over) "
-    rf"(?:my|our) (?:{OWN})"
-)
-"""On somebody's body, where the robot finds nothing, whatever it is called ("grease")."""
 _SIDE = Expression(r"\b(?:(?:on|to|at) (?:the|my|our|his|her|their) )?(?:left|right) (?:hand|side)")
 _CALLING = (
     (ASKING - word_set("not never no none nothing if when until could only go goes would like"))
@@ -101,7 +96,7 @@ _CALLING = (
 """Of a sentence with one of these nothing is passed over."""
 
 
-def is_talk(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
+def is_talk(said: str, is_name: IsName, *, before_so: bool = False, timed: bool = False) -> bool:
     """Whether this is what a sentence or clause is.
 
     Nobody goes on with "so" behind what is asked for in a clause without a verb ("the spare keys").
@@ -110,9 +105,8 @@ def is_talk(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
         said: normalized, with commas as words of their own.
         is_name: whether something in the scene is called by a word.
         before_so: whether the next clause begins with that.
+        timed: whether it stands behind "before".
     """
-    if _ON_ME.fullmatch(said):
-        return True
     told = BEFORE_SUBJECT.sub("", said.replace(" 's ", "s "))
     timeless = _WHEN.sub("", told)
     words = timeless.split()
@@ -126,7 +120,7 @@ def is_talk(said: str, is_name: IsName, *, before_so: bool = False) -> bool:
     begun = words[: words.index(COMMA)] if COMMA in words else words
     if begun[:1] == ["there"] and {*begun[1:2]} & {"is", "was", "are", "were"}:
         return not (_REFERRING | {*STATES}) & {*begun[2:]}
-    return _is_of_stranger(begun, timed=timeless != told, before_so=before_so)
+    return _is_of_stranger(begun, timed=timed or timeless != told, before_so=before_so)
 
 
 def _is_of_stranger(words: Sequence[str], *, timed: bool, before_so: bool) -> bool:
@@ -153,7 +147,7 @@ def _may_be_verb(word: str, subject: str) -> bool:
     """Whether a word behind its subject says what that does or did."""
     if word in _FINITE or is_past(word):
         return not is_descriptive(word)
-    several = subject.endswith("s") and not subject.endswith("ss")
+    several = subject.endswith("s") and not subject.endswith(("ss", "us"))
     return word.endswith("s") and not word.endswith(("ss", "us", "is")) and not several
 
 

@@ -36,9 +36,11 @@ _IN_PASSING = Expression(
     r"|(?:it|they) (?:is|are) (?:going|about) to (?:be|get) (?P<done>\w+(?:ed|t|n))"
     r"(?: (?:today|tomorrow|tonight|soon|later|next week|this week|in a (?:minute|moment)))?)"
 )
-_WHENEVER = Expression(r" (?:when|whenever|if|as soon as) (?:it|they|i|we|somebody|one) [^~]+$")
+_WHENEVER = Expression(rf" (?:when|whenever|if|as soon as) (?:it|they|one|{PEOPLE}) [^~]+$")
 """When something does what it does ("the tube leaks when it lies down")."""
-_YONDER = Expression(r" (?:(?:over|up|down|in|out) )?(?:here|there)$")
+_YONDER = Expression(
+    r"(?: (?:(?:over|up|down|in|out) )?(?:here|there))?(?: since (?:last )?\w+(?: o 'clock)?)?$"
+)
 _PREDICATE = Expression(
     r"(?:(?:is|are|was|were|has|have|had)(?: not| been| got)?|(?:does|do|did|will|can) not"
     r"|keeps?(?= \w+ing\b)|looks?|seems?|feels?|smells?|takes? up|gets?|got|fell|broke"
@@ -50,12 +52,6 @@ _A_BIT = Expression(
     r" (?:a (?:little|bit|lot)|quite a bit|by now|all the time|so often|every time)(?= |$)"
 )
 _TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
-_TOO_BIG = Expression(
-    r"^(?:is|are) (?:just |far |much |a bit |a little )*too \w+ "
-    r"(?:to (?:stand|fit|lie|sit|go|be put)(?: (?:up|upright|straight|standing up|in|inside))?|for)"
-    r"(?: (?:(?:in|into|on|onto|inside) )?(?:there|it|that|(?:the|my) (?:\w+ ){0,3}\w+))?$"
-)
-"""Why something lies rather than stands somewhere, or goes elsewhere."""
 _NOT_STAYING = (
     r"(?:can|must|should|may|does|do) not (?:be (?:left|kept)|stay|remain"
     r"|(?:stand|lie|sit|belong|live|be|go)(?= (?:(?:up|down|over|out) )?(?:here|there)$))"
@@ -71,6 +67,8 @@ _NO_PLACE = Expression(
     rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
+    r"|^(?:is|are) (?:(?:just|much|simply|so much|a lot|also) )*(?:easier|safer|quicker|handier)"
+    r"(?: to (?:reach|get at|get to|find|see|grab|use|clean))?(?: (?:there|that way|like that))?$"
     r"|^are (?:in|on|at) (?:each other|one another) 's (?:spot|place|position|seat)s?$"
     r"|^(?:(?:always|constantly|often|just|only|easily) )*(?:roll|slide|slip|fall|tip|topple)s? "
     r"(?:off|over|away|down|around|everywhere|out)(?: (?:again|easily|constantly))?$"
@@ -157,7 +155,7 @@ def _named_until(words: Sequence[str], is_name: IsName) -> int:
 
 def is_idle(predicate: str, is_name: IsName) -> bool:
     """Whether a predicate is such a one."""
-    if _TOO_BIG.match(predicate) or _TOO_SO.fullmatch(predicate):
+    if _TOO_SO.fullmatch(predicate):
         return True
     predicate = _TOO_SO.sub("is so", _A_BIT.sub("", predicate))
     needed = _NEEDED.match(predicate)

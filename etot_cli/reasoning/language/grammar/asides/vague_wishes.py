@@ -23,10 +23,10 @@ from etot_cli.reasoning.language.words.lexicon import (
 
 _WANTED = Expression(
     rf"(?:{PEOPLE}|they|(?:the|my|our|some) (?:ladies|girls|boys)) (?:just |also |really )?"
-    r"(?:wants?|needs?|would like|fanc(?:y|ies)|(?:has |have )?ordered|ask(?:ed|s)? for) "
+    r"(?:wants?|needs?|would (?:like|love)|fanc(?:y|ies)|(?:has |have )?ordered|ask(?:ed|s)? for) "
     r"(?:something |an? |some |(?:his |her |my |our |their )?"
     r"(?=(?:breakfast|lunch|dinner|supper|dessert)$))"
-    r"(?P<what>(?:\w+ ){0,2}?\w+?)(?: ones?| to (?:eat|drink))?"
+    r"(?P<what>(?:\w+ ){0,2}?\w+?)(?: ones?| to (?:eat|drink))?(?: (?:later|tonight|today))?"
 )
 _TELLING = (
     REFERRING | ASKING | PLACED | {*LEVELS, *NUMBERS, *SIDES, *STATES}

@@ -158,7 +158,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"put \1 ",
     ),
     (r"\bthe other way round\b", "the other way around"),
-    (r"\bwhat (i|we) (?:am|are) after is\b", r"what \1 want is"),
+    (r"\bwhat (i|we) (?:(?:am|are) after|do (?:want|need)) is\b", r"what \1 want is"),
     # What is so the other way around is so no more where it is as it is said
     (
         r",? (?:and |but )?(?:not|rather than|instead of)"
