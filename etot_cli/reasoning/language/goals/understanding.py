@@ -106,6 +106,7 @@ class Understanding:
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
         other.context.toppling = set(self.context.toppling)
+        other.context.within = list(self.context.within)
         other.context.grasps = list(self.context.grasps)
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
         other.context.taken = self.context.taken
