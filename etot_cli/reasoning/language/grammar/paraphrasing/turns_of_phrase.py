@@ -276,6 +276,12 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"\b(open(?:ing)? any) more (?=(?!and\b|or\b|then\b|than\b|if\b|before\b|after\b)\w+)",
         r"\1 other ",
     ),
+    # "One cup, whichever, goes on the tray": any will do, as "one" says
+    (
+        r"\b(one (?:\w+ )??\w+), (?:whichever(?: (?:one )?you (?:like|want|prefer))?|any(?: one)?),"
+        r"(?= (?:goes|belongs|should|must|has to|is to)\b)",
+        r"\1",
+    ),
     # Which of several things comes first, in a sentence of its own
     (rf"[.;] (?:and )?(?:please )?(?:start|begin) with (the (?:\w+ )?\w+){_END}", r", \1 first"),
     # What is said of two places goes for both ways
