@@ -59,7 +59,7 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
             held = {s.what for s in later if isinstance(s, Pick)}
             last = [i for i in step.what if not (i in held or _is_moved(goal, i, later))]
             before = goal.steps[:index]
-            there = [i for i in last if not any(_moves(other, i) for other in before)]
+            there = [i for i in last if not _is_moved(goal, i, before)]
             _check_removal(goal, there, scene)
             back = [i for i in step.what if i not in last and _goes_back(goal, i, index, scene)]
             kept = tuple(

@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized
 from etot_cli.reasoning.language.grammar.text.corrections import mark_in
 from etot_cli.reasoning.language.owners import without_owners
-from etot_cli.reasoning.language.plainly import is_name, read_plainly
+from etot_cli.reasoning.language.plainly import is_name, read_plainly, without_corrections
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.viewpoint import without_viewpoint
 from etot_cli.world.state import SceneState
@@ -37,16 +37,19 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
     try:
         return read_plainly(text, scene, vocabulary)
     except (UnreadableError, ReferenceProblem) as error:
-        goal = _otherwise(said, scene, vocabulary)
+        goal = _otherwise(said, text, scene, vocabulary)
         if goal is None:
             raise _refused(error, instruction, scene, vocabulary) from None
         return goal
 
 
-def _otherwise(said: str, scene: SceneState, vocabulary: Vocabulary) -> Goal | None:
+def _otherwise(said: str, text: str, scene: SceneState, vocabulary: Vocabulary) -> Goal | None:
     with suppress(UnreadableError, ReferenceProblem):
-        if not mark_in(normalized(said)):
-            return read_plainly(normalized(said), scene, vocabulary, common=True)
+        if mark := mark_in(text):
+            return without_corrections(
+                text, mark, lambda text: _otherwise(text, text, scene, vocabulary)
+            )
+        return read_plainly(normalized(said), scene, vocabulary, common=True)
     # Reading asides is a tenth of the grammar, which few instructions need.
     from etot_cli.reasoning.language.otherwise import read_otherwise
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 
@@ -31,15 +31,15 @@ def read_plainly(
     where ``common``.
     """
     if mark := mark_in(text):
-        return _without_corrections(text, mark, scene, vocabulary)
+        return without_corrections(text, mark, lambda text: read_plainly(text, scene, vocabulary))
     found = read(vocabulary.joined(text), vocabulary.words(), common=common)
     goal = interpret(found.sentences, scene, vocabulary)
     slips = tuple(f"read {correction}" for correction in found.corrections)
     return replace(goal, notes=(*slips, *goal.notes, *_said_with_more(text, goal)))
 
 
-def _without_corrections(
-    text: str, mark: re.Match[str], scene: SceneState, vocabulary: Vocabulary
+def without_corrections(
+    text: str, mark: re.Match[str], goal_in: Callable[[str], Goal | None]
 ) -> Goal:
     """The goal of a text with words that take something back, which is noted.
 
@@ -52,7 +52,8 @@ def _without_corrections(
     for way in taken_back(text, mark):
         unread.append(way.alike)
         with suppress(UnreadableError, ReferenceProblem):
-            goal = read_plainly(way.text, scene, vocabulary)
+            if (goal := goal_in(way.text)) is None:
+                continue
             note = f"{way.words!r} is taken back: {way.instead!r} is said instead"
             found.setdefault(formal(goal), replace(goal, notes=(note, *goal.notes)))
             unread.pop()

@@ -77,6 +77,8 @@ class Context:
         """Referents that were to be reoriented."""
         self.toppling: set[str] = set()
         """What must not fall over, even where it is put somewhere itself."""
+        self.within: list[Put] = []
+        """What must not be taken out of what it is in, as what keeps it there."""
         self.grasps: list[Grasp] = []
         """How things are grasped, where it is said by itself."""
         self.constraints: list[Constraint] = []

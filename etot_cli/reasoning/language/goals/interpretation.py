@@ -27,6 +27,7 @@ from etot_cli.reasoning.language.goals.left_out import (
     without_places,
     without_ruled_out,
 )
+from etot_cli.reasoning.language.goals.prohibitions import gone_along
 from etot_cli.reasoning.language.goals.understanding import Understanding
 from etot_cli.reasoning.language.grammar.sentences.reader import Sentence
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -63,6 +64,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
         state = best_reading(state, sentence)
         _leave_open(state.context.discourse, known, sentence.text)
     goal = carried_standing(state.context, state.goal(complete=True))
+    goal = gone_along(state.context, goal)
     goal = with_room_made(goal, state.context.in_the_way)
     check_kept(goal, scene)
     check_shut(goal, scene)

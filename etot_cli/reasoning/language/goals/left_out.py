@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.goal import Goal, Put, things_in
+from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.language.goals.placing import SET_ASIDE
 from etot_cli.reasoning.language.reference.geometry.space import addresses
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
@@ -20,7 +22,7 @@ def without_places(goal: Goal, discourse: Discourse) -> Goal:
     sweeping = {m.referent for m in discourse.mentions if matches_any(m.noun, THING_NOUNS)}
     # "Everything else" takes up the noun before it.
     sweeping |= {i for i, r in enumerate(goal.referents) if {"else", "rest"} & {*r.text.split()}}
-    referents, notes = list(goal.referents), list(goal.notes)
+    referents, notes, still = list(goal.referents), list(goal.notes), set[str]()
     for index in sorted(sweeping & {index for step in puts for index in step.what}):
         for option in referents[index].options if len(referents[index].options) == 1 else ():
             kept = tuple(thing for thing in option if thing.name not in places)
@@ -28,7 +30,18 @@ def without_places(goal: Goal, discourse: Discourse) -> Goal:
             if out and kept:
                 referents[index] = replace(referents[index], options=(kept,))
                 notes.append(f"{referents[index].text!r}: without {out}, where things go")
-    return replace(goal, referents=tuple(referents), notes=tuple(notes))
+                still |= {thing.name for thing in {*option} - {*kept}}
+    moved = {t.name for put in puts for i in put.what for t in things_in(referents[i].options)}
+    steps = list(goal.steps)
+    for step in puts:
+        # "Everything but the apple, which stays in the bowl": the bowl is not moved after all
+        (thing, *more) = things_in(referents[step.what[0]].options)
+        aside = f" {thing.name} {SET_ASIDE}"
+        around = carriers(discourse.scene, thing.name)
+        if not more and around & still and not around & moved and aside in "".join(notes):
+            steps.remove(step)
+            notes = [note for note in notes if not note.endswith(aside)]
+    return replace(goal, referents=tuple(referents), notes=tuple(notes), steps=tuple(steps))
 
 
 def without_needless(goal: Goal) -> Goal:

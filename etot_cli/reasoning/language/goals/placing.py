@@ -20,6 +20,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.places.in_or_on import in_or_on
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK
 
@@ -154,6 +155,7 @@ def add_put(
 
 
 SET_ASIDE = "is set on the desk before"
+_STAYS = Expression(r"\b(?:which|that) (?:should )?stays? (?:put|there|here|where|as)\b")
 
 
 def _take_off(
@@ -167,6 +169,8 @@ def _take_off(
     gone = set(context.discourse.things(*context.discourse.put))
     for thing in (item for item in out if item.name in context.scene.states and item not in gone):
         if names & carriers(context.scene, thing.name):
+            if _STAYS.search(context.sentence):
+                raise ReferenceProblem(text, f"{thing.name} would come along, and can not stay", 4)
             context.discourse.notes.append(f"{text!r}: {thing.name} {SET_ASIDE}")
             place = Place(Relation.ON, context.places.on_the_desk().where)
             context.steps.append(Put((context.single(thing, thing.name),), (place,), removal=True))

@@ -12,6 +12,7 @@ from msgspec import structs
 from etot_cli.reasoning.builtin.goal import (
     Close,
     Constraint,
+    Goal,
     Keep,
     Open,
     Put,
@@ -49,6 +50,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     singular,
 )
 from etot_cli.reasoning.language.words.nouns import is_only
+from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
 _KEEPS = {
@@ -174,8 +176,11 @@ def _keep(context: Context, clause: AvoidClause, things: Things) -> None:
         return
     if clause.over and not things.are_any:
         context.toppling |= {thing.name for thing in kept}
-    if clause.taken and _goes_along(context, indices):
-        return
+    sources = [m.prep is Prep.FROM for np in things.phrases for m in np.modifiers]
+    if clause.taken or (clause.avoid is Avoid.MOVE and any(sources)):
+        context.within += [
+            Put((context.single(thing, thing.name),), (context.home(thing),)) for thing in kept
+        ]
     one_way = all(len(context.discourse.referents[index].options) == 1 for index in indices)
     if clause.avoid is Avoid.MOVE and role is not Role.PART and one_way:
         leave_among(context, indices, but_for_counted=not clause.left)
@@ -336,25 +341,29 @@ def _moves_anyway(context: Context, things: Things) -> bool:
     return False
 
 
-def _goes_along(context: Context, indices: Sequence[int]) -> bool:
-    """Whether what must not be taken out of something is in what goes elsewhere itself, or in what
-    something else is put into, by which it may be moved: it is to be in it then.
+def gone_along(context: Context, goal: Goal) -> Goal:
+    """With what must not be taken out of something in that in the end, where that goes elsewhere
+    itself, or something else is put into it, by which it may be moved.
     """
-    discourse = context.discourse
-    things, puts = discourse.things(*indices), [s for s in context.done if isinstance(s, Put)]
-    places = (place.where for put in puts for place in put.places)
-    filled = {where for where in places if where is not None}
-    around = {
-        thing.name
-        for thing in discourse.things(*sorted({*discourse.put, *filled}))
-        if thing.name != DESK
-    }
-    if not all(around & carriers(context.scene, thing.name) for thing in things):
-        return False
-    context.steps += [
-        Put((context.single(thing, thing.name),), (context.home(thing),)) for thing in things
-    ]
-    return True
+    steps, constraints = list(goal.steps), list(goal.constraints)
+    for put in context.within:
+        (thing,) = context.discourse.things(*put.what)
+        around = carriers(context.scene, thing.name)
+        for at, step in enumerate(goal.steps):
+            where = [p.where for p in step.places] if isinstance(step, Put) else []
+            moved = (*step.what, *where) if isinstance(step, Put) else ()
+            names = {t.name for i in moved if i is not None for t in context.discourse.things(i)}
+            if names & around:
+                steps.insert(at + 1 + len(steps) - len(goal.steps), put)
+                constraints = [
+                    replace(item, names=tuple(n for n in item.names if n != thing.name))
+                    if item.keep is Keep.UNMOVED
+                    else item
+                    for item in constraints
+                ]
+                break
+    kept = tuple(item for item in constraints if item.names or item.referent is not None)
+    return replace(goal, steps=tuple(steps), constraints=kept)
 
 
 def _others_like_what_turns(context: Context, said: Things) -> Things | None:

@@ -106,6 +106,7 @@ class Understanding:
         other = Understanding(self._scene, self.context.discourse.copy(), self._resolver)
         other.context.turned = list(self.context.turned)
         other.context.toppling = set(self.context.toppling)
+        other.context.within = list(self.context.within)
         other.context.grasps = list(self.context.grasps)
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
         other.context.taken = self.context.taken
@@ -299,6 +300,32 @@ class Understanding:
         same = own == left and things(*before.what) == things(*step.what)
         return bool(stances) and plain and same
 
+    def _kept_away(self, said: Sequence[Step]) -> list[Step]:
+        """With one place for what goes away from something and, in the same breath, to a place on
+        the desk ("keep the cup away from the jug and put it to the left of the tray").
+        """
+        steps = list[Step]()
+        for step in said:
+            before = steps[-1] if steps else None
+            if isinstance(before, Put) and isinstance(step, Put) and self._both(before, step):
+                away = before.places[0].beside
+                places = tuple(replace(at, beside=(*at.beside, *away)) for at in step.places)
+                steps[-1] = replace(step, places=places)
+            else:
+                steps.append(step)
+        return steps
+
+    def _both(self, away: Put, step: Put) -> bool:
+        """Whether one step takes away from something what goes elsewhere on the desk at once."""
+        things, nears = self.context.discourse.things, away.places[0].beside
+        there = [near for place in step.places for near in place.beside]
+        marks, at = (things(*(i for n in of for i in n.landmarks)) for of in (nears, there))
+        kinds = {near.relation for near in nears}
+        same = (away.what, away.run) == (step.what, step.run) and len(away.places) == 1
+        desk = all(place.where is None or self._is_desk(place) for place in step.places)
+        apart = not {*marks} & {*at} and Nearby.AT_POINT not in {near.relation for near in there}
+        return same and desk and apart and kinds == {Nearby.AWAY}
+
     def _is_desk(self, place: Place) -> bool:
         return place.where is not None and self.context.discourse.is_desk(place.where)
 
@@ -309,7 +336,7 @@ class Understanding:
             ReferenceProblem: a part is to be both open and closed.
         """
         discourse = self.context.discourse
-        said = _stood_there(in_order(self.timed, discourse))
+        said = self._kept_away(_stood_there(in_order(self.timed, discourse)))
         steps = [
             step
             for before, step, after in zip((None, *said), said, (*said[1:], None), strict=False)

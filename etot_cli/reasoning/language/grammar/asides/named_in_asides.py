@@ -63,10 +63,14 @@ def are_spoken_of(topics: Sequence[tuple[str, ...]], rest: Sequence[str]) -> boo
 
 def is_of_held_one(said: str, rest: Sequence[str]) -> bool:
     """Whether somebody has one of what is spoken of next by its noun alone, which may be another
-    one ("my son has the yellow cup, so put the cup on the plate").
+    one ("my son has the yellow cup, so put the cup on the plate"); or has reserved what nothing of
+    the rest is said to be.
     """
     held = _HELD.fullmatch(said)
-    return held is not None and any(re.search(rf"\bthe {held['noun']}\b", words) for words in rest)
+    if held is not None and any(re.search(rf"\bthe {held['noun']}\b", words) for words in rest):
+        return True
+    named = {*PRONOUNS, said.split()[-1]} & {*re.findall(r"\w+", " ".join(rest))}
+    return " reserved " in said and not named  # it may be among "the fruit"
 
 
 def of_which(asides: Sequence[Clause], rest: Sequence[str]) -> Iterator[str]:

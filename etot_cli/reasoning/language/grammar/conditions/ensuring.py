@@ -202,13 +202,17 @@ ENSURE = either(
         build=lambda nps, where, more: EnsureClause((_meant_for(nps, where), *more)),
     ),
     sequence(
-        # "The beaker is for the red vial and the marker"
+        # "The beaker is for the red vial and the tray for the marker"
         noun_phrase,
         "is for",
         NP_LIST,
-        build=lambda np, held: EnsureClause(
-            (State(held, (Destination(Toward.INSIDE, (np,)),)),), far_fetched=1
+        some(
+            sequence(
+                LIST, noun_phrase, "for", NP_LIST, build=lambda np, held: _meant_for(held, np)
+            ),
+            most=4,
         ),
+        build=lambda np, held, more: EnsureClause((_meant_for(held, np), *more), far_fetched=1),
     ),
     sequence(
         # "The cup and the pen belong on the tray and in the box, respectively"

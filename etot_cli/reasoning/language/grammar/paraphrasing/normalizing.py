@@ -31,6 +31,11 @@ _UH = Expression(
     r"(?P<before>\w+)(?P<comma>,?)\s+(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+(?P<after>\w+)",
     re.IGNORECASE,
 )
+_I_MEAN = Expression(
+    r"(?<!\bit)(?<!\bthem)\s*[,(]\s*(?:(?:uh+m?|um+|erm*|hm+),?\s+)?((?:the|an?|my)\s+(?!one\b)"
+    r"(?:(?!what\b|which\b|that\b|is\b)[\w-]+\s+){1,4}?)(i meant?)(?=\s*(?:[,.!?;)\n]|$))"
+)
+"""Behind what is said instead ("the apple, er, the banana I mean")."""
 _GOES_ON = word_set("in on into onto to and from inside next then")
 _RIGHT = Expression(
     r"(^|[.!?;\n]\s*)right(?: then| so)?,\s*"
@@ -77,7 +82,9 @@ def normalized(text: str) -> str:
     text = _WELL.sub(r"\1", _RIGHT.sub(r"\1", text))
     text = text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = re.sub(r"(?<!\w)'|'(?!\w)(?<!s')", " ", _QUOTES.sub(" ", text))
-    text = _ARTICLE_LEFT_OUT.sub(lambda said: f"{said[0]}the ", in_plain_words(text))
+    text = _ARTICLE_LEFT_OUT.sub(
+        lambda said: f"{said[0]}the ", in_plain_words(_I_MEAN.sub(r", \2 \1", text))
+    )
     text = _BRACKETED.sub(_qualified, text)
     text = re.sub(r"\s+[-\N{EN DASH}\N{EM DASH}]+\s+|[()\[\]]", " , ", text)
     text = text.replace(":", " : ")

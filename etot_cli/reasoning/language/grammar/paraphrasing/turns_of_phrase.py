@@ -255,5 +255,44 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"\1 \2 ",
     ),
     (rf"\b(before|after) (closing|shutting|opening)(?: up)?{_END}", r"\1 \2 it"),
+    # "Then take the pen back out", "then back where it was", for how long there tells what is next
+    (
+        rf"\b((?:take|get|lift|bring|pull) (?:it|them|{NAMED}(?: \w+){{1,3}}?)) "
+        r"(?<!\bthe )(?<!\bat )back (?=(?:out|off)\b)",
+        r"\1 ",
+    ),
+    (
+        r"(, (?:and )?then|\band then) back (?=(?:to )?where (?:(it)|they) (?:was|were)\b"
+        r"|to (?:(its)|their) (?:place|spot)\b)",
+        lambda said: f"{said[1]} put {'it' if said[2] or said[3] else 'them'} back ",
+    ),
+    (
+        r" for (?:just )?(?:a|one) (?:moment|second)"
+        r"(?=,? (?:and )?then (?:return|put|take|bring|move) (?:it|them)\b)",
+        "",
+    ),
+    (r"\b(what|whatever) is in there (?=(?:can|may|should|must) (?:go|be)\b)", r"\1 is in it "),
+    (
+        r"\b(open(?:ing)? any) more (?=(?!and\b|or\b|then\b|than\b|if\b|before\b|after\b)\w+)",
+        r"\1 other ",
+    ),
+    # "One cup, whichever, goes on the tray": any will do, as "one" says
+    (
+        r"\b(one (?:\w+ )??\w+), (?:whichever(?: (?:one )?you (?:like|want|prefer))?|any(?: one)?),"
+        r"(?= (?:goes|belongs|should|must|has to|is to)\b)",
+        r"\1",
+    ),
+    # Which of several things comes first, in a sentence of its own
+    (rf"[.;] (?:and )?(?:please )?(?:start|begin) with (the (?:\w+ )?\w+){_END}", r", \1 first"),
+    # What is said of two places goes for both ways
+    (
+        rf"\b(everything (in|on) ({NAMED}(?: \w+){{1,3}}?)) (belongs|goes|should go|must go) "
+        rf"(in|into|on|onto) ({NAMED}(?: \w+){{1,3}}?),? and (?:vice versa|the other way "
+        rf"(?:a?round)){_END}",
+        lambda said: (
+            f"{said[1]} {said[4]} {said[5]} {said[6]} and everything {said[5].removesuffix('to')} "
+            f"{said[6]} {said[2]} {said[3]}"
+        ),
+    ),
 )
 """In order."""

@@ -155,8 +155,7 @@ def _of_these(things: Things, base: Any, nps: tuple[NounPhrase, ...]) -> TowerCl
         else told
         for told in nps
     )
-    plain = np.determiner in ("the", "these", "those", "") and len(np.words) == 1
-    return TowerClause(Things(named), upward=True, base=base, whole=None if plain else things)
+    return TowerClause(Things(named), upward=True, base=base, whole=things)
 
 
 _UPWARD = sequence(

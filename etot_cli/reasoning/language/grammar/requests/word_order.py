@@ -218,7 +218,7 @@ NAMED_BEHIND = quiet(
 """What goes somewhere is named one by one at the end."""
 ANNOUNCED = quiet(
     either(
-        sequence(noun_phrase, DESTINATIONS, COLON, NP_LIST, build=_named_behind),
+        sequence(noun_phrase, DESTINATIONS, either(COLON, COMMA), NP_LIST, build=_named_behind),
         sequence(DESTINATIONS, COLON, NP_LIST, build=_fronted),
     )
 )

@@ -46,7 +46,7 @@ from etot_cli.reasoning.language.grammar.phrases.exclusions import (
 from etot_cli.reasoning.language.grammar.phrases.modifiers import APPOSED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.arrangements import REORIENT, SWAP
-from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY
+from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY, is_emptying
 from etot_cli.reasoning.language.grammar.requests.filling import COVER, FILL
 from etot_cli.reasoning.language.grammar.requests.grasping import GRASP
 from etot_cli.reasoning.language.grammar.requests.holding import HOLD
@@ -67,6 +67,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PickClause,
     PutClause,
     PutGroup,
+    RemoveClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
@@ -76,6 +77,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import manner, nouns, predicates, small_words
+from etot_cli.reasoning.language.words.lexicon import singular
 
 AGAIN = either(
     sequence(small_words.SAME_AGAIN, THINGS, build=AgainClause),
@@ -100,9 +102,18 @@ def _excluding_some(said: tuple[Clause, Modifier]) -> list[Clause]:
     match said[0]:
         case PutClause(groups=(PutGroup(things=things),)) | PickClause(things=things):
             found = [excluding(*said, at) for at in range(len(things.phrases))]
+        case RemoveClause() as out if is_emptying(out) and _is_one_of_them(out, said[1]):
+            found = []  # "empty the bowls, except the red one", which is left as it is
         case _:
             found = [excluding(*said)]
     return [way for way in found if way is not None]
+
+
+def _is_one_of_them(emptied: RemoveClause, left_out: Modifier) -> bool:
+    """Whether what is left out may be one of several things that are to be empty."""
+    held = (m for np in emptied.things.phrases for m in np.modifiers)
+    several = any(singular(np.head) != np.head for m in held for np in m.phrases)
+    return several and all(np.is_elliptic for np in left_out.phrases)
 
 
 LEFT_OUT = either(

@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.grammar.phrases.being_so import (
 from etot_cli.reasoning.language.grammar.phrases.contrasts import CONTRASTED
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, INTO, ONTO
 from etot_cli.reasoning.language.grammar.phrases.exclusions import alone_there, of_the_things
+from etot_cli.reasoning.language.grammar.phrases.modifiers import APPOSED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST
 from etot_cli.reasoning.language.grammar.phrases.states import IN_OR_ON_IT, holding
 from etot_cli.reasoning.language.grammar.requests.doors import STATE_NAMED
@@ -202,7 +203,9 @@ LEFT_SO = Rule(
 PLACED = Rule(
     timed(
         VERBLESS,
-        sequence(VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, LEFT_OUT), build=of_the_things),
+        sequence(
+            VERBLESS, OPTIONAL_COMMA, either(CONTRASTED, APPOSED, LEFT_OUT), build=of_the_things
+        ),
         sequence(VERBLESS, OPTIONAL_COMMA, manner.NOT_STACKED, build=on_one_place),
         sequence(ALL_THINGS, build=taken_out),
         sequence(ALL_THINGS, "down (from|off)", noun_phrase, build=RemoveClause),

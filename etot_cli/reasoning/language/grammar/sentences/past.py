@@ -103,7 +103,7 @@ SO_BY_THEN = either(
     ),
     sequence(
         ALL_THINGS,
-        predicates.BE,
+        _TAKEN_BY_THEN,
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),

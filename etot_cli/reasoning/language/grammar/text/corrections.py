@@ -44,13 +44,13 @@ _AGAIN = f"i mean|i meant|scratch that|make (?:that|it)(?= (?:{_NEXT}|{_PLACES})
 _ALONE = "no|wait|oops|correction|my mistake|(?:never mind|forget)(?: that| it)?"
 _OH = "(?:oh|ah|actually|well|hm+),? "
 _MARK = Expression(
-    r"[\s,.!?;]{0,4}(?:"
+    r"[\s,.!?;]{0,4}(?:\b(?:uh+m?|um+|erm*|hm+)\b[\s,.]+)?(?:"
     rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
     r"|\b(?:i mean|i meant|or rather|or better|or no|scratch that|on second thoughts?)\b"
     rf"|(?<=[,.!?;\n] )(?:{_OH})?(?:{_ALONE})(?=\s*[,.!?;\n])"
     r"|(?<=, )no(?= (?:the|my|your|in|on|into|onto|to) )"
     rf"|(?<=, )(?:sorry|actually|{_AGAIN})\b"
-    rf"|(?<=[.!?;\n] )actually(?=,? (?:{'|'.join(sorted(_VERBS))})\b)"
+    rf"|(?<=[.!?;\n] )actually(?=,? (?:{'|'.join(sorted(_VERBS))}|the other way)\b)"
     # "Sorry, could you …" is but polite.
     rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{_PLACES}) )"
     rf")(?:[\s,]*\b(?:no|sorry|wait|actually|{_AGAIN})\b)*[\s,.!?;]*"
@@ -120,7 +120,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     sentence = after[:stop]
     everything = bool(_ALL_OF_IT.search(mark[0]))
     whole = not start and (everything or "instead" in sentence)
-    if " ".join(said) in _SWAPPED:
+    if " ".join(said).removeprefix("do it ") in _SWAPPED:
         for exchanged in _exchanged(tail):
             text = _joined(*before[:start], *exchanged, *rest)
             yield TakenBack(" ".join(tail), " ".join(exchanged), text)
@@ -132,9 +132,14 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             yield TakenBack(" ".join(said[1:]), " ".join(said), text)
         return
     spans = list(_spans(tail, said, sentence, everything=everything, whole=whole))
-    if said[-1] in ("one", "ones") and any(map(is_descriptive, said)):
+    if said[-1] in ("one", "ones") and said[1:-1] not in ((), ("other",)):
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
-        told = [span for span in spans if any(map(is_descriptive, tail[slice(*span)]))]
+        plain = not any(
+            map(is_descriptive, said)
+        )  # "the steel ball in the box, no, the rubber one"
+        phrases = [(span, tail[slice(*span)]) for span in spans]
+        told = [span for span, np in phrases if plain and len({*np} - _BEFORE_THINGS) > 1]
+        told += [span for span, np in phrases if not plain and any(map(is_descriptive, np))]
         spans = told or spans
     if said[0] in _BEFORE_THINGS:
         # "The cake on the white plate, no, the other plate"
@@ -168,10 +173,20 @@ def _joined(*words: str) -> str:
 
 
 def _exchanged(tail: Sequence[str]) -> Iterator[tuple[str, ...]]:
-    """A request for two things that go to two places, each to the other one's place."""
+    """A request for two things that go to two places, each to the other one's place; for one of two
+    things alike that goes to the other one, the other one to it.
+    """
     joints = [at for at, word in enumerate(tail) if word in _JOINTS]
     begin = next((at for at, word in enumerate(tail) if word in _BEFORE_THINGS), len(tail))
     where = [at for at, word in enumerate(tail) if at > begin and word in _BEFORE_PLACES]
+    if len(where) == 1 and begin and not joints:
+        (at,) = where
+        one, other = tail[begin:at], tail[at + 1 :]
+        noun = _noun_of(one)
+        # No two things: a cup that goes on a plate "the other way round" may be upside down.
+        if other[:1] and other[0] in _BEFORE_THINGS and other[-1] in ("one", noun):
+            yield (*tail[:begin], *other[:-1], noun, tail[at], *one)
+        return
     if len(joints) != 1 or len(where) != 2 or tail[joints[0]] != "and":
         return
     (joint,), (first, second) = joints, where
@@ -253,8 +268,9 @@ def _spans(
         if word in _BEFORE_THINGS and tail[at + 1 : at + 3] != ("robot", "'s")
     ]
     goes = [at for at, word in enumerate(tail) if at and word in _GOES]
-    if tail and (is_descriptive(tail[0]) or (goes[:1] == [1] and 0 not in things)):
-        things.insert(0, 0)  # "black pen in the tray", "tools go in the tray"
+    bare = where[:1] and not {*tail[: where[0]]} & (_VERBS | _JOINTS | _BEFORE_THINGS)
+    if tail and (is_descriptive(tail[0]) or bare or (goes[:1] == [1] and 0 not in things)):
+        things.insert(0, 0)  # "black pen in the tray", "tools go in the tray", "pen in the tray"
     begin = said[0]
     if begin in _VERBS:
         clauses = (0, *(at + 1 for at in joints))

@@ -209,6 +209,8 @@ def places_here(discourse: Discourse, word: str, themes: Sequence[int]) -> tuple
         out = {thing for index in themes for thing in discourse.left_out.get(index, ())}
         if place.where is not None and out.issuperset(discourse.things(place.where)):
             raise ReferenceProblem(word, UNCLEAR, 2)
+        if place.where is not None and not place.beside:
+            discourse.mention_again(place.where, Role.CONTAINER)
         return (place,)
     upon = upon_it(discourse, word, place.where, themes)
     return tuple(in_or_on(discourse, Toward.ON, upon, themes))

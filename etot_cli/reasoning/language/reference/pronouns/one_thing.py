@@ -188,7 +188,11 @@ def _one_thing(said: _Said) -> tuple[int, ...]:
         return (held[0],)
     if role in (Role.SURFACE, Role.CONTAINER):
         others, left = _other_targets(said, theme)
-        rather = [i for i in left if _bears_rather(discourse, i, theme)]
+        rather = [
+            i
+            for i in left
+            if _bears_rather(discourse, i, theme) or _changes_places(discourse, theme, i)
+        ]
         if role is Role.SURFACE and len(rather) == len(others) == 1 and not rivals:
             return (rather[0],)  # off the tray, and another thing on it
         rivals += [
@@ -198,6 +202,8 @@ def _one_thing(said: _Said) -> tuple[int, ...]:
             and not (role is Role.CONTAINER and _stood_on(discourse, theme, i))
         ]
     plain = role is Role.CONTAINER and said.text == "it" and bool(rivals)
+    if role is Role.CONTAINER and rivals and _changes_places(discourse, theme, rivals[0]):
+        return tuple(rivals)
     if plain and _came_out_of(discourse, theme, rivals):
         said.note(theme)
         rivals = []
@@ -350,6 +356,18 @@ def _stood_on(discourse: Discourse, theme: int, furniture: int) -> bool:
     below = [scene.infos[t.name] for t in discourse.things(furniture) if t.name in scene.infos]
     inside = [scene.states[thing.name].inside for thing in discourse.things(theme)]
     return all(info.parts and not info.container for info in below) and not any(inside)
+
+
+def _changes_places(discourse: Discourse, taken: int, freed: int) -> bool:
+    """Whether what is put somewhere is of a kind with what was taken off something, which is of
+    another kind ("take the cup off the scale and put the other one on it").
+    """
+    here = [m for m in discourse.mentions if m.clause == discourse.clause and m.role is Role.THEME]
+    placed, own, below = (
+        {discourse.scene.infos[t.name].label.split()[-1] for t in discourse.things(*indices)}
+        for indices in ([m.referent for m in here], (taken,), (freed,))
+    )
+    return placed == own and not own & below
 
 
 def _bears_rather(discourse: Discourse, referent: int, other: int) -> bool:
