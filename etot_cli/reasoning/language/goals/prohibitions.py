@@ -176,8 +176,7 @@ def _keep(context: Context, clause: AvoidClause, things: Things) -> None:
         return
     if clause.over and not things.are_any:
         context.toppling |= {thing.name for thing in kept}
-    sources = [m.prep is Prep.FROM for np in things.phrases for m in np.modifiers]
-    if clause.taken or (clause.avoid is Avoid.MOVE and any(sources)):
+    if clause.taken or (clause.avoid is Avoid.MOVE and _is_out_of_something(things)):
         context.within += [
             Put((context.single(thing, thing.name),), (context.home(thing),)) for thing in kept
         ]
@@ -339,6 +338,12 @@ def _moves_anyway(context: Context, things: Things) -> bool:
         found = [context.phrases.meaning(np, Role.THEME).options for np in things.phrases]
         return all({*option} <= {*moved} for options in found for option in options)
     return False
+
+
+def _is_out_of_something(things: Things) -> bool:
+    """Whether it is said out of what; "the mug there" is but told from others by that."""
+    sources = [m for np in things.phrases for m in np.modifiers if m.prep is Prep.FROM]
+    return any(np.text != "there" for source in sources for np in source.phrases)
 
 
 def gone_along(context: Context, goal: Goal) -> Goal:
