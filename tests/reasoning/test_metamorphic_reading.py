@@ -371,7 +371,7 @@ def test_things_described_at_random_are_read_or_refused_in_time(name: str) -> No
     scene = SCENES[name]
     vocabulary, pick = Vocabulary(scene), random.Random(name)
     labels = [info.label for info in scene.infos.values()]
-    for number in range(60):
+    for number in range(20):
         text = pick.choice(JOINTS).join(composed(pick, labels) for _ in range(1 + number % 2))
         assert is_read_in_time(text, vocabulary, scene), text
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import re
 
-from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.words.known import all_words
-from etot_cli.world.state import SceneState
 
 _SMALL_WORDS = {
     "German": "der die das den dem ein eine einen und in auf auf den nimm lege stelle öffne "
@@ -38,13 +36,18 @@ SHARE = 0.4
 """Share of an instruction's words that have to be a language's small words."""
 
 
-def other_language(instruction: str, scene: SceneState) -> str | None:
-    """The language that an instruction seems to be in, None for English or no guess."""
+def other_language(instruction: str, named: frozenset[str]) -> str | None:
+    """The language that an instruction seems to be in, None for English or no guess.
+
+    Args:
+        instruction: as it was given.
+        named: words that the scene's things are called by, whatever language these are in.
+    """
     letters = [letter for letter in instruction if letter.isalpha()]
     for name, first, last in _SCRIPTS:
         if sum(first <= letter <= last for letter in letters) * 2 > len(letters) > 0:
             return name
-    known = all_words() | Vocabulary(scene).words()
+    known = all_words() | named
     words = re.findall(r"[^\W\d_]+(?:'[^\W\d_]+)?", instruction.casefold())
     if not words:
         return None

@@ -31,7 +31,7 @@ def refusal(
         """With labels of several words as they were written."""
         return re.sub("|".join(joined) or "$", lambda found: found[0].replace("_", " "), text)
 
-    language = other_language(instruction, scene)
+    language = other_language(instruction, vocabulary.words())
     foreign = f"it seems to be in {language}; only English is read" if language else ""
     if isinstance(error, UnreadableError):
         error = blamed(error, partial(_in_vain, scene=scene, vocabulary=vocabulary))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from etot_cli.reasoning.language.grammar.paraphrasing.paraphrases import in_plain_words
 from etot_cli.reasoning.language.words.expressions import Expression
@@ -73,7 +74,11 @@ _ARTICLE_LEFT_OUT = Expression(
 _COUNTED_OFF = Expression(rf"(^|[.!?;\n]\s*)({'|'.join(NUMBERS)}), (?=[a-z])")
 """The number of a step, in words ("One, open the drawer. Two, …")."""
 
+_REMEMBERED = 64
+"""Texts whose normal form is kept: more than the ways to read one instruction otherwise are."""
 
+
+@lru_cache(maxsize=_REMEMBERED)
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
     text = _UH.sub(_without_uh, text)
