@@ -26,7 +26,7 @@ _ARTICLE = Expression(r"\b(?:the|an?|my|your|this|that|these|those|it|them)\b", 
 _LIST_HEAD = (
     r"^(?:(?:(?:please|\w+ you) )*(?:to )?(?:do|follow)?"
     r"(?: the following| these| this)? ?(?:steps|things)?"
-    r"(?: in (?:this |the following )?order)?:\s*)?"
+    r" ?(?:in (?:this |the following )?order)?:\s*)?"
 )
 _UH = Expression(
     r"(?P<before>\w+)(?P<comma>,?)\s+(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+(?P<after>\w+)",

@@ -32,7 +32,7 @@ _BEFORE_PLACES = openings_of(
     (places.INTO, places.ONTO, places.TO, places.SOURCE, "between", *places.NEARBY.values())
 ) - {"left", "right"}
 _SETTING = words_of((verbs.SET_DOWN,))
-_VERBS = VERB_WORDS | {"open", "shut", "empty"}
+_VERBS = VERB_WORDS - {"to"} | {"open", "shut", "empty"}
 _GOES = word_set("go goes belong belongs should must has have needs need lives live")
 """Behind what is to be somewhere."""
 _SEQUEL = word_set("first before then after afterwards last finally also too as")
@@ -117,6 +117,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         and {*said[2:3]} & _BEFORE_PLACES
     ):
         said = said[2:]  # "on the tray. Actually, put it in the box"
+    if {*said} <= {*SIDES} and not {*tail} & {*SIDES}:
+        return  # "on the plate, no, left": of it, or of the desk?
     sentence = after[:stop]
     everything = bool(_ALL_OF_IT.search(mark[0]))
     whole = not start and (everything or "instead" in sentence)
@@ -156,7 +158,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         new = (*said[:-1], *_also_told(taken, said), _noun_of(taken)) if noun else said
         new = new[:-1] if new[-1] == "instead" else new
         mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
-        if new[-1] == "it" and new[0] in _BEFORE_PLACES:  # "on the tray, no, next to it"
+        if new[-1] == "it" and _is_place(new):  # "on the tray, no, next to it"
             new = (*new[:-1], *taken[mark_at:])
         new = _other_than(taken[mark_at:], new)
         if new[0] in _LEFT and new[1:2] in (("it",), ("them",)):
@@ -165,6 +167,11 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             words = _joined(*before[:start], *tail[:first], *new, *kept, *more)
             same = said[0] in _BEFORE_THINGS and _noun_of(taken) == said[-1]
             yield TakenBack(" ".join(taken), " ".join(new), words, same)
+
+
+def _is_place(said: Sequence[str]) -> bool:
+    """Whether words say where something goes; "left" and "right" do by what they are of."""
+    return said[0] in _BEFORE_PLACES or (said[0] in ("left", "right") and said[1:2] == ("of",))
 
 
 def _joined(*words: str) -> str:
@@ -286,7 +293,7 @@ def _spans(
             alike = tail[at : at + 1] == (begin,) and "instead" not in sentence
             if one and (alike or (whole and _VERBS & {*tail[at : at + 1]})):
                 yield (at, size)
-    elif begin in _BEFORE_PLACES:
+    elif _is_place(said):
         yield from (
             (at, size)
             for at in where
