@@ -39,7 +39,7 @@ WITHOUT_MEANING = f"""
     {ONE_BY_ONE}, in the process, if you please,
     {BY_HAND},
     pls, plz, pleas, thx, ty, lol, haha, hehe, btw, fyi, (would|will|could|can) you,
-    any way you like,
+    any way you like, either way, in (any|either) case,
     at the moment, at present, for now, this time, (this|for) once,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
