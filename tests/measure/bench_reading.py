@@ -23,7 +23,7 @@ from tests.reasoning import corpus_scenes
 MEDIAN_LIMIT_S = 0.03
 WORST_LIMIT_S = 1.0
 ADDED_LIMIT_S = 0.15
-"""What an issue allows: to read a sentence, in the middle and at worst, and what that adds to
+"""What may be taken: to read a sentence, in the middle and at worst, and what that adds to
 ``etot plan``, the grammar's loading included."""
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "reasoning" / "corpus.yaml"
