@@ -41,6 +41,12 @@ _PERSON = Expression(
 _SOMEBODY = Expression(rf"^(?P<who>{PEOPLE}) ")
 
 
+HEARSAY = Expression(
+    rf"^(?:{PEOPLE}|they|teacher) (?:says?|said|told (?:me|us)) (?:that )?(?!to\b)"
+)
+"""Before what somebody else says."""
+
+
 def deed_of(said: str) -> str | None:
     """What a clause says that somebody does or is; None where it is about no person."""
     found = _PERSON.match(said)
