@@ -88,6 +88,7 @@ def says_nothing(said: str, *, outside: bool = True) -> bool:
 
 
 _BEFORE = {
+    "for": word_set("not"),
     "so": word_set("is are was were am not feel feels look looks get gets got"),
     "where": word_set("is care mind matter difference important goes go which"),
 }
