@@ -16,7 +16,6 @@ from etot_cli.reasoning.language.grammar.asides.facts import verb_of_stranger
 from etot_cli.reasoning.language.grammar.asides.mishaps import befalls
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, is_of_people
 from etot_cli.reasoning.language.grammar.asides.remarks import is_remark
-from etot_cli.reasoning.language.grammar.asides.talk import WHEN
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_idle, told_of_thing
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.fillers import TURNED
@@ -40,7 +39,10 @@ _ENABLED = word_set("can could may might will do does would")
 _BEING = word_set("be stand sit lie rest stay remain go end come move open close")
 """What a stranger is enabled to do asks for nothing, unless it is to be somewhere."""
 _NEEDED = word_set("need needs want wants use uses like likes")
-_HOME = Expression(r"(?:it|they) (?:belongs?|goes?|lives?|should (?:be|have been)(?: all along)?)")
+_HOME = Expression(
+    r"(?:it|they) (?:(?:always|really|usually) )?"
+    r"(?:belongs?|goes?|lives?|should (?:be|have been)(?: all along| since [^~]+)?)"
+)
 _SO_NOTHING = Expression(
     r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
     r"|nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
@@ -56,7 +58,7 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
     """Whether this tells what is to be gained, behind "so" ("I can see it") or ``where``."""
     named = any(map(is_name, said.split()))
     if where:
-        home = _HOME.fullmatch(WHEN.sub("", said))
+        home = _HOME.fullmatch(said)
         return bool(_SO_PEOPLE.match(said) or home) and not named
     if _SO_PEOPLE.match(said) or (_SO_NOTHING.match(said) and not named):
         return True

@@ -64,7 +64,7 @@ _TIMES = (
     r"|dawn|dusk|night|lunch|dinner|work|school|\w+day\w*|\w+time|sharp)"
 )
 _NUMBER = rf"(?:{'|'.join(sorted({*NUMBERS} - {'a', 'an'}))}|half|a quarter|\d+)"
-WHEN = Expression(
+_WHEN = Expression(
     r" (?:(?:right |just )?now|today|tonight|tomorrow|yesterday|soon|shortly|any (?:\w+ )?"
     rf"{_TIMES}|(?:this|next|last|every|all|the whole) (?:{_TIMES}|morning|afternoon|evening)"
     rf"|(?:at|by|around|until|till|since|after|before)(?: about)? {_NUMBER}(?: (?:past|to) \w+)?"
@@ -110,11 +110,11 @@ def is_talk(said: str, is_name: IsName, *, before_so: bool = False, timed: bool 
         timed: whether it stands behind "before".
     """
     told = BEFORE_SUBJECT.sub("", said.replace(" 's ", "s "))
-    timeless = WHEN.sub("", told)
+    timeless = _WHEN.sub("", told)
     words = timeless.split()
     named = any(map(is_name, (word for word in words if word != "can")))
     timed |= timeless != told
-    opens = timed and {*words[-1:]} & _OPENS
+    opens = timed and {*words[-1:]} & _OPENS and words[0] != "they"
     calling = _CALLING & {*words[: -1 if opens else None]}
     if named or calling or _SIDE.search(said) or asks_besides(said):
         return False
