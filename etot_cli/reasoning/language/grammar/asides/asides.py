@@ -60,7 +60,7 @@ _TAGGED = Expression(
 """Of what somebody thinks he knows."""
 _IS_TO_BE = Expression(r"\b(?:go(?:es)?|belongs?|should|must|(?:has|have|needs?|is|are) to)\b")
 _IN_DOUBT = Expression(
-    r"(?:^(?:they|you|people|nobody|no one|(?:any|some|every)(?:body|one)) "
+    r"(?:^(?:they|you|people|nobody|no ?one|neither|(?:any|some|every)(?:body|one)) "
     r"|\b(?:but|though|although|yet|however|so|if|i|we|he|she|wrong|not|have (?!to\b))\b"
     rf"|{QUESTION})"
 )

@@ -41,8 +41,10 @@ _PERSON = Expression(
 _SOMEBODY = Expression(rf"^(?P<who>{PEOPLE}) ")
 
 
+_NAME = r"(?!(?:it|that|this|which|who|what|one|never|none|just)\b)\w+(?<!ly)"
 HEARSAY = Expression(
-    rf"^(?:{PEOPLE}|they|teacher) (?:says?|said|told (?:me|us)) (?:that )?(?!to\b)"
+    rf"^(?:(?:{PEOPLE}|they) say|(?:{PEOPLE}|they|{_NAME}) (?:says|said|told (?:me|us))) "
+    r"(?:that )?(?!to\b)"
 )
 """Before what somebody else says."""
 
