@@ -89,11 +89,21 @@ _OF_SEVERAL_PARTS = Expression(
 def read_otherwise(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal | None:
     """The goal of an instruction, some of whose words only tell something; None where no way to
     leave them out leads to one.
+
+    Raises:
+        ReferenceProblem: the rest is understood, but not what it is about.
     """
     ways = (_from_start, _below_heading, _as_end_state, _beside_asides)
+    problem: ReferenceProblem | None = None
     for way in ways[-1:] if mark_in(normalized(instruction)) else ways:
-        with suppress(UnreadableError, ReferenceProblem):
+        try:
             return way(instruction, scene, vocabulary)
+        except UnreadableError:
+            continue
+        except ReferenceProblem as error:
+            problem = error
+    if problem:
+        raise problem
     return None
 
 

@@ -18,7 +18,10 @@ TIDYING = """
 """
 LIKE_THIS = "(set|lay|arrange|prepare|organise|organize) [up], i (want|would like)"
 """Before what is to be as the words behind a colon say."""
-TIDY_UP = "[it is time to|time to|let us] (tidy|clean|clear) up ~comma"
+TIDY_UP = """
+    [it is time to|time to|let us] (tidy|clean|clear) up ~comma,
+    (it is time to|time to|let us) tidy ~comma
+"""
 """Before what is to go where."""
 FROM_HERE = """
     (starting|beginning|start|begin) (from|with|in)
@@ -28,7 +31,8 @@ FROM_HERE = """
 """Before what is to be done; nobody starts from anything else."""
 TASK = f"""
     {ANNOUNCED} ~comma,
-    [this is] what (i|we) (want|need|would like) [to (see|have)] [is (this|the following)] ~comma,
+    [(this|here) is] what (i|we) (want|need|would like) [to (see|have)]
+    [is (this|the following)] ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
     [the|a] [desired|required|intended]
     (desired|final|goal|target|end|wanted|required|termination|success|expected|intended)
@@ -69,7 +73,8 @@ GREETINGS = f"""
     oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),
     sorry to (bother|trouble|disturb|interrupt) you [again],
     sorry to be (a|such a) (pain|nuisance|bother|pest), [be] careful ~comma,
-    (watch|mind) out ~comma,
+    (watch|mind) out ~comma, right ~comma,
+    do not tell (anyone|anybody|(my|our|the) (boss|wife|husband|mother|mum|father|dad)) ~comma,
     {FROM_HERE} [~comma], {FOR_A_TRY} [~comma],
     for (safety|hygiene|security) reasons, for (heaven|pete|goodness|god) 's sake,
     believe it or not, you will not believe (it|this),

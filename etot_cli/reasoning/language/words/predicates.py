@@ -70,7 +70,7 @@ TO_BE_THROWN = f"({_MUST}|can|may|could) {_SIMPLY} be (thrown|tossed|chucked)"
 MODAL = f"""
     [{_IN_FACT}] ({_MUST}) {_SIMPLY} (be [{BROUGHT}|{_BEING}|found|returned|stood]|
     find (its|their) way [back]|(end|finish|wind) up [{_BEING}]|end|finish|get|land|
-    (go|come|move|return) [back]|
+    (go|come|move|return) [back]|disappear|vanish|
     [come to] ({_TO_STAND})|come to be|belong),
     (should|must|shall) (finally|then) be,
     (can|could|may|might|will) {_SIMPLY}

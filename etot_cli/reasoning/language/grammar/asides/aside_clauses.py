@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.words.patterns import Begun
 
 _DOING = "|".join(sorted(VERB_WORDS | {"open", "close", "shut"}))
 _SOME_TIME = (
-    rf"(?:{'|'.join(sorted(NUMBERS))}|noon|midnight|yesterday|breakfast|lunch|dinner|last \w+)"
+    rf"(?:{'|'.join(sorted(NUMBERS))}|noon|midnight|\w+day|breakfast|lunch|dinner|last \w+)"
     rf"(?: o 'clock)?(?:$| {COMMA})"
 )
 _WITHIN = Expression(
@@ -88,6 +88,7 @@ def says_nothing(said: str, *, outside: bool = True) -> bool:
 
 
 _BEFORE = {
+    "for": word_set("not"),
     "so": word_set("is are was were am not feel feels look looks get gets got"),
     "where": word_set("is care mind matter difference important goes go which"),
 }

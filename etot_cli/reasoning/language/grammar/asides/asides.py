@@ -23,7 +23,7 @@ from etot_cli.reasoning.language.grammar.asides.named_in_asides import (
     of_which,
     refers_back,
 )
-from etot_cli.reasoning.language.grammar.asides.people import is_of_people
+from etot_cli.reasoning.language.grammar.asides.people import HEARSAY, is_of_people
 from etot_cli.reasoning.language.grammar.asides.talk import is_talk
 from etot_cli.reasoning.language.grammar.asides.telling import stranger_is_there
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_turning, told_of_thing
@@ -54,6 +54,17 @@ IsSentence = Callable[[str], bool]
 _MYSELF = word_set("myself ourselves himself herself themselves")
 _SWEEPING = word_set("everything all both each every rest other others")
 _OF_SEVERAL = word_set("they them those these")
+_TAGGED = Expression(
+    rf",? (?:right|correct|(?:is|are|was|were|do|does|did|have|has|will|can) not \w+) {QUESTION}$"
+)
+"""Of what somebody thinks he knows."""
+_IS_TO_BE = Expression(r"\b(?:go(?:es)?|belongs?|should|must|(?:has|have|needs?|is|are) to)\b")
+_IN_DOUBT = Expression(
+    r"(?:^(?:they|you|people|nobody|no ?one|neither|(?:any|some|every)(?:body|one)) "
+    r"|\b(?:but|though|although|yet|however|so|if|i|we|he|she|wrong|not|have (?!to\b))\b"
+    rf"|{QUESTION})"
+)
+"""Not everybody's word is to be followed, nor what may be told only to say that it is not."""
 
 
 class Plain(Struct, frozen=True):
@@ -90,7 +101,15 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         is_sentence: whether the grammar reads a sentence as it stands; what it reads stays whole.
     """
     sentences = _without_confirmation(sentences_of(text))
+    for at, sentence in enumerate(sentences):
+        said = _TAGGED.sub("", sentence)
+        if said != sentence and not _parted(said, is_name, is_sentence).rest:
+            # "You are busy, right? Then close it"
+            behind = [after.removeprefix("then ") for after in sentences[at + 1 : at + 2]]
+            sentences[at : at + 2] = [said, *behind]
     parted = [_parted(sentence, is_name, is_sentence) for sentence in sentences]
+    if len(sentences) == 1 and (asked := _asked_by_another(sentences[0])):
+        parted = [asked]
     rest = [part.rest for part in parted if part.rest]
     asides = [aside for part in parted for aside in part.asides]
     cut = any(part.before or part.after for part in parted)
@@ -121,6 +140,18 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         tuple(_as_told(item, part) for part in parted for item in part.asides
               if item.kind == "anyway"),
     )  # fmt: skip
+
+
+def _asked_by_another(sentence: str) -> _Parted | None:
+    """A sentence that tells what is to be so by somebody's word, without that ("mum says the cup
+    goes in the box"); None where there is none, or where it may not be followed.
+    """
+    heard = HEARSAY.match(sentence)
+    if heard is None or _IN_DOUBT.search(sentence.removeprefix("i ")):
+        return None
+    asked = sentence[heard.end() :]
+    said = Clause(comma=False, kind="", joint="", said=heard[0].strip())
+    return _Parted(asked, before=(said,)) if _IS_TO_BE.search(asked) else None
 
 
 def only_tells(text: str, is_name: IsName) -> bool:

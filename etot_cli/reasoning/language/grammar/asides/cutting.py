@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause
 from etot_cli.reasoning.language.grammar.asides.asking_words import (
@@ -24,7 +25,7 @@ from etot_cli.reasoning.language.grammar.asides.mishaps import (
     is_unspoilt,
     may_befall,
 )
-from etot_cli.reasoning.language.grammar.asides.people import is_of_people
+from etot_cli.reasoning.language.grammar.asides.people import HEARSAY, is_of_people
 from etot_cli.reasoning.language.grammar.asides.reasons import (
     is_comment,
     is_purpose,
@@ -199,6 +200,10 @@ def _tells_what_for(place: _Place) -> bool:
 def _only_tells(place: _Place) -> bool:
     """Whether a clause without such a joint only tells something."""
     said, is_name, at, clauses = place.said, place.is_name, place.at, place.clauses
+    if heard := HEARSAY.match(said):
+        told = replace(place.clause, said=said[heard.end() :])
+        clauses = [*clauses[:at], told, *clauses[at + 1 :]]
+        return _is_whole(clauses, at) and _only_tells(_Place(clauses, at, is_name))
     first, whole = at == 0, _is_whole(clauses, at)
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
     wanted_for = so and (is_desk_wish(said) or is_plan(said, is_name))

@@ -192,6 +192,16 @@ def _is_thing(words: Sequence[str], is_name: IsName) -> bool:
     )
 
 
+def verb_of_stranger(said: str, is_name: IsName, verbs: frozenset[str]) -> int:
+    """Where one of some verbs stands behind somebody or something that is not in the scene, by its
+    name or by its noun; 0 where none does.
+    """
+    words = said.split()
+    at = next((at for at, word in enumerate(words[:5]) if word in verbs), 0)
+    by_name = at == 1 and not is_name(words[0]) and words[0] not in all_words()
+    return at if at and (by_name or _is_strange(words[:at], is_name)) else 0
+
+
 def _is_strange(subject: Sequence[str], is_name: IsName) -> bool:
     """Whether something is told of what is not in the scene ("the bus will not wait")."""
     known = any(map(is_name, subject)) or {*subject[1:]} & NO_STRANGERS

@@ -41,6 +41,14 @@ _PERSON = Expression(
 _SOMEBODY = Expression(rf"^(?P<who>{PEOPLE}) ")
 
 
+_NAME = r"(?!(?:it|that|this|which|who|what|one|never|none|just)\b)\w+(?<!ly)"
+HEARSAY = Expression(
+    rf"^(?:(?:{PEOPLE}|they) say|(?:{PEOPLE}|they|{_NAME}) (?:says|said|told (?:me|us))) "
+    r"(?:that )?(?!to\b)"
+)
+"""Before what somebody else says."""
+
+
 def deed_of(said: str) -> str | None:
     """What a clause says that somebody does or is; None where it is about no person."""
     found = _PERSON.match(said)

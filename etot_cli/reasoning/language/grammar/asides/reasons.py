@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     WORK,
     IsName,
 )
+from etot_cli.reasoning.language.grammar.asides.facts import verb_of_stranger
 from etot_cli.reasoning.language.grammar.asides.mishaps import befalls
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, is_of_people
 from etot_cli.reasoning.language.grammar.asides.remarks import is_remark
@@ -19,6 +20,7 @@ from etot_cli.reasoning.language.grammar.asides.told_of_things import is_idle, t
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.fillers import TURNED
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS
+from etot_cli.reasoning.language.words.lexicon import word_set
 
 _GONE_WRONG = Expression(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
 _THING = r"(?:the|my|our) (?:\w+ )?\w+"
@@ -32,6 +34,14 @@ _SO_IT_CAN = Expression(
 )
 _SO_PEOPLE = Expression(
     rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has|need not)\b"
+)
+_ENABLED = word_set("can could may might will do does would")
+_BEING = word_set("be stand sit lie rest stay remain go end come move open close")
+"""What a stranger is enabled to do asks for nothing, unless it is to be somewhere."""
+_NEEDED = word_set("need needs want wants use uses like likes")
+_HOME = Expression(
+    r"(?:it|they) (?:(?:always|really|usually) )?"
+    r"(?:belongs?|goes?|lives?|should (?:be|have been)(?: all along| since [^~]+)?)"
 )
 _SO_NOTHING = Expression(
     r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
@@ -48,10 +58,13 @@ def is_purpose(said: str, is_name: IsName, *, where: bool = False) -> bool:
     """Whether this tells what is to be gained, behind "so" ("I can see it") or ``where``."""
     named = any(map(is_name, said.split()))
     if where:
-        home = re.fullmatch(r"(?:it|they) (?:belongs?|goes?|lives?|should be)", said)
+        home = _HOME.fullmatch(said)
         return bool(_SO_PEOPLE.match(said) or home) and not named
     if _SO_PEOPLE.match(said) or (_SO_NOTHING.match(said) and not named):
         return True
+    verb = verb_of_stranger(said, is_name, _ENABLED)
+    if verb == 1 or (verb and not (named or _BEING & {*said.split()})):
+        return True  # "so that Ann can find it", "so the ants do not get in"
     if _SO_OF_ITSELF.match(said) or is_made_possible(said):
         return True
     told_of = told_of_thing(said, is_name)
@@ -96,7 +109,8 @@ def is_reason(said: str, is_name: IsName) -> bool:
         return False  # "as you move the cup over there, keep it upright"
     if "going" in words and PLACED & words and any(map(is_name, words)):
         return False  # "as it is going in the box"
-    if not is_of_people(said):
+    needed = "to" not in words and not any(word.endswith("ing") for word in words)
+    if not (is_of_people(said) or (needed and verb_of_stranger(said, is_name, _NEEDED))):
         return not (ASKING | CHANGING - {"to", "by", "than"} | WORK) & words
     wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words
     return not (wanted and PLACED & words and any(map(is_name, words)))

@@ -77,6 +77,8 @@ _HAPPENS = word_set(
     "comes arrives leaves starts begins ends opens closes rings calls visits departs works sleeps"
 )
 """What a stranger does, where it is said when ("our cleaner comes on Mondays")."""
+_OPENS = word_set("open opens close closes shut shuts")
+"""What people do with a shop, where nothing follows ("we close at nine")."""
 _SOME_PLACE = Expression(
     r"(?:this|the|our|my) (?:whole |entire )?(?:place|room|world|house) (?:is|looks|smells|feels) "
 )
@@ -111,16 +113,19 @@ def is_talk(said: str, is_name: IsName, *, before_so: bool = False, timed: bool 
     timeless = _WHEN.sub("", told)
     words = timeless.split()
     named = any(map(is_name, (word for word in words if word != "can")))
-    if named or _CALLING & {*words} or _SIDE.search(said) or asks_besides(said):
+    timed |= timeless != told
+    opens = timed and {*words[-1:]} & _OPENS and words[0] != "they"
+    calling = _CALLING & {*words[: -1 if opens else None]}
+    if named or calling or _SIDE.search(said) or asks_besides(said):
         return False
     if found := _PERSON.match(timeless):
-        return _is_no_deed(timeless[found.end() :].split())
+        return _is_no_deed(timeless[found.end() :].split(), timed=timed)
     if _SOME_PLACE.match(timeless) or _WEATHER.match(timeless):
         return True
     begun = words[: words.index(COMMA)] if COMMA in words else words
     if begun[:1] == ["there"] and {*begun[1:2]} & {"is", "was", "are", "were"}:
         return not (_REFERRING | {*STATES}) & {*begun[2:]}
-    return _is_of_stranger(begun, timed=timed or timeless != told, before_so=before_so)
+    return _is_of_stranger(begun, timed=timed, before_so=before_so)
 
 
 def _is_of_stranger(words: Sequence[str], *, timed: bool, before_so: bool) -> bool:
@@ -151,10 +156,12 @@ def _may_be_verb(word: str, subject: str) -> bool:
     return word.endswith("s") and not word.endswith(("ss", "us", "is")) and not several
 
 
-def _is_no_deed(did: list[str]) -> bool:
-    """Whether somebody does something else than what the robot may be to do ("we open at nine"),
-    and holds nothing of what was spoken of ("I like them clean").
+def _is_no_deed(did: list[str], *, timed: bool) -> bool:
+    """Whether somebody does something else than what the robot may be to do, and holds nothing of
+    what was spoken of ("I like them clean").
     """
+    if timed and len(did) == 1 and did[0] in _OPENS:
+        return True
     first = next((word for word in did if word not in _AUXILIARIES), "with")
     if first == "with":  # "I could do with a pen"
         return False

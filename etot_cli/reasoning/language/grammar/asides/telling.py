@@ -43,6 +43,7 @@ _TIME = Expression(
 _EXCLAIMED = Expression(
     r"(?:what (?:an? )?(?:\w+ ){0,2}\w+|how (?!many\b|much\b|about\b|come\b|to\b)\w+(?: of you)?"
     r"|look (?:at (?:this|that|the)(?: \w+)?|what a) (?:mess|chaos|clutter|state|jumble)"
+    r"|\w+ weather(?: today| outside| again)?"
     r"|(?:good|oh my|my) (?:grief|goodness|lord|heavens|god|gracious))"
 )
 _PLACED_THERE = Expression(

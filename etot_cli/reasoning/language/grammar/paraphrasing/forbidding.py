@@ -24,7 +24,10 @@ _FROM_THERE = Expression(
 )
 """What is not to be moved, with from where: that is where it is by now."""
 FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
-    (r"(?<=\w),? but without (?=\w+ing\b)", ", without "),
+    (
+        r"(?<=\w),? (?:but|(?:but|and) (?:please )?do (?:it|this|that|so)) without (?=\w+ing\b)",
+        ", without ",
+    ),
     # "Don't you dare touch it", "don't even think of moving it"
     (
         r"\b(do not|never) (?:you )?(?:even |ever )?"

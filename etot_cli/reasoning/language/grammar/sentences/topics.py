@@ -114,8 +114,10 @@ _STATED = either(
         build=all_of_any,
     ),
     sequence(
-        f"there is, there are, (i|you|we) [can] see, you have, {predicates.OTHERS_WANT}",
+        "there is, there are, (i|you|we) [can] see, (i|you|we) have [got], "
+        f"{predicates.OTHERS_WANT}",
         ALL_THINGS,
+        silent(optional("[over|right] here")),
         build=_the_some,
     ),
 )
