@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.world.colors import BASIC_COLORS
 
 _ENDS = r"(?=[.,;:!?]| (?:and|but|while|then|at any|under any)\b|$)"
 _SPOT = (
@@ -82,6 +83,10 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"\b(?:i|we) (?:want|need|would like) ({_THEM}) to "
         rf"(?=(?:stay|remain) (?:{_SPOT}|put\b|as ))",
         r"\1 should ",
+    ),
+    (
+        rf",? (?:but|only|just) nothing ({'|'.join(BASIC_COLORS)})(?=[.,;!]|$)",
+        r", except anything \1",
     ),
     (r"\b(?:keep|take) your (?:hands|paws|fingers) off (?=\w)", "do not touch "),
     # "Only the cup should go in the box, nothing else"
