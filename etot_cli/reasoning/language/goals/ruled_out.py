@@ -160,9 +160,9 @@ def rule_out(
 
     ``besides``: where they go, which "it" in "instead of on it" is not, if it can be another.
     """
-    for index in themes:
-        is_not_chosen(context, index, which=True)
-    names = dict.fromkeys(thing.name for thing in context.discourse.things(*themes))
+    unchosen = [index for index in themes if is_not_chosen(context, index)]
+    said = [index for index in themes if index not in unchosen]
+    names = dict.fromkeys(thing.name for thing in context.discourse.things(*said))
     text = " and ".join(context.discourse.referents[index].text for index in themes)
     places: list[tuple[Relation, str]] = []
     beside = [item.text for where in destinations for item in where.beside]
@@ -192,8 +192,15 @@ def rule_out(
     alone = len(names) == 1  # of all that must not be on the tray, the tray itself is not anyway
     if alone and any(address.partition(".")[0] in names for _, address in places):
         raise ReferenceProblem(text, "nothing is in or on itself; say of what", 3)
-    if places:
+    if places and names:
         context.constraints.append(Constraint(Keep.AWAY, tuple(names), tuple(places)))
+    for index in unchosen if places else ():
+        of_which = [(t, place) for t in context.discourse.things(index) for place in found]
+        for thing, place in of_which:
+            at = () if place.where is None else context.discourse.things(place.where)
+            if any(_is_there(thing, place.relation, mark, context.scene) for mark in at):
+                raise ReferenceProblem(text, f"{thing.name} is there; say which ones", 3)
+        context.constraints.append(Constraint(Keep.AWAY, (), tuple(places), referent=index))
     return found
 
 

@@ -35,7 +35,7 @@ class Phrases(Referents):
         """Referents of coordinated phrases; alternatives become one referent. No pronoun means any
         of ``excluded``.
         """
-        things = self._listed(things, role)
+        things = self._less_some(self._listed(things, role), role)
         self._check_shared(things, role)
         for phrase in things.phrases[1:]:
             if phrase.determiner == "both" and not phrase.words:
@@ -88,6 +88,34 @@ class Phrases(Referents):
             return things
         of_them = {thing for item in meant for thing in things_in(item)} <= {*things_in(every)}
         return structs.replace(things, phrases=named) if of_them else things
+
+    def _less_some(self, things: Things, role: Role) -> Things:
+        """What is left out of several things is left out of those that it is one of: in "all cups
+        and balls but the red ones" red cups and red balls, in "… but the red cup" that.
+
+        Raises:
+            AmbiguousReference: it may be one of others, too, and need not.
+        """
+        marks = (item for np in things.phrases for item in np.modifiers)
+        out = next((item for item in marks if item.prep in (Prep.EXCEPT, Prep.CONTRAST)), None)
+        if out is None or out.denied or things.either or not things.phrases[1:]:
+            return things
+        lent = any(np.is_elliptic for np in out.phrases)
+        # With one article the phrase before them is one: "the cups and balls but the red ones".
+        shared = any(np.loose for np in things.phrases)
+        shared &= not any("one" in np.text.split() for np in out.phrases)
+        found: list[NounPhrase] = []
+        for np in things.phrases:
+            whole, less = np.without_modifier(out), np if out in np.modifiers else np.told_by(out)
+            ways = [self._options([item], role) for item in (less, whole)]
+            plural = bool(np.words) and singular(np.head) != np.head
+            fits = plural and all(ways) and ways[0] != ways[1]
+            if fits and lent and not shared and less is not np:
+                text = f"{whole.text} but {out.phrases[0].text}"
+                self._check_same(whole.text, ways, f"{text!r} may be meant, too:")
+            found.append(less if fits else whole)
+        left = any(out in np.modifiers for np in found)
+        return structs.replace(things, phrases=tuple(found)) if left else things
 
     def _of_the_whole(self, things: Things, role: Role, found: Sequence[Sequence[int]]) -> None:
         """Of what is announced together "the pen" is one of that.

@@ -15,7 +15,8 @@ ALL_ALONG = """
     at all times, at any (time|point|moment|stage),
     (during|throughout) the [whole|entire]
     (run|task|trial|episode|execution|process|motion|move|experiment|test|procedure|operation),
-    (all|the (whole|entire)) [the] (time|while), throughout, all along
+    (all|the (whole|entire)) [the] (time|while), throughout, all along,
+    (while|as) you do (it|so|this|that), (while|in) doing (it|so|this|that)
 """
 """Behind what is to be so not only in the end."""
 WHILE = "while [you [are]], whilst [you [are]], as you [are]"

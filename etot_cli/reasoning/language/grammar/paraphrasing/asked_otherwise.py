@@ -121,7 +121,24 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"\b(please(?: kindly)?|kindly) to (?=(?:put|place|move|take|pick|bring|open|close)\b)",
         r"\1 ",
     ),
+    (
+        r"\b((?:must|should|have to|need to) [^.,;!?]*? and )to "
+        r"(?=(?:put|place|move|take|pick|bring|open|close)\b)",
+        r"\1",
+    ),
     (r"\b(one [^.;]*? and )(?=other one\b)", r"\1the "),
+    # "Behind the bin there is room for the bear, put it there"
+    (
+        r"(\bthere is (?:still |enough |some )?(?:room|space) [^.,;!?]*)[.,;!] "
+        r"(?=(?:please )?(?:put|place|set|stand) (?:it|them) there\b)",
+        r"\1, so ",
+    ),
+    # "First comes the pot on the stove, then the spoon in the pot"
+    (
+        rf"(^|[.;!] |, (?:and )?)(first|then|next|last(?: of all)?) comes? (?={NAMED} [^.,;!]*? "
+        r"(?:in|on|inside|into|onto|next to|to the|behind|beside) )",
+        r"\1\2 ",
+    ),
     # "You will have to turn it for that": of what goes somewhere, as "it has to be turned" is
     (
         r"(^|[.;!] )(?:for (?:that|this),? )?you (?:will )?(?:probably )?(?:have|need) to "

@@ -40,9 +40,12 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
         rf"((?:in|into|on|onto|inside) {_SOME}), (?:please )?({_PUT}) (it|them) ([^.,;!?]*)",
         r"\1\4 \2 \6 instead of \3",
     ),
+    # "Take nothing off the plate except the roll, which goes …", as "do not take anything …"
+    (rf"{_BEGINS}(take|remove) nothing (?=(?:off|from|out of) )", r"\1do not \2 anything "),
     # "Do not move anything except the cup, which goes beside the plate"
     (
-        rf"\b((?:do not|never) (?:move|touch) anything (?:except(?: for)?|but|other than|besides) "
+        rf"\b((?:do not|never) (?:(?:move|touch) anything|(?:take|remove) anything "
+        rf"(?:off|from|out of) {_SOME}) (?:except(?: for)?|but|other than|besides) "
         rf"({_SOME})),? (?:and )?which (?=(?:goes|belongs|should|must|is to|has to) )",
         r"\1. \2 ",
     ),

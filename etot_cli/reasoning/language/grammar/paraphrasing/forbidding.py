@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.world.colors import BASIC_COLORS
 
 _ENDS = r"(?=[.,;:!?]| (?:and|but|while|then|at any|under any)\b|$)"
 _SPOT = (
@@ -23,6 +24,20 @@ _FROM_THERE = Expression(
     rf" (?:away )?(?:from|off|out of) (?:{_SPOT}){_ENDS}"
 )
 """What is not to be moved, with from where: that is where it is by now."""
+_THEM = rf"{_IT}(?: and {_IT})*"
+_ANY = rf"(?:any(?:thing| \w+(?: \w+){{0,2}}?)|{_THEM})"
+_NONE = r"(?:nothing|no (?:\w+ ){0,2}?\w+)"
+_TURN = {"opened": "open", "closed": "close", "shut": "close"}
+
+
+def _neither_turned(said: re.Match[str]) -> str:
+    """What must not be opened and must not be closed, each said by itself."""
+    begins, things, none, one, two = said.groups()
+    some = things or ("anything" if none == "nothing" else none.replace("no ", "any ", 1))
+    acts = " and ".join(f"do not {_TURN[act]} {some}" for act in (one, two))
+    return f"{begins}{acts}"
+
+
 FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (
         r"(?<=\w),? (?:but|(?:but|and) (?:please )?do (?:it|this|that|so)) without (?=\w+ing\b)",
@@ -42,12 +57,53 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r", not one \1 the other",
     ),
     (_FROM_THERE, r"\1"),
+    # "Do not open or close anything", "nothing may be opened or closed"
+    (
+        rf"\b(do not|never) (open|close|shut) (?:or|nor) (open|close|shut) ({_ANY})"
+        rf"(?!, {NAMED}){_ENDS}",
+        r"\1 \2 \4 and \1 \3 \4",
+    ),
+    (
+        rf"(^|[.;!,] |\b(?:and|but) )(?:({_THEM}) {_MUST_NOT}|({_NONE}) "
+        rf"(?:must|should|may|can|is to|are to)) be (opened|closed|shut) "
+        rf"(?:or|nor) (opened|closed|shut){_ENDS}",
+        _neither_turned,
+    ),
     # "Put it between the cup and the jar without moving either of them"
     (
         rf"\b((?:between|next to|beside|near|behind|in front of) ({_IT}) and ({_IT}),? "
         rf"(?:without|and do not|but do not|but without) {_MOVING}) "
         rf"(?:either|any|both|each)(?: one)?(?: of (?:them|these|those|the two))?{_ENDS}",
         r"\1 \2 or \3",
+    ),
+    # "The red one you leave where it is", "I want it to stay put"
+    (
+        rf"(^|[.;!,] |\b(?:and|but) )({_THEM}) you (?:can |may |should |must |just )*leave "
+        rf"(?=(?:{_SPOT}|alone|untouched|in peace|as (?:it is|they are))(?:[.,;!]|$))",
+        r"\1leave \2 ",
+    ),
+    (
+        rf"\b(?:i|we) (?:want|need|would like) ({_THEM}) to "
+        rf"(?=(?:stay|remain) (?:{_SPOT}|put\b|as ))",
+        r"\1 should ",
+    ),
+    (
+        rf",? (?:but|only|just) nothing ({'|'.join(BASIC_COLORS)})(?=[.,;!]|$)",
+        r", except anything \1",
+    ),
+    (r"\b(?:keep|take) your (?:hands|paws|fingers) off (?=\w)", "do not touch "),
+    # "Only the cup should go in the box, nothing else"
+    (
+        rf"((?:^|[.;!] )only {NAMED} [^.,;!]*? (?:goes?|belongs?|should|must|is to|are to) "
+        r"(?:(?! and )[^.,;!])*?),? (?:and )?nothing else(?=[.;!]|$)",
+        r"\1",
+    ),
+    # "To the right of the cup, not left" of it
+    (
+        r"(\b(?:left|(right))(?: side)? of (?:(?! and |\bleft\b|\bright\b)[^.,;!])*?),? "
+        r"(?:and |but )?not (?:(?:to|at|on) )?(?:the |its )?((?(2)left|right))(?: side)?"
+        r"(?=[.;!]|$)",
+        r"\1, not to the \3 of it",
     ),
     # "Don't leave the door open afterwards"; what stands open on its own account is no such thing
     (

@@ -194,8 +194,14 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     # Whose it is, before what is to be done with it
     (
         r"(?<!that )(?<!which )\b(?:is|are) (?:mine|ours|(?:my|our) favou?rites?) and "
-        r"(?=(?:stays?|remains?|goes?|belongs?|must|should|has to|have to|is|are)\b)",
+        r"(?=(?:stays?|remains?|go(?:es)?|belongs?|must|should|has to|have to|is|are)\b)",
         "",
+    ),
+    # "The rose is for my sister and stays where it is"
+    (
+        rf"(?<!that )(?<!which )\b(is|are) for ({PEOPLE}) and "
+        r"(?=(?:stays?|remains?|go(?:es)?|belongs?)\b)",
+        lambda said: f"{said[1]} for {said[2]}, so {'it' if said[1] == 'is' else 'they'} ",
     ),
     (r"^no, (?!no\b|not\b|but\b)", ""),
     (

@@ -85,6 +85,12 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?=(?:{NAMED}|any|one|two|three)\b[^.;,]*? (?:in|on|inside|next to)\b)",
         r"\1 would like ",
     ),
+    # "The red one I would be glad to have on the tray"
+    (
+        rf"((?:^|[.;!,] |\b(?:and|but) ){_NOUN} (?:i|we) would) be (?:very |quite |really )?"
+        r"(?:happy|glad|pleased) to have (?=(?:in|on|inside|next to|behind|to the)\b)",
+        r"\1 like to have ",
+    ),
     (r"\bany (?=(?:two|three|four) (?:of )?)", ""),
     # "I do not want the cup on the tray, only the pen"
     (

@@ -49,6 +49,9 @@ def coordinated(first: NounPhrase, more: tuple[NounPhrase, ...]) -> tuple[NounPh
                 return None  # "second, red mug": what comes second
             noun = "_".join(following.words).split("_")[1:]  # labels of several words are joined
             item = replace(item, words=(*item.words, *noun[-1:]))
+            if following.determiner == item.determiner == "the":
+                # "The red and the green spools" may be one each, as "the red and green spools"
+                found[index + 1] = replace(following, loose=True)
         found[index] = item
     return tuple(found)
 

@@ -46,12 +46,16 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
+    Modifier,
     NounPhrase,
     Things,
     Toward,
 )
 from etot_cli.reasoning.language.words import fillers, places, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, is_descriptive, matches_any
+from etot_cli.reasoning.language.words.places import Prep
+
+_LEAVING_OUT = (Prep.EXCEPT, Prep.CONTRAST)
 
 
 def _opened_for(seen: Reading, rest: Reading) -> Reading | None:
@@ -116,7 +120,10 @@ def _one_of_them(topic: Reading, rest: Reading) -> Reading | None:
     """Several things are named before a clause speaks of some of them ("of the cups take the left
     one", "… put one on the tray and the other in the sink").
     """
-    nps = [item for item in nodes(rest[0].clause) if isinstance(item, NounPhrase)]
+    # In "the cups and balls go there, except the red ones" these are some of the phrase's own.
+    told = (item for item in nodes(rest[0].clause) if isinstance(item, Modifier))
+    left_out = {np for item in told if item.prep in _LEAVING_OUT for np in item.phrases}
+    nps = {item for item in nodes(rest[0].clause) if isinstance(item, NounPhrase)} - left_out
     some = are_several(topic[0].clause) and any(map(_is_one_of_them, nps))
     return (*topic, *rest) if some else None
 

@@ -59,6 +59,10 @@ def without_of(phrase: NounPhrase) -> NounPhrase:
     if of is None:
         return phrase
     whole = of.phrases[0]
+    bare = not (whole.words or whole.pronoun) and whole.determiner.startswith("the ")
+    if bare and phrase.words and not phrase.is_elliptic:
+        among = quantity_of(whole.determiner).count or 0  # "the middle cup of the three"
+        return replace(phrase.without_modifier(of), among=among)
     if phrase.head == _CONTENTS:
         inside = Modifier(Prep.IN, (whole,))
         words = (*phrase.words[:-1], "objects")
