@@ -73,7 +73,7 @@ GREETINGS = f"""
     oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),
     sorry to (bother|trouble|disturb|interrupt) you [again],
     sorry to be (a|such a) (pain|nuisance|bother|pest), [be] careful ~comma,
-    (watch|mind) out ~comma, right ~comma,
+    (watch|mind) out ~comma,
     do not tell (anyone|anybody|(my|our|the) (boss|wife|husband|mother|mum|father|dad)) ~comma,
     {FROM_HERE} [~comma], {FOR_A_TRY} [~comma],
     for (safety|hygiene|security) reasons, for (heaven|pete|goodness|god) 's sake,
