@@ -41,7 +41,8 @@ _GOES_ON = word_set("in on into onto to and from inside next then")
 _RIGHT = Expression(
     r"(^|[.!?;\n]\s*)right(?: then| so)?,\s*"
     rf"(?=(?:{'|'.join(VERB_WORDS)}|please|can|could|would|will|let|now|i|you|we)\b"
-    r"|(?!.*\b(?:left|middle|right)\b)(?:(?:the|my|our|an?) )?(?:\w+ ){1,2}(?:is|are|comes?|was|were)\b"
+    r"|(?!.*\b(?:left|middle|right)\b)(?:(?:the|my|our|an?) )?(?:\w+ ){1,2}"
+    r"(?:is|are|comes?|was|were)\b"
     r"|(?!.*\bleft,)(?:(?:the|my|both|all|your|every) )?\w+ (?:\w+ )?"
     r"(?:in|on|into|onto|goes|go|belongs?|has to|needs to|should|must)\b)"
 )
