@@ -98,7 +98,9 @@ def _goes_elsewhere(
 
 
 def _bystanders(context: Context, condition: State) -> list[int]:
-    """What some place is said of; of several pens, "with the pen in it" is about the one there."""
+    """What some place is said of; of several pens, "with the pen in it" is about the one there, and
+    "with the pens in it" about those there.
+    """
 
     def options(np: NounPhrase) -> list[int]:
         """How many things each of those is that a phrase may mean."""
@@ -113,8 +115,11 @@ def _bystanders(context: Context, condition: State) -> list[int]:
         there = np
         if prep and where.targets and not more and np.determiner == "the":
             there = np.told_by(Modifier(prep, where.targets))
-        narrowed = options(there) == [1] and len(options(np)) > 1
-        phrases.append(there if narrowed else np)
+        one_way, ways = options(there), options(np)
+        fewer = len(one_way) == len(ways) == 1 and one_way < ways
+        if fewer:
+            context.discourse.notes.append(f"{np.text!r}: those that are there")
+        phrases.append(there if fewer or (one_way == [1] and len(ways) > 1) else np)
     return context.phrases.things(Things(tuple(phrases)), Role.THEME)
 
 
