@@ -13,7 +13,14 @@ from etot_cli.reasoning.builtin.roles import Role
 from etot_cli.reasoning.language.grammar.syntax.phrases import Toward
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference, Mention
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
-from etot_cli.reasoning.language.words.lexicon import LEVELS, THING_NOUNS, matches_any, same_noun
+from etot_cli.reasoning.language.words.categories import members_of
+from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
+    THING_NOUNS,
+    matches_any,
+    same_noun,
+    singular,
+)
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import DESK, PartInfo, SceneState
@@ -316,6 +323,7 @@ class Discourse:
                 here
                 or mention.referent in dealt_with
                 or any(same_noun(word, noun or "") for word in said)
+                or any(singular(word) in members_of(noun or "") for word in said)
             )
             if noun is not None and alike and len(options) == 1:
                 found.update(dict.fromkeys(options[0]))
