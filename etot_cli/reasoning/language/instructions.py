@@ -37,13 +37,15 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
     try:
         return read_plainly(text, scene, vocabulary)
     except (UnreadableError, ReferenceProblem) as error:
-        unread = error
         try:
-            if (goal := _otherwise(said, text, scene, vocabulary)) is not None:
-                return goal
+            goal = _otherwise(said, text, scene, vocabulary)
         except ReferenceProblem as problem:  # beside an aside, which is not to blame
-            unread = problem if isinstance(error, UnreadableError) else error
-        raise _refused(unread, instruction, scene, vocabulary) from None
+            if isinstance(error, UnreadableError):
+                raise _refused(problem, instruction, scene, vocabulary) from None
+            goal = None
+        if goal is None:
+            raise _refused(error, instruction, scene, vocabulary) from None
+        return goal
 
 
 def _otherwise(said: str, text: str, scene: SceneState, vocabulary: Vocabulary) -> Goal | None:

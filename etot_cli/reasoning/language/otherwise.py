@@ -102,8 +102,11 @@ def read_otherwise(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
             continue
         except ReferenceProblem as error:
             problem = error
-    if problem:
-        raise problem
+    try:
+        if problem:
+            raise problem
+    finally:
+        problem = None  # an error that its own frame holds is freed late, with all that holds it
     return None
 
 

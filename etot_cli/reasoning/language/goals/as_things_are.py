@@ -207,14 +207,14 @@ def _ways(
     if not subjects:  # "if the teapot contains tea"
         raise ReferenceProblem(condition.text, "say what is in or on it", 3)
     found: set[bool] = set()
-    problem: ReferenceProblem | None = None
+    unclear: Thing | None = None
     for thing in subjects:
         try:
             found.add(_is_so(condition, thing, place, scene))
-        except ReferenceProblem as error:
-            problem = error
-    if problem is not None and not (one_is_enough and True in found):
-        raise problem
+        except ReferenceProblem:
+            unclear = thing
+    if unclear is not None and not (one_is_enough and True in found):
+        _is_so(condition, unclear, place, scene)  # says why
     return found
 
 
