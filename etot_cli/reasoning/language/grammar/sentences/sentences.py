@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import takewhile
+
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.conditions.ensuring import ENSURE
@@ -47,7 +49,7 @@ from etot_cli.reasoning.language.grammar.sentences.headlines import (
 )
 from etot_cli.reasoning.language.grammar.sentences.joining import Joined, chained, joint
 from etot_cli.reasoning.language.grammar.sentences.led_clauses import LEAD, ORDER_WORDS
-from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, plain
+from etot_cli.reasoning.language.grammar.sentences.spoken import Order, Reading, Spoken, plain
 from etot_cli.reasoning.language.grammar.sentences.taking_turns import taking_turns
 from etot_cli.reasoning.language.grammar.sentences.topics import SAID
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
@@ -57,6 +59,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     PutClause,
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, State
+from etot_cli.reasoning.language.grammar.text.splitting import COMMA as PAUSE
 from etot_cli.reasoning.language.grammar.text.splitting import QUESTION
 from etot_cli.reasoning.language.words import fillers, frames, manner, small_words
 from etot_cli.reasoning.language.words.places import Prep
@@ -196,6 +199,17 @@ WHOLE = either(
 )
 
 
+_POLITE = frozenset({"please", "kindly", "could", "can", "would", "will", "you", PAUSE})
+
+
 def readings(given: Input) -> list[Reading]:
-    """All readings of a sentence, each as clauses in the order in which the sentence puts them."""
-    return complete(WHOLE, given)
+    """All readings of a sentence, each as clauses in the order in which the sentence puts them.
+
+    Whether "please" before the first one belongs to it makes no other reading of all that follows.
+    """
+    polite = len([*takewhile(_POLITE.__contains__, given.words)])
+
+    def begun(said: Spoken) -> Spoken:
+        return replace(said, position=0) if said.position <= polite else said
+
+    return [*dict.fromkeys(tuple(map(begun, reading)) for reading in complete(WHOLE, given))]
