@@ -111,7 +111,9 @@ def _kept(refused: Refused, text: str) -> str:
 def _changed(refused: Refused, text: str, kept: str, names: _Names) -> Iterator[str]:
     """The sentence with the words exchanged or left out at which it was refused."""
     part = re.search(rf"\bof\s+{re.escape(refused.phrase)}", text)
-    for name in () if part else refused.candidates[:3]:  # no part of a name ("box of plasters")
+    # Several things have no one name; nor is it part of another ("box of plasters").
+    single = [name for name in refused.candidates if "," not in name]
+    for name in () if part else single[:3]:
         phrase = rf"(?:\b(?:the|a|an) )?(?<!\w){re.escape(refused.phrase)}(?!\w)"
         yield re.sub(phrase, names.of(name), text, count=1)
     if refused.candidates and refused.phrase.startswith("the "):
