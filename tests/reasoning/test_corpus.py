@@ -58,7 +58,9 @@ def test_read(name: str, text: str, wanted: str) -> None:
 
 
 def test_every_fourth_refusal_says_what_would_be_read() -> None:
-    """0.28 of them all; for the others there is nothing near that asks for the same."""
+    """0.28 of them all, of which a fifth is tried; for the others there is nothing near that asks
+    for the same.
+    """
     refused = [(name, text) for name, found in CORPUS.items() for text in found.get("refused", {})]
     refused = refused[::5]
     told = 0

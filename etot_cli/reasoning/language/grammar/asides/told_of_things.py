@@ -113,11 +113,6 @@ def is_in_passing(said: str) -> bool:
     )
 
 
-def is_not_to_stay(said: str) -> bool:
-    """Whether something cannot stay as or where it is, of which is not said how that is."""
-    return bool(_UNFIT_THERE.match(said))
-
-
 def is_turning(said: str) -> bool:
     """Whether this tells how something gets by itself, as food that stands in the warmth."""
     return bool(_TURNING.search(said))
