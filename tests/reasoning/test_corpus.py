@@ -209,3 +209,12 @@ def test_sentences_one_after_the_other_are_read_or_refused_in_time(behind: str) 
     for name, found in CORPUS.items():
         for text in [*found.get("read", {})][::144]:
             told(f"{text.rstrip('.')}. {behind}", SCENES[name])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("end", [", that should not stay here.", " because this is.", ", so the."])
+def test_clauses_that_are_broken_off_are_read_or_refused(end: str) -> None:
+    """What is looked for beside a request may be less than a clause."""
+    for name, found in CORPUS.items():
+        for text in [*found.get("read", {})][::144]:
+            goal_or_refusal(f"{text.rstrip('.')}{end}", SCENES[name])

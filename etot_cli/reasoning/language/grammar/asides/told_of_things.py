@@ -124,7 +124,8 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
     """
     if unfit := _UNFIT_THERE.match(said):
         what = [word for word in unfit["what"].split() if word not in BEFORE_NAMES]
-        return tuple(what) if is_name(what[-1]) or what[-1] in ("it", "they") else ()
+        named = what and (is_name(what[-1]) or what[-1] in ("it", "they"))  # not "that"
+        return tuple(what) if named else ()
     words = _YONDER.sub("", _WHENEVER.sub("", said)).split() or [""]
     end = _named_until(words, is_name)
     while words[end : end + 1] == ["and"] and words[end + 1 : end + 2] == ["the"]:
