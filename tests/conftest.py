@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.configuration import set_hypothesis_home_dir
 
+from etot_cli.cli.memory import COLLECT_EVERY, COLLECT_OLDER_EVERY
 from etot_cli.world.engine import import_mujoco
 from tests.opengl import need_opengl
 
@@ -42,6 +44,15 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """
     if "not slow" in metafunc.config.getoption("markexpr"):
         del metafunc._calls[1:]  # pytest has no public way to take cases back
+
+
+def pytest_collection_finish() -> None:
+    """Garbage is looked for as seldom as the program does it, and not among the tests themselves:
+    to look through 16,000 of them again and again took a tenth of a run, and more.
+    """
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(COLLECT_EVERY, COLLECT_OLDER_EVERY)
 
 
 @pytest.hookimpl(tryfirst=True)

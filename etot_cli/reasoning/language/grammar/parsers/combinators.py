@@ -48,9 +48,14 @@ class Parser:
         """What its readings may begin with."""
         return self._first()
 
+    @cached_property
+    def openings(self) -> First:
+        """Words without which it finds nothing; None where it may find something at any."""
+        return None if self.first is None or NO_WORD in self.first else self.first
+
     def may_begin(self, word: str) -> bool:
         """Whether readings may begin where a word stands."""
-        return self.first is None or word in self.first or NO_WORD in self.first
+        return self.openings is None or word in self.openings
 
 
 Part = Parser | str
@@ -161,14 +166,23 @@ def _only(*values: Any) -> Any:
 def sequence(*parts: Part, build: Callable[..., Any] = _only) -> Parser:
     """One after the other; ``build`` gets the values of those that have one."""
     parsers = tuple(map(_parser, parts))
-    finds = tuple(parser.find for parser in parsers)
+    first_find = parsers[0].find
+    later: list[tuple[Find, First]] = []  # worked out once some sentence gets there
 
     def parse(given: Input, at: int) -> list[Result]:
-        partial: list[tuple[int, tuple[Any, ...]]] = [(at, ())]
-        for find in finds:
+        partial: list[tuple[int, tuple[Any, ...]]] = [
+            (end, () if value is NOTHING else (value,)) for end, value in first_find(given, at)
+        ]
+        if not partial:
+            return []
+        if not later:
+            later.extend((parser.find, parser.openings) for parser in parsers[1:])
+        ahead = given.ahead
+        for find, openings in later:
             partial = [
                 (end, values if value is NOTHING else (*values, value))
                 for start, values in partial
+                if openings is None or ahead[start] in openings
                 for end, value in find(given, start)
             ]
             if not partial:
@@ -239,8 +253,10 @@ def optional(part: Part, default: Any = NOTHING) -> Parser:
     find = parser.find
 
     def parse(given: Input, at: int) -> list[Result]:
-        found = find(given, at) if parser.may_begin(given.ahead[at]) else ()
-        return [*found, (at, default)]
+        openings = parser.openings
+        if openings is None or given.ahead[at] in openings:
+            return [*find(given, at), (at, default)]
+        return [(at, default)]
 
     return Parser(parse, lambda: None if parser.first is None else parser.first | _NONE)
 
