@@ -89,7 +89,7 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
     assert understood is None or understood != meaning(text, SCENES[name])
 
 
-@pytest.mark.parametrize(("name", "text"), sample(11))
+@pytest.mark.parametrize(("name", "text"), sample(22))
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
     framed = r"(?i)(i |i'\w+ |since |can |could|would|the |my |there\b|some(one|body|thing) |"
