@@ -76,6 +76,15 @@ def fits(discourse: Discourse, referent: int, role: Role) -> bool:
     return any(can_be(thing, role, discourse.scene) for thing in discourse.things(referent))
 
 
+def left_as_they_are(discourse: Discourse, role: Role, excluded: Sequence[int]) -> tuple[int, ...]:
+    """What the clause before leaves as it is, which is nearer than all that was spoken of before
+    that: "shut the drawer; the cup stays where it is, but the pen goes to the left of it".
+    """
+    number, spoken = discourse.spared
+    near = () if role in (Role.THEME, Role.PART) or number != discourse.clause - 1 else spoken
+    return tuple(i for i in near if i not in excluded and fits(discourse, i, role))
+
+
 def left_unsaid(discourse: Discourse, text: str) -> tuple[int, ...]:
     """What is left out behind a verb: what was acted on last, be it several things.
 
