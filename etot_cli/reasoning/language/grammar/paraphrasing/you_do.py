@@ -1,0 +1,100 @@
+"""What "you" do, told as it is asked for, and what is put ahead of that ("the cup you put …").
+
+A verb whose past is spelled like its present ("put") may tell what somebody did, unless something
+else shows that it is asked for.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.small_words import NAMED
+from etot_cli.reasoning.language.words.verbs import PAST
+
+_DO = "|".join(sorted({verb.split()[0] for verb in PAST.values()}))
+_DO_OR_DID = rf"(?:{_DO}|put|set|shut|touch)"
+_TELLS = (
+    r"\b(?:goes|go|belongs?|should|must|has|have|had|is|are|was|were|needs?|want|stays?|comes?|did"
+    r"|but|instead|already|again|back|still|so|because|although|yesterday|earlier|before|wrong|i"
+    r"|we|who|which|that)\b"
+)
+"""Words beside which what "you put" somewhere may be what was put there."""
+_REST = rf"(?:(?!{_TELLS})[^.;:!?,])*"
+_END = r"(?=[.;!?]|$|, (?:and|then|but)\b)"
+_NOW = r"(?:\b(?:then|now|first|next|finally|lastly|afterwards?|please|after (?:that|this)),? )"
+_THING = rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|in|on|from|{_DO})\b)\w+){{1,7}}"
+_ASKED = r"(?:must|should|shall|have to|need to|are to|will|then|now|first|please)"
+_LED = (
+    r"(^|[.;!?,:\n] |\b(?:and|but|then|now|first|next|finally|afterwards?|please"
+    r"|after that|after this) )"
+)
+_WISH = (
+    r"(^|[.;!] |, (?:so|and|but) )(?:i|we)(?: do| would)?(?: really| just)? "
+    r"(?:want|need|wish|prefer|ask|(?<=would )like)(?: it)?(?: (?:of|from) you)?"
+)
+_AHEAD = r"(^|[.;!?\n] |, (?:and |but |then )*)((?:(?:first|then|next|now|finally|please),? )*)"
+
+
+def _asked(said: re.Match[str]) -> str:
+    """What is asked of a thing named ahead; what "you can" do with it may be done."""
+    clause, leading, thing, may, verb, rest = said.groups()
+    if may in ("can", "could"):
+        return f"{clause}{leading}you {may} {verb} {thing}{rest}" if rest else said[0]
+    return f"{clause}{leading}{'do not ' if may else ''}{verb} {thing}{rest}"
+
+
+YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "I need that you put the pen in", "it is necessary to close it"
+    (rf"{_WISH} that you (?:do|must|should) not ", r"\1do not "),
+    (rf"({_WISH} that [^.;:!?]*?) and that you (?=(?:{_DO_OR_DID})\b)", r"\1 and "),
+    (
+        rf"{_WISH} that (first )?you (first )?(?=(?:{_DO_OR_DID})\b)",
+        lambda said: f"{said[1]}i want you to {said[2] or said[3] or ''}",
+    ),
+    (
+        rf"\b(?:i|we) do not (?:want|like) (?:that you|you to) (?=(?:{_DO_OR_DID})\b)",
+        "do not ",
+    ),
+    (rf"\b(?:i|we) do not need (?:that you|you to) (?=(?:{_DO_OR_DID})\b)", "you need not "),
+    (
+        r"(^|[.;!] |, (?:so|and|but) )it (?:is|would be) (?:really |very |absolutely )?"
+        r"(?:necessary|needed|required|important|essential|vital) (?:(?:for you )?to|that you) "
+        rf"(?=(?:first |then )?(?:{_DO_OR_DID})\b)",
+        r"\1you must ",
+    ),
+    (
+        r"\b(it is not (?:necessary|needed|required)) (?:that you|for you to) "
+        rf"(?=(?:{_DO_OR_DID})\b)",
+        r"\1 to ",
+    ),
+    # "The small cup you put on the tray"
+    (
+        rf"{_AHEAD}({_THING}) you (?:(?:{_ASKED} )+|(can|could|(?:do|must|should|shall) not) )?"
+        rf"({_DO_OR_DID})\b(?! it\b| them\b)({_REST}){_END}",
+        _asked,
+    ),
+    # "In the box you put the pen"
+    (
+        rf"{_AHEAD}((?:in|on|into|onto|inside|beside|behind|next to) {_THING}),? you "
+        rf"(?:{_ASKED} )*({_DO_OR_DID}) (?={NAMED}{_REST}{_END})",
+        r"\1\2\3 \4 ",
+    ),
+    # "When the lid is off, you put the pen in", "before you open it, you take it out"
+    (
+        rf"(\b(?:when|once|after|before|if|as soon as) (?:{_THING} (?:is|are|has been|have been) "
+        rf"[^.;,:!?]*?|you (?:{_DO})\b[^.;,:!?]*)),? you (?=(?:{_DO_OR_DID})\b)",
+        r"\1, ",
+    ),
+    (
+        rf"(?:^|(?<=[.;] ))((?:now |first |then )?)you ((?:{_DO})\b{_REST} and )you "
+        r"(?=(?:put|set|shut)\b)",
+        r"\1\2",
+    ),
+    (rf"({_NOW})you (?={_DO_OR_DID}\b)", r"\1"),
+    (rf"{_LED}you (?=(?:{_DO})\b(?! (?:at|in|on|by|for|from|to)\b))", r"\1"),
+    (rf"^(you )(?=(?:put|set|shut) {_REST}(?:, (?:and|then) {_REST})*[.!]?$)", ""),
+    (rf"^({_THING}), you (?=(?:{_DO_OR_DID}) (?:it|them) {_REST}{_END})", r"\1, "),
+)
+"""In order."""
