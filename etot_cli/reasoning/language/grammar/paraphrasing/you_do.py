@@ -1,4 +1,5 @@
-"""What "you" do, told as it is asked for, and what is put ahead of that ("the cup you put …").
+"""What "you" do, told as it is asked for, and what is put ahead of that ("the cup you put …"), or
+said in the midst of it ("put please the cup …").
 
 A verb whose past is spelled like its present ("put") may tell what somebody did, unless something
 else shows that it is asked for.
@@ -15,6 +16,7 @@ from etot_cli.reasoning.language.words.verbs import PAST
 
 _DO = "|".join(sorted({verb.split()[0] for verb in PAST.values()}))
 _DO_OR_DID = rf"(?:{_DO}|put|set|shut|touch)"
+_PLEASE = "(?:please|pleas|pls|plz|kindly)"
 _TELLS = (
     r"\b(?:goes|go|belongs?|should|must|has|have|had|is|are|was|were|needs?|want|stays?|comes?|did"
     r"|but|instead|already|again|back|still|so|because|although|yesterday|earlier|before|wrong|i"
@@ -46,6 +48,18 @@ def _asked(said: re.Match[str]) -> str:
 
 
 YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Move please the cup", "take the pen please out of it"
+    (
+        rf"(\b(?:{_DO_OR_DID}|empty|belongs?|goes|go|in|into|on|onto)"
+        rf"(?: (?:up|out|down|away|back))?)(?: {_PLEASE}|, {_PLEASE},) (?=\w)(?!(?:{_DO_OR_DID}|and|but|then|do)\b)",
+        r"\1 ",
+    ),
+    (rf"\bdo not {_PLEASE} ", "do not "),
+    (
+        rf"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe) {_PLEASE} "
+        r"(?=(?:out|from|goes|go|belongs?|off|up|down|away|back)\b)",
+        " ",
+    ),
     # "I need that you put the pen in", "it is necessary to close it"
     (rf"{_WISH} that you (?:do|must|should) not ", r"\1do not "),
     (rf"({_WISH} that [^.;:!?]*?) and that you (?=(?:{_DO_OR_DID})\b)", r"\1 and "),
