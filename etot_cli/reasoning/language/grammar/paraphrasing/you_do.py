@@ -51,7 +51,8 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
     # "Move please the cup", "take the pen please out of it"
     (
         rf"(\b(?:{_DO_OR_DID}|empty|belongs?|goes|go|in|into|on|onto)"
-        rf"(?: (?:up|out|down|away|back))?)(?: {_PLEASE}|, {_PLEASE},) (?=\w)(?!(?:{_DO_OR_DID}|and|but|then|do)\b)",
+        rf"(?: (?:up|out|down|away|back))?)(?: {_PLEASE}|, {_PLEASE},) (?=\w)"
+        rf"(?!(?:{_DO_OR_DID}|and|but|then|do)\b)",
         r"\1 ",
     ),
     (rf"\bdo not {_PLEASE} ", "do not "),
@@ -59,6 +60,20 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         rf"(?<=\w)(?<!\byou)(?<!\bi)(?<!\bwe) {_PLEASE} "
         r"(?=(?:out|from|goes|go|belongs?|off|up|down|away|back)\b)",
         " ",
+    ),
+    # "Without to move the cup", "open it for to put the pen in", as in other tongues
+    (r"\bwithout (?:to|that you|you) (?=\w)(?!have\b)", "without "),
+    (
+        rf"\bwithout that ({_THING}) (?:is|are|gets?|(?:must|will|should) be) "
+        r"(?=(?:moved|touched|opened|closed|disturbed|lifted|shifted)\b)",
+        r"without \1 being ",
+    ),
+    (rf"\bfor to (?={_DO_OR_DID}\b)", "to "),
+    (rf"\b(do not|must|should|could|you can) to (?={_DO_OR_DID}\b)", r"\1 "),
+    (rf"\b(before|after) to (?={_DO_OR_DID}\b)", r"\1 you "),
+    (
+        rf"(^|[.;!] |\bbut )(?:please )?not (?:to )?(?={_DO_OR_DID} (?:{NAMED}|it\b|them\b))",
+        r"\1do not ",
     ),
     # "I need that you put the pen in", "it is necessary to close it"
     (rf"{_WISH} that you (?:do|must|should) not ", r"\1do not "),
