@@ -75,6 +75,14 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         rf"(^|[.;!] |\bbut )(?:please )?not (?:to )?(?={_DO_OR_DID} (?:{NAMED}|it\b|them\b))",
         r"\1do not ",
     ),
+    # "Let the door open": as it is
+    (
+        rf"\blet (?![^.,;]*? (?:stay|be|remain)\b)({_THING}|it|them|everything) "
+        r"(?=(?:open|closed|shut|alone|untouched)"
+        r"(?:[.,;:!?]|$| (?:and|but|then|for|so|until|when|while|after)\b)"
+        rf"|(?:where|as) (?:it|they)\b|there\b(?! (?:be|is)\b)|(?:on|in|inside) {NAMED})",
+        r"leave \1 ",
+    ),
     # "I need that you put the pen in", "it is necessary to close it"
     (rf"{_WISH} that you (?:do|must|should) not ", r"\1do not "),
     (rf"({_WISH} that [^.;:!?]*?) and that you (?=(?:{_DO_OR_DID})\b)", r"\1 and "),
