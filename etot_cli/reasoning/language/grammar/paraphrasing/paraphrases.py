@@ -167,7 +167,16 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r" (?:the other way around|vice versa|the reverse)(?=[.,;:!?]|$)",
         "",
     ),
-    (rf"^({ASKED}(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
+    (
+        rf"^({ASKED}(?:clean|tidy) up)(?: for (?:me|us)| here| a (?:bit|little)|,? please)*"
+        r"[.!?:] (?=\w)",
+        r"\1: ",
+    ),
+    (
+        r"^(?:could|can|would|will) you (?:please )?do (?:me|us) (?:a|one) (?:small |little )?"
+        r"favou?r(?:,? please)?[?!.:,] ?",
+        "",
+    ),
     # To a thing, not to somebody
     (
         rf"\b(?:pass|hand) ({NAMED} [^.,;:]*?) (?:over|across|along) "
