@@ -1,5 +1,5 @@
-"""What "you" do, told as it is asked for, and what is put ahead of that ("the cup you put …"), or
-said in the midst of it ("put please the cup …").
+"""Requests whose subject is told ("the cup you put …", "I need that you put …"), that are broken up
+by "please", or put as in other tongues ("to put the pen …", "without to move the cup").
 
 A verb whose past is spelled like its present ("put") may tell what somebody did, unless something
 else shows that it is asked for.
@@ -27,6 +27,10 @@ _REST = rf"(?:(?!{_TELLS})[^.;:!?,])*"
 _END = r"(?=[.;!?]|$|, (?:and|then|but)\b)"
 _NOW = r"(?:\b(?:then|now|first|next|finally|lastly|afterwards?|please|after (?:that|this)),? )"
 _THING = rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|in|on|from|{_DO})\b)\w+){{1,7}}"
+_PLACE = (
+    r"in|on|into|onto|inside|next to|beside|behind|between|in front of|on top of"
+    r"|to the (?:left|right) of"
+)
 _ASKED = r"(?:must|should|shall|have to|need to|are to|will|then|now|first|please)"
 _LED = (
     r"(^|[.;!?,:\n] |\b(?:and|but|then|now|first|next|finally|afterwards?|please"
@@ -75,6 +79,19 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         rf"(^|[.;!] |\bbut )(?:please )?not (?:to )?(?={_DO_OR_DID} (?:{NAMED}|it\b|them\b))",
         r"\1do not ",
     ),
+    # "To put the pen in the box", and nothing that it is done for
+    (
+        rf"(^|[.;!] )to ((?:{_DO_OR_DID})\b[^.,;:!?]*(?:, (?:and |then )+to [^.,;:!?]*)*)"
+        r"(?=[.;!]|$)",
+        lambda said: said[1] + re.sub(r"\b(and|then) to (?=\w)", r"\1 ", said[2]),
+    ),
+    # "The pen comes in the box"
+    (
+        rf"{_LED}({_THING}) (?:comes|(come)) (?=(?:back )?(?:{_PLACE}) "
+        r"(?:it|them|my|the|our|both)\b(?! (?:morning|evening|afternoon|night|end|way|post|mail)\b))",
+        lambda said: f"{said[1]}{said[2]} {'go' if said[3] else 'goes'} ",
+    ),
+    (r"\b((?:does|do|should|must|may|can|shall) not) come (?=(?:in|on|into|onto)\b)", r"\1 go "),
     # "Let the door open": as it is
     (
         rf"\blet (?![^.,;]*? (?:stay|be|remain)\b)({_THING}|it|them|everything) "
