@@ -88,7 +88,7 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
     # "The pen comes in the box"
     (
         rf"{_LED}({_THING}) (?:comes|(come)) (?=(?:back )?(?:{_PLACE}) "
-        r"(?:it|them|my|the|our|both)\b(?! (?:morning|evening|afternoon|night|end|way|post|mail)\b))",
+        r"(?:it|them|my|the|our|both)\b(?! (?:morning|evening|afternoon|night|end|way|post)\b))",
         lambda said: f"{said[1]}{said[2]} {'go' if said[3] else 'goes'} ",
     ),
     (r"\b((?:does|do|should|must|may|can|shall) not) come (?=(?:in|on|into|onto)\b)", r"\1 go "),

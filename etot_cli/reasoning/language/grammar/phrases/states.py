@@ -34,7 +34,7 @@ from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 IN_OR_ON_IT = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
-_AS_WELL = sequence(OPTIONAL_COMMA, "and, as well as, together with, along with", NP_LIST)
+_AS_WELL = sequence(OPTIONAL_COMMA, f"and, {small_words.AS_WELL_AS}", NP_LIST)
 
 
 def holding(
@@ -91,7 +91,7 @@ def containing(verb: str, toward: Toward = Toward.INSIDE) -> Parser:
     )
 
 
-_WITH_OTHERS = optional(sequence(OPTIONAL_COMMA, "together with, along with", NP_LIST), ())
+_WITH_OTHERS = optional(sequence(OPTIONAL_COMMA, small_words.AS_WELL_AS, NP_LIST), ())
 """Behind where things are, what else is there."""
 
 
