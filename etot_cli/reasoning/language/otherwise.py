@@ -70,7 +70,7 @@ _JOBS = word_set(
 )
 """A heading that ends so only says that something is to be done."""
 _LASTING = word_set(
-    "moment second seconds minute minutes hour hours day days week weeks while long"
+    "moment second seconds minute minutes hour hours day days week weeks while long later"
 )
 _PUT = words_of((verbs.PUT, verbs.BRING))
 _WITHIN = word_set("in on into onto inside")

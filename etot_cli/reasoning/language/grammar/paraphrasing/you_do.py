@@ -24,9 +24,12 @@ _TELLS = (
 )
 """Words beside which what "you put" somewhere may be what was put there."""
 _REST = rf"(?:(?!{_TELLS})[^.;:!?,])*"
-_END = r"(?=[.;!?]|$|, (?:and|then|but)\b)"
 _NOW = r"(?:\b(?:then|now|first|next|finally|lastly|afterwards?|please|after (?:that|this)),? )"
 _THING = rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|in|on|from|{_DO})\b)\w+){{1,7}}"
+_END = (
+    r"(?=[.;!?]|$|, (?:and|then|but)\b"
+    rf"|, {_THING} (?:you|in|on|into|onto)\b(?![^.;:!?]*?{_TELLS}))"
+)
 _PLACE = (
     r"in|on|into|onto|inside|next to|beside|behind|between|in front of|on top of"
     r"|to the (?:left|right) of"
@@ -119,6 +122,11 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         r"\1you must ",
     ),
     (
+        r"(^|[.;!] |, (?:so|and|but) )it is (?:really |very |absolutely )?"
+        rf"(?:necessary|needed|required|important|essential|vital) that (?={NAMED})",
+        r"\1make sure that ",
+    ),
+    (
         r"\b(it is not (?:necessary|needed|required)) (?:that you|for you to) "
         rf"(?=(?:{_DO_OR_DID})\b)",
         r"\1 to ",
@@ -142,7 +150,7 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         r"\1, ",
     ),
     (
-        rf"(?:^|(?<=[.;] ))((?:now |first |then )?)you ((?:{_DO})\b{_REST} and )you "
+        rf"(?:^|(?<=[.;] ))((?:now |first |then )?)you ((?:{_DO})\b{_REST}(?:,| and|, and) )you "
         r"(?=(?:put|set|shut)\b)",
         r"\1\2",
     ),

@@ -51,7 +51,7 @@ def candidates(discourse: Discourse, *, everywhere: bool = False) -> tuple[int, 
     for clause in clauses_of(discourse):
         acted_on, places, landmarks = mentioned_in(discourse, clause, Role.ANY, ())
         if not everywhere and (found := (*acted_on, *places) or landmarks):
-            return found
+            return (*left_as_they_are(discourse, Role.ANY, found), *found)
         acted.update(dict.fromkeys(acted_on))
     return tuple(acted)
 

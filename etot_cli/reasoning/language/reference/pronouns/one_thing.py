@@ -91,6 +91,8 @@ def meant_by_it(
     with suppress(ReferenceProblem):
         before = _meant_before(discourse, role, text, excluded, topmost=topmost)
         opened = any(discourse.turned.get(thing) for thing in discourse.things(before))
+        if opened and role is Role.CONTAINER and not discourse.spared_alone:
+            return before  # "open the drawer without moving the bowl and put the pen in it"
         # "Open the drawer; leave the bowl alone, put the pen in it": in either
         near += [before] if opened or not discourse.spared_alone else ()
     if len({discourse.things(i) for i in near}) > 1:
