@@ -25,9 +25,12 @@ _TELLS = (
 """Words beside which what "you put" somewhere may be what was put there."""
 _REST = rf"(?:(?!{_TELLS})[^.;:!?,])*"
 _NOW = r"(?:\b(?:then|now|first|next|finally|lastly|afterwards?|please|after (?:that|this)),? )"
-_THING = rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|in|on|from|{_DO})\b)\w+){{1,7}}"
+_THING = (
+    rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|in|on|from|put|set|take|open|close|move"
+    r"|place|pick|bring|leave|keep|remove|get)\b)\w+){1,7}"
+)
 _END = (
-    r"(?=[.;!?]|$|, (?:and|then|but)\b"
+    r"(?=[.;!]|$|, (?:and|then|but)\b"
     rf"|, {_THING} (?:you|in|on|into|onto)\b(?![^.;:!?]*?{_TELLS}))"
 )
 _PLACE = (
@@ -47,8 +50,13 @@ _AHEAD = r"(^|[.;!?\n] |, (?:and |but |then )*)((?:(?:first|then|next|now|finall
 
 
 def _asked(said: re.Match[str]) -> str:
-    """What is asked of a thing named ahead; what "you can" do with it may be done."""
+    """What is asked of a thing named ahead; what "you can" do with it may be done. In "put the cup
+    there, then the pen you take out" the pen goes there, too.
+    """
     clause, leading, thing, may, verb, rest = said.groups()
+    before = re.split(r"[.;!?\n]", said.string[: said.start()])[-1]
+    if "," in clause and not re.search(r"\byou\b", before):
+        return said[0]
     if may in ("can", "could"):
         return f"{clause}{leading}you {may} {verb} {thing}{rest}" if rest else said[0]
     return f"{clause}{leading}{'do not ' if may else ''}{verb} {thing}{rest}"
@@ -97,7 +105,7 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
     (r"\b((?:does|do|should|must|may|can|shall) not) come (?=(?:in|on|into|onto)\b)", r"\1 go "),
     # "Let the door open": as it is
     (
-        rf"\blet (?![^.,;]*? (?:stay|be|remain)\b)({_THING}|it|them|everything) "
+        rf"\blet (?![^.,;]*? (?:stay|be|remain|stand|lie|sit|rest|go)\b)({_THING}|it|them|everything) "
         r"(?=(?:open|closed|shut|alone|untouched)"
         r"(?:[.,;:!?]|$| (?:and|but|then|for|so|until|when|while|after)\b)"
         rf"|(?:where|as) (?:it|they)\b|there\b(?! (?:be|is)\b)|(?:on|in|inside) {NAMED})",
