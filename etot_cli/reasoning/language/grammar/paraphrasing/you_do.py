@@ -105,7 +105,8 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
     (r"\b((?:does|do|should|must|may|can|shall) not) come (?=(?:in|on|into|onto)\b)", r"\1 go "),
     # "Let the door open": as it is
     (
-        rf"\blet (?![^.,;]*? (?:stay|be|remain|stand|lie|sit|rest|go)\b)({_THING}|it|them|everything) "
+        r"\blet (?![^.,;]*? (?:stay|be|remain|stand|lie|sit|rest|go)\b)"
+        rf"({_THING}|it|them|everything) "
         r"(?=(?:open|closed|shut|alone|untouched)"
         r"(?:[.,;:!?]|$| (?:and|but|then|for|so|until|when|while|after)\b)"
         rf"|(?:where|as) (?:it|they)\b|there\b(?! (?:be|is)\b)|(?:on|in|inside) {NAMED})",
@@ -119,7 +120,8 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         lambda said: f"{said[1]}i want you to {said[2] or said[3] or ''}",
     ),
     (
-        rf"\b(?:i|we) do not (?:want|like) (?:that you|you to) (?=(?:{_DO_OR_DID})\b)",
+        r"\b(?:i|we) (?:do not want|would not like) (?:that you|you to) "
+        rf"(?=(?:{_DO_OR_DID})\b)",
         "do not ",
     ),
     (rf"\b(?:i|we) do not need (?:that you|you to) (?=(?:{_DO_OR_DID})\b)", "you need not "),
