@@ -136,6 +136,12 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         rf"(?:necessary|needed|required|important|essential|vital) that (?={NAMED})",
         r"\1make sure that ",
     ),
+    # "Make sure that the pen goes into the box"
+    (
+        r"\b((?:make sure|ensure|see to it|(?:i|we) (?:need|want|would like))(?: that)?"
+        rf" {_THING}) (go|come)(e?s)? (in|on)(?:to|side)?(?= {NAMED})",
+        lambda said: f"{said[1]} {'is' if said[3] else 'are'} {said[4]}",
+    ),
     (
         r"\b(it is not (?:necessary|needed|required)) (?:that you|for you to) "
         rf"(?=(?:{_DO_OR_DID})\b)",
