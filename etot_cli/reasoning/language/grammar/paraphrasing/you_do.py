@@ -26,7 +26,7 @@ _TELLS = (
 _REST = rf"(?:(?!{_TELLS})[^.;:!?,])*"
 _NOW = r"(?:\b(?:then|now|first|next|finally|lastly|afterwards?|please|after (?:that|this)),? )"
 _THING = (
-    rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|in|on|from|put|set|take|open|close|move"
+    rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|do|does|in|on|from|put|set|take|open|close|move"
     r"|place|pick|bring|leave|keep|remove|get)\b)\w+){1,7}"
 )
 _END = (
@@ -139,8 +139,11 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
     # "Make sure that the pen goes into the box"
     (
         r"\b((?:make sure|ensure|see to it|(?:i|we) (?:need|want|would like))(?: that)?"
-        rf" {_THING}) (go|come)(e?s)? (in|on)(?:to|side)?(?= {NAMED})",
-        lambda said: f"{said[1]} {'is' if said[3] else 'are'} {said[4]}",
+        rf" {_THING}) (do(?:es)? not )?(?:go|come)(e?s)? (in|on)(?:to|side)?(?= {NAMED})",
+        lambda said: (
+            f"{said[1]} {'is' if said[3] or said[2] == 'does not ' else 'are'}"
+            f"{' not' if said[2] else ''} {said[4]}"
+        ),
     ),
     (
         r"\b(it is not (?:necessary|needed|required)) (?:that you|for you to) "
