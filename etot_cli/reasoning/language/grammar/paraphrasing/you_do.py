@@ -26,8 +26,8 @@ _TELLS = (
 _REST = rf"(?:(?!{_TELLS})[^.;:!?,])*"
 _NOW = r"(?:\b(?:then|now|first|next|finally|lastly|afterwards?|please|after (?:that|this)),? )"
 _THING = (
-    rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|do|does|in|on|from|put|set|take|open|close|move"
-    r"|place|pick|bring|leave|keep|remove|get)\b)\w+){1,7}"
+    rf"{NAMED}(?: (?!(?:you|i|we|that|which|what|is|are|do|does|in|on|from|put|set|take|open|close"
+    r"|move|place|pick|bring|leave|keep|remove|get)\b)\w+){1,7}"
 )
 _END = (
     r"(?=[.;!]|$|, (?:and|then|but)\b"
