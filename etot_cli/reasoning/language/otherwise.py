@@ -7,6 +7,7 @@ Most instructions ask for all that they say, so this is not even loaded for them
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -31,6 +32,8 @@ from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
     LEVELS,
     NUMBERS,
+    SIDES,
+    is_descriptive,
     word_set,
 )
 from etot_cli.reasoning.language.words.nouns import STACK
@@ -50,7 +53,8 @@ _DEPENDING = word_set(
     "neither nor only instead first last end then do t "
     "forbidden prohibited banned unwanted undesired avoid wrong bad current currently initial "
     "initially starting present previous old so far example optional maybe perhaps alternatively "
-    "go goes belong belongs stay stays remain remains"
+    "go goes belong belongs stay stays remain remains reverse reversed cancel cancelled canceled "
+    "undo void rejected completed finished done"
 )
 """A heading with such a word says something of what stands below it."""
 _REFERRING = word_set(
@@ -60,6 +64,14 @@ _REFERRING = word_set(
 """Below a heading they may speak of what that is about, which is not read."""
 _SWEEPING = word_set("other others rest else everything anything")
 """Of a desk."""
+_JOBS = word_set(
+    "order orders job jobs task tasks work list procedure instruction instructions shift change "
+    "routine ticket assignment"
+)
+"""A heading that ends so only says that something is to be done."""
+_LASTING = word_set(
+    "moment second seconds minute minutes hour hours day days week weeks while long later"
+)
 _PUT = words_of((verbs.PUT, verbs.BRING))
 _WITHIN = word_set("in on into onto inside")
 """A heading by which things are put into or onto others says where, which is to be read."""
@@ -164,6 +176,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
     heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()
+    job = words[-1] in _JOBS and not {"by", "with", *_WITHIN} & {*words}
+    heading |= job or (words[0] == "for" and not named and _is_purpose(words))
     below = {*words_in(_OF_ITS_OWN.sub("", normalized(said[2])))}
     if any(is_name(word, vocabulary) for word in {*words} & {*below, *map(_several, below)}):
         below -= {"one"}  # "bring the mugs together: put the blue mug next to the red one"
@@ -176,6 +190,14 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     goal = read_plainly(normalized(said[2]), scene, vocabulary)
     note = f"{said[1].strip()!r} is a heading: what stands below it is done"
     return replace(goal, notes=(note, *goal.notes))
+
+
+def _is_purpose(words: Sequence[str]) -> bool:
+    """Whether "for …" says what all is done for ("for tomorrow's run"), not of which things it is
+    said ("for the red ones"), nor for how long.
+    """
+    told = {*SIDES, *LEVELS, *NUMBERS, *_REFERRING, *_LASTING, *spellings(STACK)}
+    return not told & {*words} and not any(map(is_descriptive, words))
 
 
 def _as_end_state(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:

@@ -202,6 +202,10 @@ def _keep(context: Context, clause: AvoidClause, things: Things) -> None:
     # "Without touching a cup" is about all of them, told again by what was made of them above.
     kept = context.discourse.things(*indices)
     names = _names_of_kept(context, clause, kept, by_part=role is Role.PART)
+    said = (mention.referent for mention in context.discourse.mentions[before:])
+    context.discourse.spared = context.discourse.clause, tuple(dict.fromkeys(said))
+    turning = clause.avoid in (Avoid.OPEN, Avoid.CLOSE)
+    context.discourse.spared_alone = clause.left or clause.negated or turning
     context.discourse.step_back(before, indices)
     if clause.avoid in _LEAVING:
         context.discourse.left_alone |= {*indices}

@@ -34,7 +34,7 @@ WITHOUT_MEANING = f"""
     also, too, as well, just, simply, now, though, of course, obviously, naturally, evidently,
     needless to say, somehow [or other], in some way [or other], one way or another,
     again, once (more|again),
-    immediately, right away, right now, for me, fully, completely, all the way,
+    immediately, right away, right now, for (me|us), fully, completely, all the way,
     the rest of the way, wide, there after,
     {ONE_BY_ONE}, in the process, if you please,
     {BY_HAND},

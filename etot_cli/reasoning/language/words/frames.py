@@ -34,6 +34,7 @@ TASK = f"""
     [(this|here) is] what (i|we) (want|need|would like) [to (see|have)]
     [is (this|the following)] ~comma,
     [your|the] (task|goal|job|target|aim|objective) ~comma, (desired|wanted|required) ~comma,
+    [my|our|the|your] to do [list] ~comma,
     [the|a] [desired|required|intended]
     (desired|final|goal|target|end|wanted|required|termination|success|expected|intended)
     (state|states|configuration|arrangement|result|results|situation|setup|condition|conditions|
@@ -58,7 +59,8 @@ GOAL_IS = """
 """Before what is to be so in the end."""
 _TRY = "demo|demonstration|trial|experiment|test|benchmark|presentation|recording|video"
 FOR_A_TRY = f"""
-    (for|in) (the|this|our|today 's) [(first|next|last|current|upcoming)] ({_TRY}|run|task|episode),
+    (for|in) (the|this|our|today 's|tomorrow 's|tonight 's) [(first|next|last|current|upcoming)]
+    ({_TRY}|run|task|episode),
     in the next (trial|task|test|run|experiment|episode)
 """
 """With what is done then, which is the same at any time."""

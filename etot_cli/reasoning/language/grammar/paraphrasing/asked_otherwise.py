@@ -122,7 +122,7 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"\1 ",
     ),
     (
-        r"\b((?:must|should|have to|need to) [^.,;!?]*? and )to "
+        r"\b((?:must|should|have to|need to|you to) [^.,;!?]*? and )to "
         r"(?=(?:put|place|move|take|pick|bring|open|close)\b)",
         r"\1",
     ),

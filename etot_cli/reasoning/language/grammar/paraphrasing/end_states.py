@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.lexicon import is_descriptive
+from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular
 from etot_cli.reasoning.language.words.small_words import NAMED
 
 _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|ought to"
@@ -114,7 +114,38 @@ def _left_while_moved(said: re.Match[str]) -> str:
     return f"{_IMPERATIVE.get(verb, verb)} {where} {place} and leave {what} {_KEPT[away]} it"
 
 
+def _as_condition(said: re.Match[str]) -> str:
+    """What "should" be so by now, before or behind what is asked for in that case, with "if"."""
+    ahead, what, *state = said.groups()
+    head = what.split()[-1]
+    several = head in ("they", "these") or " and " in what or singular(head) != head
+    ahead = f"{ahead} " if ahead.strip(" .;!") else ahead
+    return f"{ahead}if {what} {'are' if several else 'is'}{' not' if state[0] else ''} {state[1]}"
+
+
+_ANYTHING = rf"{_SOME}|it|they|there|(?:any|some|no)(?:thing| \w+)"
 END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Only if the drawer is open should the cup go in it", "should it be open, close it"
+    (
+        rf"(\bonly if [^.,;:!?]*?),? (?:should|must|shall) ({_SOME}|it|they) (?=(?:{_BE})\b)",
+        r"\1, \2 should ",
+    ),
+    (
+        r"\b(?:never|under no circumstances|in no case|on no account) (?:should|must|may|can) "
+        rf"({_SOME}|it|they) (?=(?:{_BE})\b)",
+        r"\1 should not ",
+    ),
+    (
+        rf"(^|[.;!] )should ({_ANYTHING}) (not )?be (?!in \w+ way)([^.,;:!?]+)"
+        r"(?=, [^.;:!?]*(?:[.;!]|$))",
+        _as_condition,
+    ),
+    (
+        rf"(^{ASKED}(?:put|place|move|take|open|close|shut|leave|bring|remove) "
+        r"(?:(?!\b(?:only|until|once|never|which|what|where)\b)[^.;:!?])*?),? "
+        rf"should ({_ANYTHING}) (not )?be ([^.,;:!?]+)(?=[.!]|$)",
+        _as_condition,
+    ),
     # "Only then should the cup be put there", "after that, and only then, should it …"
     (
         r"(\b(?:after|once|when|as soon as) [^.;]*?),? and only then,? "

@@ -49,9 +49,10 @@ _RIGHT = Expression(
 _WELL = Expression(
     r"(^|[.!?;\n]\s*)(?:"
     r"(?:yes|yeah|er|erm|uh|ah|hm+|anyway|next up)(?:,\s*| )(?=[a-z])"
-    rf"|step (?:\d{{1,2}}|{'|'.join(NUMBERS)})\s*[:.)]\s*)"
+    rf"|(?:step|job|task|work order|ticket)(?: no\.?| number)? #?"
+    rf"(?:\d{{1,5}}|{'|'.join(NUMBERS)})(?:\s*[:.)]|\s-)\s+)"
 )
-"""What begins a sentence and says nothing, such as the number of a step alone."""
+"""What begins a sentence and says nothing, such as the number of a step or job alone."""
 _BRACKETED = Expression(r"\b([a-z]{2,}) \(([a-z]+)\)")
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _QUOTES = Expression('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')

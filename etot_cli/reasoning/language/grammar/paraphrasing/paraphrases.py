@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.paraphrasing.placements import PLACEMEN
 from etot_cli.reasoning.language.grammar.paraphrasing.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.paraphrasing.said_again import SAID_AGAIN
 from etot_cli.reasoning.language.grammar.paraphrasing.whereabouts import WHEREABOUTS
+from etot_cli.reasoning.language.grammar.paraphrasing.you_do import YOU_DO
 from etot_cli.reasoning.language.grammar.text.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
@@ -74,6 +75,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1put ",
     ),
     *CONTRACTIONS,
+    *YOU_DO,
     *FORBIDDING,
     *CONTRASTS,
     *END_STATES,
@@ -165,7 +167,16 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r" (?:the other way around|vice versa|the reverse)(?=[.,;:!?]|$)",
         "",
     ),
-    (rf"^({ASKED}(?:clean|tidy) up)[.!?] (?=\w)", r"\1: "),
+    (
+        rf"^({ASKED}(?:clean|tidy) up)(?: for (?:me|us)| here| a (?:bit|little)|,? please)*"
+        r"[.!?:] (?=\w)",
+        r"\1: ",
+    ),
+    (
+        r"^(?:could|can|would|will) you (?:please )?do (?:me|us) (?:a|one) (?:small |little )?"
+        r"favou?r(?:,? please)?[?!.:,] ?",
+        "",
+    ),
     # To a thing, not to somebody
     (
         rf"\b(?:pass|hand) ({NAMED} [^.,;:]*?) (?:over|across|along) "

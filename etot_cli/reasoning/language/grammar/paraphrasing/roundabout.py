@@ -50,6 +50,12 @@ def _holding_in_the_end(said: re.Match[str]) -> str:
 
 
 ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "The cup, as well as the pen, goes in the box"
+    (
+        rf"\b({NAMED}(?: \w+){{1,4}}), (?:as well as|along with|together with) "
+        rf"({NAMED}(?: \w+){{1,4}}), (?=(?:goes|go|belongs?|should|must|has to|needs to)\b)",
+        r"\1 and \2 ",
+    ),
     # "Make sure that in the end the cup is on the tray and neither pen has been moved"
     (
         r"\b((?:(?:at|in) the end|make sure|ensure|see to it)\b[^.;!?]*?)(?:, and|,| and) "

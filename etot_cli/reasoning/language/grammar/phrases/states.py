@@ -18,7 +18,12 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     some,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import (
+    COMMA,
+    LIST,
+    OPTIONAL_COMMA,
+    noun_phrase,
+)
 from etot_cli.reasoning.language.grammar.phrases.being_so import NONE, PREDICATE, ensured, state_of
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST
@@ -34,7 +39,7 @@ from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
 
 IN_OR_ON_IT = either(phrase("in it, inside", Toward.INSIDE), phrase("on it", Toward.ON))
-_AS_WELL = sequence(OPTIONAL_COMMA, "and, as well as, together with, along with", NP_LIST)
+_AS_WELL = sequence(OPTIONAL_COMMA, f"and, {small_words.AS_WELL_AS}", NP_LIST)
 
 
 def holding(
@@ -91,8 +96,14 @@ def containing(verb: str, toward: Toward = Toward.INSIDE) -> Parser:
     )
 
 
-_WITH_OTHERS = optional(sequence(OPTIONAL_COMMA, "together with, along with", NP_LIST), ())
-"""Behind where things are, what else is there."""
+_WITH_OTHERS = optional(
+    either(
+        sequence(OPTIONAL_COMMA, small_words.ALONG_WITH, NP_LIST),
+        sequence(COMMA, small_words.IN_ADDITION, NP_LIST),
+    ),
+    (),
+)
+"""Behind where things are, what else is there; "in the box as well as the cup" may say where."""
 
 
 def each_so(

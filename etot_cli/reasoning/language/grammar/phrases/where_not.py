@@ -11,6 +11,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     Parser,
     Rule,
     either,
+    one_of,
     optional,
     quiet,
     separated,
@@ -26,6 +27,7 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase, Toward
 from etot_cli.reasoning.language.words import nouns, places, predicates
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 
 
 def denied(out: tuple[Destination, ...]) -> tuple[Destination, ...]:
@@ -82,6 +84,25 @@ _ANYWHERE_BUT = sequence(
     build=lambda out: (Destination(Toward.ON, (THE_DESK,)), *denied(out)),
 )
 """All that is said is where things are not to go: they go somewhere else on the desk."""
+
+
+def _elsewhere(toward: Toward, nps: tuple[NounPhrase, ...]) -> tuple[Destination, ...] | None:
+    """Any place but some, with the desk for what is left; the desk is not left out of that."""
+    out = denied((Destination(toward, nps),))
+    desk = any(np.head in DESK_NOUNS for np in nps)
+    return None if desk else (Destination(Toward.ON, (THE_DESK,)), *out)
+
+
+ELSEWHERE = sequence(
+    OPTIONAL_COMMA,
+    nouns.CONTRAST,
+    one_of({Toward.INSIDE: "into", Toward.ON: "onto"}),
+    TARGETS,
+    build=_elsewhere,
+)
+"""Behind what is taken out or emptied, where that is not to go; "not in the red one" may be said of
+what is emptied.
+"""
 WHERE = Rule(
     either(
         DESTINATIONS,

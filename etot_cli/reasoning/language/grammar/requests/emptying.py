@@ -23,8 +23,9 @@ from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS, DIRECTED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN, turns_of
+from etot_cli.reasoning.language.grammar.phrases.where_not import ELSEWHERE, WHERE
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
-from etot_cli.reasoning.language.grammar.requests.taking import DESKS, SOURCE
+from etot_cli.reasoning.language.grammar.requests.taking import DESKS, REMOVE, SOURCE
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Avoid,
     AvoidClause,
@@ -239,7 +240,7 @@ EMPTY = either(
         "empty[ing] [out], unload[ing]",
         optional(_ALL_THAT_IS),
         THINGS,
-        optional(DESTINATIONS, None),
+        optional(WHERE, None),
         build=emptied,
     ),
     sequence(
@@ -276,7 +277,7 @@ EMPTY = either(
         verbs.CLEAR,
         ALL_THINGS,
         silent(optional(_OF_ALL_ON_IT)),
-        optional(DESTINATIONS, None),
+        optional(WHERE, None),
         build=partial(emptied, held=Prep.FROM),
     ),
     sequence(
@@ -310,6 +311,16 @@ EMPTY = either(
 )
 
 
+NOT_INTO = sequence(
+    either(EMPTY, REMOVE),
+    ELSEWHERE,
+    build=lambda clause, where: (
+        put_to(clause.things.taken_from(clause.source), where)
+        if isinstance(clause, RemoveClause)
+        else None
+    ),
+)
+"""What is emptied or taken out, "but not into the box"."""
 IS_EMPTY = variants(
     sequence(
         ALL_THINGS,

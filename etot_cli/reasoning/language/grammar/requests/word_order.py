@@ -39,7 +39,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import manner, predicates, verbs
+from etot_cli.reasoning.language.words import manner, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
@@ -228,7 +228,7 @@ ALONG_WITH = sequence(
     NP_LIST,
     DESTINATIONS,
     OPTIONAL_COMMA,
-    "together with, along with, as well as",
+    small_words.AS_WELL_AS,
     NP_LIST,
     build=lambda things, where, more: put_to(Things((*things, *more)), where),
 )

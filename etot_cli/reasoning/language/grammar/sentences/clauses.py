@@ -46,7 +46,7 @@ from etot_cli.reasoning.language.grammar.phrases.exclusions import (
 from etot_cli.reasoning.language.grammar.phrases.modifiers import APPOSED
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.arrangements import REORIENT, SWAP
-from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY, is_emptying
+from etot_cli.reasoning.language.grammar.requests.emptying import EMPTY, NOT_INTO, is_emptying
 from etot_cli.reasoning.language.grammar.requests.filling import COVER, FILL
 from etot_cli.reasoning.language.grammar.requests.grasping import GRASP
 from etot_cli.reasoning.language.grammar.requests.holding import HOLD
@@ -184,6 +184,7 @@ _ASKED = Rule(
             PUT,
             REMOVE,
             EMPTY,
+            NOT_INTO,
             MOVE,
             ENSURE,
             WANTED,

@@ -21,7 +21,12 @@ CONTRACTIONS = (
         r" what (?=(?:is|are)\b)",
         r"\1 that ",
     ),
-    (r"\bfor me (?=(?:out|off|from|on|in|into|onto|to|and)\b)", ""),
+    (
+        r"(?<!\bis )(?<!\bare )\bfor (?:me|us) "
+        r"(?=(?:out|off|from|on|in|into|onto|to|the|both|all)\b"
+        r"|and (?!(?:my|our|your|his|her|their|him|them|you)\b))",
+        "",
+    ),
     (r"\bi\.e\b\.?,?", "that is"),
     (r"\bgimme\b", "give me"),
     (r"\bwon't\b", "will not"),

@@ -90,6 +90,10 @@ class Discourse:
     """What was put next to each other last."""
     left_alone: frozenset[int] = frozenset()
     """Referents that must not be moved or touched."""
+    spared: tuple[int, tuple[int, ...]] = (-1, ())
+    """Number of the latest clause that leaves something as it is, and what that spoke of."""
+    spared_alone: bool = False
+    """It does so by itself ("leave the cup where it is"), not beside something else ("without")."""
     compared: frozenset[int] = frozenset()
     """Referents that were but named to compare others with, of which they may be one."""
     returning: bool = False

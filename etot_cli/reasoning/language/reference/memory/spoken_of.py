@@ -51,7 +51,7 @@ def candidates(discourse: Discourse, *, everywhere: bool = False) -> tuple[int, 
     for clause in clauses_of(discourse):
         acted_on, places, landmarks = mentioned_in(discourse, clause, Role.ANY, ())
         if not everywhere and (found := (*acted_on, *places) or landmarks):
-            return found
+            return (*left_as_they_are(discourse, Role.ANY, found), *found)
         acted.update(dict.fromkeys(acted_on))
     return tuple(acted)
 
@@ -74,6 +74,15 @@ def are_several(discourse: Discourse, referent: int) -> bool:
 def fits(discourse: Discourse, referent: int, role: Role) -> bool:
     """Whether a referent may stand for something that can play a role."""
     return any(can_be(thing, role, discourse.scene) for thing in discourse.things(referent))
+
+
+def left_as_they_are(discourse: Discourse, role: Role, excluded: Sequence[int]) -> tuple[int, ...]:
+    """What the clause before leaves as it is, which is nearer than all that was spoken of before
+    that: "shut the drawer; the cup stays where it is, but the pen goes to the left of it".
+    """
+    number, spoken = discourse.spared
+    near = () if role in (Role.THEME, Role.PART) or number != discourse.clause - 1 else spoken
+    return tuple(i for i in near if i not in excluded and fits(discourse, i, role))
 
 
 def left_unsaid(discourse: Discourse, text: str) -> tuple[int, ...]:

@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.reference.memory.spoken_of import (
     are_several,
     clauses_of,
     fits,
+    left_as_they_are,
     mentioned_in,
 )
 from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any
@@ -84,6 +85,30 @@ def meant_by_it(
                 return meant_by_it(discourse, role, text, excluded_too, topmost=topmost)
     if text == "which" and (spared := _named_out_last(discourse, role)) is not None:
         return spared
+    near = [i for i in left_as_they_are(discourse, role, excluded) if not are_several(discourse, i)]
+    if not near:
+        return _meant_before(discourse, role, text, excluded, topmost=topmost)
+    with suppress(ReferenceProblem):
+        before = _meant_before(discourse, role, text, excluded, topmost=topmost)
+        opened = any(discourse.turned.get(thing) for thing in discourse.things(before))
+        if opened and role is Role.CONTAINER and not discourse.spared_alone:
+            return before  # "open the drawer without moving the bowl and put the pen in it"
+        # "Open the drawer; leave the bowl alone, put the pen in it": in either
+        near += [before] if opened or not discourse.spared_alone else ()
+    if len({discourse.things(i) for i in near}) > 1:
+        raise AmbiguousReference(text, [discourse.referents[index].text for index in near])
+    return near[0]
+
+
+def _meant_before(
+    discourse: Discourse, role: Role, text: str, excluded: Sequence[int], *, topmost: bool
+) -> int:
+    """What "it" means of what the clauses that asked for something spoke of.
+
+    Raises:
+        AmbiguousReference: several things are as likely to be meant.
+        ReferenceProblem: nothing before it fits.
+    """
     for clause in clauses_of(discourse):
         if clause in discourse.stacks and role in (Role.SURFACE, Role.PLACE):
             return discourse.stacks[clause][1]

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.reference.memory.spoken_of import (
     are_several,
     clauses_of,
     fits,
+    left_as_they_are,
     openable,
 )
 from etot_cli.reasoning.language.words.lexicon import singular
@@ -21,6 +22,24 @@ def meant_by_them(
     discourse: Discourse, role: Role, text: str, excluded: Sequence[int] = ()
 ) -> tuple[int, ...]:
     """What "them" stands for, by referent: none that is ``excluded``.
+
+    Raises:
+        AmbiguousReference: it may stand for several.
+    """
+    near = left_as_they_are(discourse, role, excluded)
+    near = tuple(i for i in near if are_several(discourse, i)) or near
+    if len(near) <= 1 and not any(are_several(discourse, index) for index in near):
+        return _meant_before(discourse, role, text, excluded)
+    before = () if discourse.spared_alone else _meant_before(discourse, role, text, excluded)
+    if before and {*discourse.things(*before)} != {*discourse.things(*near)}:
+        raise AmbiguousReference(text, [discourse.referents[i].text for i in (*near, *before)])
+    return near
+
+
+def _meant_before(
+    discourse: Discourse, role: Role, text: str, excluded: Sequence[int]
+) -> tuple[int, ...]:
+    """The same, of what the clauses that asked for something spoke of.
 
     Raises:
         AmbiguousReference: it may stand for several.
