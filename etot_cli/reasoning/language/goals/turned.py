@@ -30,7 +30,6 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.unchosen import is_not_chosen
 from etot_cli.reasoning.language.grammar.syntax.phrases import AS_FOUND, NounPhrase, State
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
-from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
@@ -51,6 +50,15 @@ def leave_among_turned(context: Context, index: int, *, opens: bool) -> None:
             counted = quantity_of(referents[step.what].text).count is not None
             if 0 < len(kept) < len(every) and not others and not counted:
                 referents[step.what] = replace(referents[step.what], options=(kept,))
+
+
+def leave_unclosed(context: Context, index: int, spoken: Sequence[Thing]) -> None:
+    """What was spoken of before is not closed along with the rest, nor by itself once something is
+    in it ("put the cup in the drawer; close the box, but not the drawer").
+    """
+    for thing in context.discourse.left_out.get(index, ()):
+        if thing in spoken:
+            context.constraints.append(Constraint(Keep.OPEN, (thing.address,)))
 
 
 def in_turn(
@@ -237,9 +245,8 @@ def _not_instead(context: Context, phrase: NounPhrase, index: int, *, opens: boo
     """What another thing is to be open instead of is to be closed, and the other way round."""
     contrasted = any(item.prep is Prep.CONTRAST for item in phrase.modifiers)
     for thing in context.discourse.left_out.get(index, ()) if contrasted else ():
-        if state_holds("open" if opens else "closed", thing, context.scene):
-            other = context.single(thing, thing.part or thing.name)
-            context.steps.append(_made(other, opens=not opens))
+        other = context.single(thing, thing.part or thing.name)
+        context.steps.append(_made(other, opens=not opens))
 
 
 def _made(index: int, *, opens: bool) -> Open | Close:
