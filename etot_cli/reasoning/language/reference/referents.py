@@ -8,12 +8,13 @@ from functools import partial
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Thing, things_in
+from etot_cli.reasoning.builtin.goal import Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.choosing.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.geometry import space
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.memory.spoken_of import openable
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -35,6 +36,7 @@ from etot_cli.reasoning.language.words.places import Prep
 _BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my two",
          "each of the two")  # fmt: skip
 """Of two things of a sort; where there are more, of those that were spoken of."""
+_USED = {False: Role.SURFACE, True: Role.CONTAINER}
 
 
 class Referents(MeaningsByNow):
@@ -258,6 +260,9 @@ class Referents(MeaningsByNow):
         """What was spoken of before, or the place of the only other thing that was, which stays
         ("leave the cup alone and put the pen on the same tray").
         """
+        elliptic = phrase.words in ((), ("one",)) and not phrase.modifiers
+        if elliptic and role in (*_USED.values(), Role.PLACE) and self.discourse.last_places:
+            return self._same_place(phrase, role)
         found = self.spoken_of(phrase, role, excluded)
         said = {item.referent for item in self.discourse.mentions} - {*excluded}
         moved = said & {*self.discourse.put, *self.discourse.lifted}
@@ -268,6 +273,26 @@ class Referents(MeaningsByNow):
             why = "'same': nothing was spoken of before that it could be"
             raise ReferenceProblem(phrase.text, why, 3, word="same")
         return found
+
+    def _same_place(self, phrase: NounPhrase, role: Role) -> int:
+        """What the last thing went into or onto, which "the same one" is where it is said likewise.
+
+        Raises:
+            AmbiguousReference: it is said otherwise, and may mean what was put there as well, or
+                what was opened or closed since.
+        """
+        places, named = self.discourse.last_places, [*self.discourse.put]
+        for mention in reversed(self.discourse.mentions):
+            where = [place.where for place in places if place.where == mention.referent]
+            used = (Role.PLACE, _USED[places[0].relation is Relation.INSIDE])
+            if where and len(places) == 1 and role in used:
+                return mention.referent
+            if mention.role is Role.PART:
+                named.append(mention.referent)
+                break
+        named += (index for place in places for index in place.referents())
+        things = self.discourse.things(*named)
+        raise AmbiguousReference(phrase.text, [thing.address for thing in things])
 
     def _note_landmarks(self, phrase: NounPhrase, told: tuple[tuple[Thing, ...], ...]) -> None:
         """Things that were only mentioned to tell others by can be spoken of later on. "Its plate"
