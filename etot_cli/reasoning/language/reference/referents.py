@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.choosing.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.by_now import stack_made
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.memory.spoken_of import openable
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -78,11 +79,10 @@ class Referents(MeaningsByNow):
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
             return (index,)
-        if self.resolver.names_stack(phrase) and self.discourse.stacks:
+        if self.resolver.names_stack(phrase) and (ends := self._ends_of_stack(phrase, role)):
             if role is Role.CONTAINER:
                 raise ReferenceProblem(phrase.text, "say which thing it is to go into", 3)
-            bottom, top = self.discourse.stacks[max(self.discourse.stacks)]
-            stacked = bottom if role in (Role.THEME, Role.ANY) else top
+            stacked = ends[0] if role in (Role.THEME, Role.ANY) else ends[1]
             self.discourse.mention_again(stacked, role)
             return (stacked,)
         if quantity_of(phrase.determiner).other and excluded:
@@ -255,6 +255,15 @@ class Referents(MeaningsByNow):
                         raise ReferenceProblem(phrase.text, why, 3)
                     return around
         return None
+
+    def _ends_of_stack(self, phrase: NounPhrase, role: Role) -> tuple[int, int] | None:
+        """The lowest and the topmost of the stack that was made last; None where none was."""
+        if self.discourse.stacks:
+            return self.discourse.stacks[max(self.discourse.stacks)]
+        told = phrase.modifiers or role is Role.ANY  # all of it, as it stands
+        made = () if told else stack_made(self.discourse, phrase.text)
+        named = [self.discourse.alone(thing, Role.ANY) for thing in (*made[:1], *made[-1:])]
+        return (named[0], named[1]) if named else None
 
     def _the_same(self, phrase: NounPhrase, role: Role, excluded: Sequence[int]) -> int:
         """What was spoken of before, or the place of the only other thing that was, which stays
