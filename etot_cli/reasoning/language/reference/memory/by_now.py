@@ -111,6 +111,15 @@ def note_placed(discourse: Discourse, put: Put) -> None:
             discourse.placed[thing] = put.places if chosen else (*put.places, *before)
 
 
+def put_at(marks: Sequence[Thing], discourse: Discourse) -> list[Thing]:
+    """What has been put in or on things, and is still there."""
+    return [
+        thing
+        for thing, places in discourse.placed.items()
+        if any(place is not None and _is_at(place, Prep.IN, marks, discourse) for place in places)
+    ]
+
+
 def stack_made(discourse: Discourse, text: str) -> tuple[Thing, ...]:
     """The stack that was made or changed by putting one flat thing onto another, or taking it off
     ("move the book onto the notebook, and the pen on top of the pile"), from the bottom up; empty
