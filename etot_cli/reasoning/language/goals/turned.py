@@ -224,10 +224,28 @@ def ensure_turned(context: Context, state: State) -> None:
             context.steps.append(_made(index, opens=opens))
             _not_instead(context, phrase, index, opens=opens)
         if is_only(phrase.determiner):
-            for thing in context.all_called(phrase, Role.PART):
-                if thing not in context.discourse.things(index):
-                    other = context.single(thing, thing.part or thing.name)
-                    context.steps.append(_made(other, opens=not opens))
+            own = context.discourse.things(index)
+            rest = [t for t in context.all_called(phrase, Role.PART) if t not in own]
+            if not rest:
+                _check_only(context, phrase, own, opens=opens)
+            for thing in rest:
+                other = context.single(thing, thing.part or thing.name)
+                context.steps.append(_made(other, opens=not opens))
+
+
+def _check_only(context: Context, phrase: NounPhrase, own: Sequence[Thing], *, opens: bool) -> None:
+    """Whether nothing that is called otherwise is open beside what alone is to be so, or closed.
+
+    Raises:
+        ReferenceProblem: something is, which may be meant by "only".
+    """
+    so = is_open if opens else is_closed
+    parts = [part for info in context.scene.infos.values() for part in info.parts]
+    alike = [part.owner for thing in own for part in parts_of(context.scene, thing)]
+    others = [p.address for p in parts if p.owner not in alike and so(context.scene, p)]
+    if others:
+        why = f"say whether {' and '.join(others)} is to be {'closed' if opens else 'open'}"
+        raise ReferenceProblem(phrase.text, why, 3, word="only")
 
 
 def _turn_as_found(context: Context, state: State) -> None:
