@@ -251,7 +251,8 @@ def _several(noun: str) -> str:
 
 def _as_written(aside: str, instruction: str) -> str:
     """An aside in the instruction's own words, so far as these are found in it."""
-    begun = " ".join(aside.split()[:2])
+    # "It is late", written "it's late", is not the end of "leave it where it is"
+    begun = " ".join(aside.split()[: 3 if aside.startswith("it is ") else 2])
     # What is named in a clause of its own, and not what is put somewhere in another one
     names = begun.split()[0] in BEFORE_NAMES
     own = r"(?:^|[.,:;!?\n]|\b(?:so|but|because|since|as)\b)\s*" if names else ""

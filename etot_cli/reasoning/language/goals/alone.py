@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase
 from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.memory.by_now import put_at
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.words.nouns import is_only
@@ -54,6 +55,12 @@ def check_alone(
         if info.movable and name not in own and touches(Thing(name), at, context.scene)
         if not (upon and context.scene.states[name].inside)  # a chest is no less alone for that
     ]
+    put = [t.name for t in put_at(context.discourse.things(*where), context.discourse)]
+    besides = " and ".join(name for name in put if name not in own)
+    for phrase in phrases if in_the_end and besides else ():
+        if is_only(phrase.determiner) and phrase.words:
+            why = f"{besides} was put there, too; say where that goes in the end"
+            raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
     for phrase in phrases if there else ():
         if is_only(phrase.determiner):
             gone = all(_goes(context, name, where) for name in there)

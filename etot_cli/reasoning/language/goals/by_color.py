@@ -77,7 +77,9 @@ def add_by_color(context: Context, group: PutGroup) -> None:
         indices = context.phrases.things(group.things, Role.THEME)
         each = [context.only(index, "say which ones") for index in indices]
         if not _leaves_out(group):
-            each = [_with_a_place(context, found, targets) for found in each]
+            told = [np for np in phrases if quantity_of(np.determiner).every]
+            every = bool(told) or any(np.head == "everything" for np in phrases)
+            each = [_with_a_place(context, found, targets, text * every) for found in each]
         things = [thing for found in each for thing in found]
     things = [thing for thing in dict.fromkeys(things) if thing not in targets]
     for thing in things:
@@ -94,10 +96,13 @@ def _leaves_out(group: PutGroup) -> bool:
 
 
 def _with_a_place(
-    context: Context, things: tuple[Thing, ...], targets: Sequence[Thing]
+    context: Context, things: tuple[Thing, ...], targets: Sequence[Thing], every: str
 ) -> tuple[Thing, ...]:
     """Of several things that are told by a kind those that some place has the colour of; the others
     stay where they are, which is said. What is named by itself has to have one.
+
+    Raises:
+        ReferenceProblem: some have none, though it is said of ``every`` one of them, by that word.
     """
     colors = context.phrases.colors_of
     there = [colors(target) for target in targets]
@@ -105,6 +110,8 @@ def _with_a_place(
     if not lacking or len(things) == 1 or len(lacking) == len(things):
         return things
     names = " and ".join(thing.name for thing in lacking)
+    if every:
+        raise ReferenceProblem(every, f"nothing there has the colour of {names}", 3)
     context.discourse.notes.append(f"nothing there has the colour of {names}: not moved")
     return tuple(thing for thing in things if thing not in lacking)
 

@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.goals.so_in_the_end import (
 )
 from etot_cli.reasoning.language.goals.stance import reorient
 from etot_cli.reasoning.language.goals.swapping import swap
+from etot_cli.reasoning.language.goals.turned import leave_unclosed
 from etot_cli.reasoning.language.goals.turns import in_turns
 from etot_cli.reasoning.language.grammar.requests.emptying import is_emptying
 from etot_cli.reasoning.language.grammar.requests.laying import DOWN
@@ -188,11 +189,14 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
                 clause, so = closed_with(context, clause)
                 for state in so:
                     ensure(context, state)
+            before = context.discourse.things(*(m.referent for m in context.discourse.mentions))
             for index in in_turns(context, clause.things, clause.turns, Role.PART):
                 index = _moved(context, clause, index)
                 if clause.opens:
                     check_not_open(context, index, clause.things.text)
                 context.steps.append(Open(index) if clause.opens else Close(index))
+                if not clause.opens:
+                    leave_unclosed(context, index, before)
                 if clause.opens:  # "there" is rather in there than where something went before
                     context.discourse.last_places = _into(context, index)
         case EnsureClause():

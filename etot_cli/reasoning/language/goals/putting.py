@@ -337,7 +337,7 @@ def ensure(context: Context, state: State) -> None:
         themes = context.phrases.things(Things(state.subjects), Role.THEME)
         found = context.places.of(state.destinations, themes, stays=True)
         check_may_stay(context, themes, found)
-    emptied = RemoveClause(Things(state.subjects))
+    emptied = RemoveClause(Things(state.subjects), told=True)
     if is_emptying(emptied):
         try:
             remove(context, emptied)

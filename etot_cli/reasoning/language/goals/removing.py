@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClaus
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import EmptyAlready, NothingThere
+from etot_cli.reasoning.language.reference.memory.by_now import is_off
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -82,6 +83,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
         _speak_of_emptied(context, clause)
         return
     if clause.by_then and is_emptying(clause) and not _is_untouched(context, themes):
+        _check_not_filled(context, themes)
         _check_emptied(context, clause, themes)
         _speak_of_emptied(context, clause)
         return
@@ -111,6 +113,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
     known = {*discourse.things(*themes)} <= {*discourse.things(*discourse.put)}
     if known and is_emptying(clause):
         _check_named(clause)
+    if clause.told:
+        _check_not_filled(context, themes)
     add_put(context, themes, (context.places.on_the_desk(),), Grouping.ANY, removal=True)
     if clause.by_then and is_emptying(clause):
         text = " and ".join(np.text for np in clause.things.phrases)
@@ -183,6 +187,22 @@ def _check_named(clause: RemoveClause) -> None:
     for np in (np for said in clause.things.phrases for m in said.modifiers for np in m.phrases):
         if np.pronoun and not clause.by_then:
             raise ReferenceProblem(np.text or np.pronoun, "name what is to be empty", 3)
+
+
+def _check_not_filled(context: Context, themes: Sequence[int]) -> None:
+    """Whether nothing was put into what is told to be empty ("the pen goes in the cup … at the end
+    the cup is empty").
+
+    Raises:
+        ReferenceProblem: something was, of which nobody said that it is taken out again.
+    """
+    discourse = context.discourse
+    put = {thing for thing in discourse.placed if not is_off(thing, discourse)}
+    for index in themes:
+        names = ", ".join(thing.name for thing in discourse.things(index) if thing in put)
+        if names:
+            why = f"{names} was put where nothing is to be; say where it goes in the end"
+            raise ReferenceProblem(discourse.referents[index].text, why, 4)
 
 
 def _speak_of_emptied(context: Context, clause: RemoveClause) -> None:

@@ -30,7 +30,6 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.unchosen import is_not_chosen
 from etot_cli.reasoning.language.grammar.syntax.phrases import AS_FOUND, NounPhrase, State
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
-from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
@@ -51,6 +50,15 @@ def leave_among_turned(context: Context, index: int, *, opens: bool) -> None:
             counted = quantity_of(referents[step.what].text).count is not None
             if 0 < len(kept) < len(every) and not others and not counted:
                 referents[step.what] = replace(referents[step.what], options=(kept,))
+
+
+def leave_unclosed(context: Context, index: int, spoken: Sequence[Thing]) -> None:
+    """What was spoken of before is not closed along with the rest, nor by itself once something is
+    in it ("put the cup in the drawer; close the box, but not the drawer").
+    """
+    for thing in context.discourse.left_out.get(index, ()):
+        if thing in spoken:
+            context.constraints.append(Constraint(Keep.OPEN, (thing.address,)))
 
 
 def in_turn(
@@ -216,10 +224,28 @@ def ensure_turned(context: Context, state: State) -> None:
             context.steps.append(_made(index, opens=opens))
             _not_instead(context, phrase, index, opens=opens)
         if is_only(phrase.determiner):
-            for thing in context.all_called(phrase, Role.PART):
-                if thing not in context.discourse.things(index):
-                    other = context.single(thing, thing.part or thing.name)
-                    context.steps.append(_made(other, opens=not opens))
+            own = context.discourse.things(index)
+            rest = [t for t in context.all_called(phrase, Role.PART) if t not in own]
+            if not rest:
+                _check_only(context, phrase, own, opens=opens)
+            for thing in rest:
+                other = context.single(thing, thing.part or thing.name)
+                context.steps.append(_made(other, opens=not opens))
+
+
+def _check_only(context: Context, phrase: NounPhrase, own: Sequence[Thing], *, opens: bool) -> None:
+    """Whether nothing that is called otherwise is open beside what alone is to be so, or closed.
+
+    Raises:
+        ReferenceProblem: something is, which may be meant by "only".
+    """
+    so = is_open if opens else is_closed
+    parts = [part for info in context.scene.infos.values() for part in info.parts]
+    alike = [part.owner for thing in own for part in parts_of(context.scene, thing)]
+    others = [p.address for p in parts if p.owner not in alike and so(context.scene, p)]
+    if others:
+        why = f"say whether {' and '.join(others)} is to be {'closed' if opens else 'open'}"
+        raise ReferenceProblem(phrase.text, why, 3, word="only")
 
 
 def _turn_as_found(context: Context, state: State) -> None:
@@ -237,9 +263,8 @@ def _not_instead(context: Context, phrase: NounPhrase, index: int, *, opens: boo
     """What another thing is to be open instead of is to be closed, and the other way round."""
     contrasted = any(item.prep is Prep.CONTRAST for item in phrase.modifiers)
     for thing in context.discourse.left_out.get(index, ()) if contrasted else ():
-        if state_holds("open" if opens else "closed", thing, context.scene):
-            other = context.single(thing, thing.part or thing.name)
-            context.steps.append(_made(other, opens=not opens))
+        other = context.single(thing, thing.part or thing.name)
+        context.steps.append(_made(other, opens=not opens))
 
 
 def _made(index: int, *, opens: bool) -> Open | Close:

@@ -8,12 +8,14 @@ from functools import partial
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Thing, things_in
+from etot_cli.reasoning.builtin.goal import Relation, Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
 from etot_cli.reasoning.language.reference.choosing.landmarks import HOLDING
 from etot_cli.reasoning.language.reference.geometry import space
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.by_now import stack_made
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.memory.spoken_of import openable
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -35,6 +37,7 @@ from etot_cli.reasoning.language.words.places import Prep
 _BOTH = ("both", "both the", "both of the", "the two", "the 2", "both my", "my two",
          "each of the two")  # fmt: skip
 """Of two things of a sort; where there are more, of those that were spoken of."""
+_USED = {False: Role.SURFACE, True: Role.CONTAINER}
 
 
 class Referents(MeaningsByNow):
@@ -76,11 +79,10 @@ class Referents(MeaningsByNow):
             index = self._the_same(phrase, role, excluded)
             self.discourse.mention_again(index, role)
             return (index,)
-        if self.resolver.names_stack(phrase) and self.discourse.stacks:
+        if self.resolver.names_stack(phrase) and (ends := self._ends_of_stack(phrase, role)):
             if role is Role.CONTAINER:
                 raise ReferenceProblem(phrase.text, "say which thing it is to go into", 3)
-            bottom, top = self.discourse.stacks[max(self.discourse.stacks)]
-            stacked = bottom if role in (Role.THEME, Role.ANY) else top
+            stacked = ends[0] if role in (Role.THEME, Role.ANY) else ends[1]
             self.discourse.mention_again(stacked, role)
             return (stacked,)
         if quantity_of(phrase.determiner).other and excluded:
@@ -254,10 +256,22 @@ class Referents(MeaningsByNow):
                     return around
         return None
 
+    def _ends_of_stack(self, phrase: NounPhrase, role: Role) -> tuple[int, int] | None:
+        """The lowest and the topmost of the stack that was made last; None where none was."""
+        if self.discourse.stacks:
+            return self.discourse.stacks[max(self.discourse.stacks)]
+        told = phrase.modifiers or role is Role.ANY  # all of it, as it stands
+        made = () if told else stack_made(self.discourse, phrase.text)
+        named = [self.discourse.alone(thing, Role.ANY) for thing in (*made[:1], *made[-1:])]
+        return (named[0], named[1]) if named else None
+
     def _the_same(self, phrase: NounPhrase, role: Role, excluded: Sequence[int]) -> int:
         """What was spoken of before, or the place of the only other thing that was, which stays
         ("leave the cup alone and put the pen on the same tray").
         """
+        elliptic = phrase.words in ((), ("one",)) and not phrase.modifiers
+        if elliptic and role in (*_USED.values(), Role.PLACE) and self.discourse.last_places:
+            return self._same_place(phrase, role)
         found = self.spoken_of(phrase, role, excluded)
         said = {item.referent for item in self.discourse.mentions} - {*excluded}
         moved = said & {*self.discourse.put, *self.discourse.lifted}
@@ -268,6 +282,26 @@ class Referents(MeaningsByNow):
             why = "'same': nothing was spoken of before that it could be"
             raise ReferenceProblem(phrase.text, why, 3, word="same")
         return found
+
+    def _same_place(self, phrase: NounPhrase, role: Role) -> int:
+        """What the last thing went into or onto, which "the same one" is where it is said likewise.
+
+        Raises:
+            AmbiguousReference: it is said otherwise, and may mean what was put there as well, or
+                what was opened or closed since.
+        """
+        places, named = self.discourse.last_places, [*self.discourse.put]
+        for mention in reversed(self.discourse.mentions):
+            where = [place.where for place in places if place.where == mention.referent]
+            used = (Role.PLACE, _USED[places[0].relation is Relation.INSIDE])
+            if where and len(places) == 1 and role in used:
+                return mention.referent
+            if mention.role is Role.PART:
+                named.append(mention.referent)
+                break
+        named += (index for place in places for index in place.referents())
+        things = self.discourse.things(*named)
+        raise AmbiguousReference(phrase.text, [thing.address for thing in things])
 
     def _note_landmarks(self, phrase: NounPhrase, told: tuple[tuple[Thing, ...], ...]) -> None:
         """Things that were only mentioned to tell others by can be spoken of later on. "Its plate"

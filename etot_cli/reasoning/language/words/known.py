@@ -49,7 +49,7 @@ VERB_WORDS = words_of(
 ) - {"open", "closed", "shut", "empty", "top", "the", "tower", "hand", "of", "on", "onto",
     "back", "free", "places", "positions", "position", "us", "him", "her", "them", "a",
     # Things are called so, too, though none may be in the scene.
-    "jam", "plant", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff",
+    "jam", "bundle", "house", "post", "station", "cart", "seat", "heap", "stuff",
     "whisk", "dish", "mess", "shelving",
     "finger", "so", "much", "as", "even", "past", "anywhere", "brush", "watch", "look",
     "at", "time", "moment", "point", "stage",  # of "at no time"

@@ -35,7 +35,7 @@ SET = """
     add[ing], fil(e|ing) [away], stash[ing], plop[ping],
     slot[ting], fit[ting], bung[ing], plonk[ing], nestl(e|ing),
     prop[ping], perch[ing], settl(e|ing), cram[ming], wedg(e|ing), haul[ing], lug[ging], dump[ing],
-    restor(e|ing), serv(e|ing) [up], lodg(e|ing), plunk[ing], plant[ing], install[ing],
+    restor(e|ing), serv(e|ing) [up], lodg(e|ing), plunk[ing], install[ing],
     hous(e|ing), rehous(e|ing), rehom(e|ing), conceal[ing], bundl(e|ing), eas(e|ing), guid(e|ing),
     convey[ing], transport[ing], ferry[ing], heap[ing], introduc(e|ing), jam[ming],
     seat[ing], station[ing], situat(e|ing), post[ing], tot(e|ing), send[ing], consign[ing],

@@ -69,8 +69,13 @@ _DOES = Expression(
 )
 _OUTSIDE = Expression(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
 _IN_GENERAL = Expression(
-    rf"(?:^it is (?:(?:already|nearly|almost|just|about) )*(?:half past|(?:a )?quarter (?:past|to)"
-    rf"|{'|'.join(sorted(set(NUMBERS) - {'a', 'an'}))})(?: (?:past|to) \w+)?(?: already)?$"
+    r"(?:^it is (?:(?:already|nearly|almost|just|about) )*"
+    r"(?:(?:half past|(?:a )?quarter (?:past|to)) \w+"
+    rf"|{'|'.join(sorted(set(NUMBERS) - {'a', 'an'}))})(?: (?:past|to) \w+)?"
+    r"(?: o ?'clock)?(?: already)?$"
+    r"|^it is (?:(?:already|nearly|almost|just) )*the (?:very )?(?:end|start|beginning|middle"
+    r"|(?:last|first) (?:day|hour)) of (?:the|our|my|a|this) (?:(?:working|school|long|busy) )*"
+    r"(?:day|week|month|year|shift|lesson|class|term|morning|afternoon|evening|night|weekend)$"
     r"|^it is (?:\w+ing|(?:\w+ )?(?:\w*time|late|early|dark|morning|noon|evening|night))$"
     r"|^it (?:is|gets|looks|feels) (?:so |very |too |"
     r"really |quite )?\w+ (?:in here|outside|out there)$"

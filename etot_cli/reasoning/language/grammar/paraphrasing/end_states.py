@@ -16,6 +16,13 @@ _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
 _WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
 
 
+_TASK = r"(?:the|your|our|my|this) (?:task|job|work|goal|aim|objective|mission|episode)"
+_DONE = (
+    r"(?:all )?(?:complete|completed|done|finished|achieved|fulfilled|accomplished|reached|over"
+    r"|successful|a success)"
+)
+
+
 def _one(said: str) -> str:
     """A colour alone is the thing of that colour."""
     return f"the {said} one" if is_descriptive(said) else said
@@ -339,6 +346,17 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"|(?=,? (?:please )?(?:(?:at|in) the end|afterwards|when you are (?:done|finished))\b))",
         r"\1every \3 should be closed",
     ),
+    # "The task is complete when the drawer is closed", "the goal is that it is closed"
+    (
+        rf"(^|[.;!] )(?:{_TASK} (?:is|will be|counts as|is considered)(?: to be)? "
+        rf"(?:(?P<not>not) )?{_DONE}|(?:we|you) are (?:(?P<also>not) )?{_DONE}|success is)"
+        r"(?: only)? (?(not)(?:until|unless|before)|(?(also)(?:until|unless|before)"
+        r"|(?:when|once|if|as soon as)))(?= (?!you\b|i\b|we\b))",
+        r"\1in the end",
+    ),
+    (rf"(^|[.;!] )(?:(?:{_TASK}|the idea) is|success means) that(?= )", r"\1in the end"),
+    (r"(^|[.;!] )success means(?= (?:the|my|all|both|every)\b)", r"\1in the end"),
+    (rf"(^|[.;!] ){_TASK} is for(?= [^,.;:]* to (?:be|go|stand|lie|sit|end up)\b)", r"\1i want"),
     (_CONTAINER, _with_it_inside),
     (_AT_THE_END, _so_when_done),
     (_LOOKED_AT, _seen_there),

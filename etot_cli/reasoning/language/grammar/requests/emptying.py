@@ -64,13 +64,20 @@ def contents_of(np: NounPhrase, where: Prep, part: tuple[str, ...] = ()) -> Noun
 
 
 def emptied(
-    things: Things, where: Any = None, *, held: Prep | None = None, part: tuple[str, ...] = ()
+    things: Things,
+    where: Any = None,
+    *,
+    held: Prep | None = None,
+    part: tuple[str, ...] = (),
+    told: bool = False,
 ) -> Clause:
-    """What takes all out of things, or off a ``part`` of them, and brings it somewhere."""
+    """What takes all out of things, or off a ``part`` of them, and brings it somewhere; ``told``:
+    it is said how they are to be.
+    """
     where_from = partial(contents_of, where=held or Prep.FROM, part=part)
     contents = Things(tuple(map(where_from, things.phrases)))
     if where is None:
-        return RemoveClause(contents)
+        return RemoveClause(contents, told=told)
     # "Empty the box on the right" rather says which box.
     which = all(item.toward is Toward.BESIDE and not item.beside[0].phrases for item in where)
     return replace(put_to(contents, where), far_fetched=2 * which)
@@ -97,7 +104,8 @@ def stays_empty(
 
 def to_be_empty(things: Things) -> tuple[Clause, ...]:
     """What is to be empty is emptied, or stays so where nothing is in it."""
-    return emptied(things), *(stays_empty(np, 1) for np in things.phrases[:1])
+    stays = (stays_empty(np, 1) for np in things.phrases[:1])
+    return emptied(things, told=True), *stays
 
 
 def is_emptying(clause: Clause) -> bool:
@@ -139,7 +147,7 @@ def _to_be_bare(
     (np, *more) = things.phrases
     toward = Toward.ON if at else Toward.INSIDE
     stays = () if part or more or np.modifiers else (stays_empty(np, 1, toward, negated=negated),)
-    return emptied(things, held=at, part=part), *stays
+    return emptied(things, held=at, part=part, told=True), *stays
 
 
 _IN_OR_ON: dict[tuple[Prep | None, tuple[str, ...]], str] = {

@@ -333,10 +333,11 @@ def _said(node: object) -> Iterator[str]:
         case PutClause():
             yield from _said_of_put(node)
         case Things(phrases=phrases, either=either):
-            if phrases[1:] and all(np.determiner in NUMBERS for np in phrases):
-                # "Three cubes, two of them red"
-                total = sum(NUMBERS[np.determiner] for np in phrases)
-                yield from (said for said, count in NUMBERS.items() if count == total)
+            counts = [NUMBERS.get(np.determiner.removeprefix("the "), 0) for np in phrases]
+            if phrases[1:] and all(counts):
+                # "Three cubes, two of them red", "two of the three cubes, one of them the red one"
+                known = {sum(counts), *(np.among for np in phrases)}
+                yield from (said for said, count in NUMBERS.items() if count in known)
             yield from ("either", "any", "both") if either else ()
             yield from ("both", "all", _ORDER) if len(phrases) > 1 else ()
         case _:

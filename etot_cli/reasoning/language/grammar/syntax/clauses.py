@@ -127,6 +127,8 @@ class RemoveClause(Struct, frozen=True):
     """It is in the way of what is opened next, where something is."""
     freed: bool = False
     """It is said of where that is ("free the cup from the pen"), which "it" may mean next."""
+    told: bool = False
+    """It is told how that is to be ("make sure that the cup is empty"), not what is to be done."""
 
 
 class MoveClause(Struct, frozen=True):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from etot_cli.reasoning.builtin.goal import Close, Open, Place, Put, Relation, Step, Thing
 from etot_cli.reasoning.builtin.relations import is_open, parts_of
+from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
+from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import owner_of
@@ -107,6 +109,66 @@ def note_placed(discourse: Discourse, put: Put) -> None:
             if put.removal or not off:
                 discourse.moved_on |= {thing} if before != (None,) else set()
             discourse.placed[thing] = put.places if chosen else (*put.places, *before)
+
+
+def put_at(marks: Sequence[Thing], discourse: Discourse) -> list[Thing]:
+    """What has been put in or on things, and is still there."""
+    return [
+        thing
+        for thing, places in discourse.placed.items()
+        if any(place is not None and _is_at(place, Prep.IN, marks, discourse) for place in places)
+    ]
+
+
+def stack_made(discourse: Discourse, text: str) -> tuple[Thing, ...]:
+    """The stack that was made or changed by putting one flat thing onto another, or taking it off
+    ("move the book onto the notebook, and the pen on top of the pile"), from the bottom up; empty
+    where none was.
+
+    Raises:
+        ReferenceProblem: there is another one, something else lies on one of these things, or
+            nothing lies upon each other any more.
+    """
+    below: dict[Thing, Thing] = {}
+    left: set[Thing] = set()
+    for name, state in discourse.scene.states.items():
+        before = [] if state.inside else [Thing(owner_of(at)) for at in state.on]
+        before = [at for at in before if _is_layer(at, discourse)]
+        places = discourse.placed.get(Thing(name), (None,))
+        on = [at for place in places if place for at in _surfaces(place, discourse)]
+        left |= set() if None in places else {*before}
+        at_last = before if None in places else on
+        if len(at_last) == len(places) == 1 and _is_layer(at_last[0], discourse):
+            below[Thing(name)] = at_last[0]
+    stacks = [(foot, *_upon(foot, below)) for foot in {*below.values()} - below.keys()]
+    flat = [stack for stack in stacks if all(_is_layer(t, discourse) for t in stack)]
+    made = [s for s in flat if {*s[1:]} & discourse.placed.keys() or {*s} & left]
+    beside = [one for one in below.values() if made and one in made[0]]
+    if made and (len(flat) > 1 or len({*beside}) < len(beside)):
+        raise AmbiguousReference(text, sorted({t.name for stack in flat for t in stack}))
+    if left and not flat:
+        raise ReferenceProblem(text, "nothing lies upon each other by then", 3)
+    return made[0] if made else ()
+
+
+def _upon(foot: Thing, below: Mapping[Thing, Thing]) -> Iterator[Thing]:
+    for thing, at in below.items():
+        if at == foot:
+            yield thing
+            yield from _upon(thing, below)
+
+
+def _is_layer(thing: Thing, discourse: Discourse) -> bool:
+    """Whether things are piled on it, rather than put there: it is flat, and no tray."""
+    info = discourse.scene.infos.get(thing.name)
+    if (
+        info is None
+        or thing.part
+        or thing.board
+        or matches_any(info.label.split()[-1], OPEN_SURFACES)
+    ):
+        return False
+    return info.movable and info.surface and not info.container
 
 
 def note_turned(discourse: Discourse, step: Step) -> None:

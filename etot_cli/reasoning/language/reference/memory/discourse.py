@@ -158,6 +158,8 @@ class Discourse:
             for earlier in range(index - 1, -1, -1):
                 if self._is_again(earlier, resolved):
                     self.mentions.append(structs.replace(mention, referent=earlier))
+                    if resolved.left_out:
+                        self.left_out[earlier] = resolved.left_out
                     return earlier
         distinct = self._told_from(resolved, role)
         if resolved.definite and not resolved.other and len(resolved.options) > 1:

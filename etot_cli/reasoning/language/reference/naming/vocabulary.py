@@ -31,7 +31,7 @@ from etot_cli.reasoning.language.words.categories import (
     ROUND,
     members_of,
 )
-from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
+from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS, OTHER_VERBS
 from etot_cli.reasoning.language.words.lexicon import (
     BINS,
     DESK_NOUNS,
@@ -223,9 +223,14 @@ class Vocabulary:
         return found[0] if len(found) == 1 else None
 
     def words(self) -> frozenset[str]:
-        """Every word of the scene's names and labels."""
+        """Every word of the scene's names and labels; of what else its things are called those that
+        would be verbs or adverbs ("the cutting board" for a chopping board, "the telly").
+        """
         entries = (*self.objects, *self.parts, *self.boards)
-        return frozenset(word for entry in entries for word in (*entry.own, *entry.exact))
+        twins = {word for entry in self.objects for words in entry.twins for word in words}
+        own = (word for entry in entries for word in (*entry.own, *entry.exact))
+        odd = (word for word in twins if word in OTHER_VERBS or word.endswith(("ing", "ly")))
+        return frozenset((*own, *odd))
 
     def joined(self, text: str) -> str:
         """Normalized text in which names and labels that no noun phrase could be ("mug a", "carton
