@@ -153,7 +153,7 @@ def match_words(
         )
     pools.append(vocabulary.open_vessels(adjectives, head))
     for pool in pools:
-        found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
+        found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name, upon)
         if found is not None and (found.plural or found.dropped) and len(found.entries) == 1:
             # "The drawers" of the only chest, "the shelves" of the only shelf; "the resistor
             # drawer" is one of them, which "the toy shelf" need not be.
@@ -287,6 +287,7 @@ def _match_in(
     vocabulary: Vocabulary,
     phrase: str,
     by_name: bool = True,
+    upon: bool = False,
 ) -> Match | None:
     """What fits among some entries, None when nothing does."""
     sifted = Sifted(graded_by(pool, head), head)
@@ -358,7 +359,9 @@ def _match_in(
             best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
         )
     )
-    if loose and any(is_object(entry) for entry in entries):
+    # "The drawer" of a chest is one of its drawers, unless something is to go on it.
+    parts = not upon and all(is_of_parts(entry, head, vocabulary) for entry in entries)
+    if loose and not parts and any(is_object(entry) for entry in entries):
         said = head.replace("_", " ")
         sifted.notes.append(f"read {said!r} as {names_of(entries)}")
     return Match(
