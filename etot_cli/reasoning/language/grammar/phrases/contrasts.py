@@ -148,6 +148,20 @@ CONTRASTED = quiet(
         build=_contrasted,
     )
 )
+
+
+def is_left_open(np: NounPhrase) -> bool:
+    """Whether it is not said of which sort a thing is: "not the pen but the blue one" tells no pens
+    from each other.
+    """
+    return np.is_elliptic and any(item.prep is Prep.CONTRAST for item in np.modifiers)
+
+
+def _but_this(out: Modifier, np: NounPhrase) -> NounPhrase | None:
+    meant = meant_instead(np, out)
+    return None if is_left_open(meant) else meant
+
+
 NOT_BUT = quiet(
     sequence(
         "neither, not",
@@ -155,7 +169,7 @@ NOT_BUT = quiet(
         OPTIONAL_COMMA,
         "but [rather]",
         noun_phrase,
-        build=lambda out, np: meant_instead(np, out),
+        build=_but_this,
     )
 )
 """What is meant behind what is not ("neither the cup nor the can but the jar")."""
