@@ -221,8 +221,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             reorient(context, clause)
     _note_placed(clause, context)
     context.done = tuple(context.steps) or context.done
-    removals = (step for step in context.done if isinstance(step, Put) and step.removal)
-    context.taken |= {index for step in removals for index in step.what}
+    puts = tuple(step for step in context.done if isinstance(step, Put))
+    context.puts += puts if context.steps else ()
+    context.taken |= {index for step in puts if step.removal for index in step.what}
     return context.steps
 
 
