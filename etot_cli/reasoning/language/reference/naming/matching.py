@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMPOUNDS,
     CONTAINER_NOUNS,
     DESK_NOUNS,
+    JOINT_NOUNS,
     KIND_NOUNS,
     LEVELS,
     MATERIALS,
@@ -360,7 +361,7 @@ def _match_in(
         )
     )
     # "The drawer" of a chest is one of its drawers, unless something is to go on it.
-    parts = not upon and all(is_of_parts(entry, head, vocabulary) for entry in entries)
+    parts = not upon and all(_has_such_part(entry, head) for entry in entries)
     if loose and not parts and any(is_object(entry) for entry in entries):
         said = head.replace("_", " ")
         sifted.notes.append(f"read {said!r} as {names_of(entries)}")
@@ -382,6 +383,12 @@ def _is_of_another(noun: str, entries: Sequence[Entry], vocabulary: Vocabulary) 
     called = {e.thing.name for e in vocabulary.objects if e.grade(noun) in (EXACT, HEAD)}
     boards = all(entry.thing.board is not None for entry in entries)
     return bool(called) and boards and not called & {entry.thing.name for entry in entries}
+
+
+def _has_such_part(entry: Entry, noun: str) -> bool:
+    """Whether an entry is a piece of furniture with a drawer, where that is what a noun means."""
+    parts = entry.info.parts if entry.info is not None else ()
+    return any(singular(noun) in JOINT_NOUNS[part.joint_type] for part in parts)
 
 
 def is_object(entry: Entry) -> bool:
