@@ -45,9 +45,11 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "Put the pens in the drawer and keep the cup out": out of where these go
     (
-        rf"(\b(?:in|inside|into)(?: (it|there))?\b[^.;:!?]*?),? (?:and|but) "
-        rf"(keep {NAMED} [^.,;:!?]*? out)(?=[.;!]|$)",
-        lambda said: f"{said[1]} and {said[3]} of it" if said[2] else f"{said[1]}, but {said[3]}",
+        rf"(\b(?:in|inside|into)(?P<it> it| there|(?<=inside)(?=,? (?:and|but) keep))?\b"
+        rf"[^.;:!?]*?),? (?:and|but) (keep {NAMED} [^.,;:!?]*? out)(?=[.;!]|$)",
+        lambda said: (
+            f"{said[1]}, but {said[3]}" if said["it"] is None else f"{said[1]} and {said[3]} of it"
+        ),
     ),
     # "Don't you dare touch it", "don't even think of moving it"
     (

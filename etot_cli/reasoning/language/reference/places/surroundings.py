@@ -179,9 +179,8 @@ class Surroundings:
             return [Near(beside.relation)]
         landmarks: list[int] = []
         clause, mark, side = self._discourse.last_landmark
-        if clause < self._discourse.clause - 1 or side not in OPPOSITE:
-            mark = None
-        elif _is_across(beside) and beside.phrases[0].pronoun:
+        sided = clause >= self._discourse.clause - 1 and side in OPPOSITE
+        if sided and _is_across(beside) and beside.phrases[0].pronoun:
             # "… to the left of the mug and the pen on the other side of it"
             beside = replace(beside, relation=OPPOSITE[side])
         for phrase in beside.phrases:
@@ -196,8 +195,8 @@ class Surroundings:
                 return [Near(Nearby.NEXT_TO, tuple(landmarks)), closer]
             beside = replace(beside, relation=closer)
         if _is_across(beside):
-            known = mark is not None and self._discourse.things(mark)
-            last = side if known == self._discourse.things(*landmarks) else None
+            things = self._discourse.things
+            last = side if sided and things(mark) == things(*landmarks) else None
             beside = replace(beside, relation=self._across(beside.text, themes, landmarks, last))
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
         if near_both or (beside.relation in (*OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
