@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 from msgspec import structs
 
-from etot_cli.reasoning.builtin.goal import Grouping, Pick, Put, Relation, Step
+from etot_cli.reasoning.builtin.goal import Close, Grouping, Pick, Put, Relation, Step
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.by_color import is_matching
 from etot_cli.reasoning.language.goals.closer import certain
@@ -89,11 +90,37 @@ def again(context: Context, clause: AgainClause) -> None:
         if themes:
             add_put(context, themes, step.places, Grouping.ANY, removal=step.removal)
         return
+    if isinstance(step, Close) and (put_in := _closed_behind(context, step, clause.things)):
+        themes = context.phrases.things(clause.things, Role.THEME)
+        _check_another(context, clause.things, themes)
+        add_put(context, themes, put_in.places, Grouping.ANY)
+        context.steps.append(step)
+        return
     role = Role.THEME if isinstance(step, Pick) else Role.PART
     for index in context.phrases.things(clause.things, role):
         if isinstance(step, Pick) and index == step.what:
             raise ReferenceProblem(text, "say again what is to be done with it", 2)
         context.steps.append(replace(step, what=index))
+
+
+def _closed_behind(context: Context, step: Close, things: Things) -> Put | None:
+    """What put the one thing that was moved into what was closed then, where the same is asked for
+    of things that are not closed themselves ("put the pen in the drawer and close it; do the same
+    with the cup").
+    """
+    (put_in, *more) = context.puts or (None,)
+    if put_in is None or more or put_in.removal or len(context.discourse.things(*put_in.what)) > 1:
+        return None
+    into = [i for place in put_in.places for i in place.referents()]
+    inside, closed = ([*context.discourse.things(*at)] for at in (into, [step.what]))
+    alike = [(a.name, a.part or b.part) == (b.name, b.part) for a in inside for b in closed]
+    if alike != [True]:
+        return None
+    with suppress(ReferenceProblem):
+        for phrase in things.phrases:
+            context.phrases.meaning(phrase, Role.PART)
+        return None
+    return put_in
 
 
 def _on_one_thing(step: Put) -> bool:

@@ -17,7 +17,7 @@ from etot_cli.reasoning.language.goals.clashes import check_not_open
 from etot_cli.reasoning.language.goals.closer import closer_said
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.grasps import grasp
-from etot_cli.reasoning.language.goals.placing import cover
+from etot_cli.reasoning.language.goals.placing import cover, take_off
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.goals.putting import ensure, put
 from etot_cli.reasoning.language.goals.removing import remove
@@ -153,6 +153,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             if clause.wanted:
                 _check_told(context, clause.things)
             for index in context.phrases.things(_one_of_any(clause.things), Role.THEME):
+                referent = context.discourse.referents[index]
+                if len(referent.options) == 1:
+                    take_off(context, referent.text, index, referent.options)
                 context.steps.append(Pick(index, poses))
                 context.discourse.lifted |= {index}
                 for place in context.source((index,)):
@@ -222,8 +225,9 @@ def steps_of(clause: Clause, context: Context) -> list[Step]:
             reorient(context, clause)
     _note_placed(clause, context)
     context.done = tuple(context.steps) or context.done
-    removals = (step for step in context.done if isinstance(step, Put) and step.removal)
-    context.taken |= {index for step in removals for index in step.what}
+    puts = tuple(step for step in context.done if isinstance(step, Put))
+    context.puts += puts if context.steps else ()
+    context.taken |= {index for step in puts if step.removal for index in step.what}
     return context.steps
 
 

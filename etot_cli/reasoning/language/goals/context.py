@@ -86,6 +86,8 @@ class Context:
         """Of the clause that is being read."""
         self.done: tuple[Step, ...] = ()
         """Of the last clause that asked for something."""
+        self.puts: tuple[Put, ...] = ()
+        """All that put something somewhere so far."""
         self.taken: frozenset[int] = frozenset()
         """What was taken off or out of something so far."""
         self.in_the_way: list[InTheWay] = []

@@ -143,7 +143,7 @@ def add_put(
             raise ReferenceProblem(referent.text, "nothing can be put into or on itself", 2)
         # "The box on the tray, not the pear": that is no tray, and must not be in the box.
         for index in (theme, *(place.where for place in places if place.where is not None)):
-            _take_off(context, referent.text, discourse.left_out.get(index, ()), options)
+            take_off(context, referent.text, index, options)
         discourse.referents[theme] = replace(referent, options=options)
         where = places[0].where if len(places) == 1 else None
         if where is not None and places[0].relation is Relation.INSIDE:
@@ -158,13 +158,11 @@ SET_ASIDE = "is set on the desk before"
 _STAYS = Expression(r"\b(?:which|that) (?:should )?stays? (?:put|there|here|where|as)\b")
 
 
-def _take_off(
-    context: Context,
-    text: str,
-    out: Sequence[Thing],
-    options: Sequence[Sequence[Thing]],
-) -> None:
-    """What is left out, but would come along in or on what is moved, is set on the desk before."""
+def take_off(context: Context, text: str, index: int, options: Sequence[Sequence[Thing]]) -> None:
+    """What a phrase leaves out, but would come along in or on what is moved, is set on the desk
+    before.
+    """
+    out = context.discourse.left_out.get(index, ())
     names = {thing.name for thing in things_in(options)}
     gone = set(context.discourse.things(*context.discourse.put))
     for thing in (item for item in out if item.name in context.scene.states and item not in gone):

@@ -60,12 +60,8 @@ _KEEPS = {
     Avoid.OPEN: Keep.CLOSED,
     Avoid.CLOSE: Keep.OPEN,
 }
-
-
 _LEAVING = (Avoid.TOUCH, Avoid.MOVE, Avoid.HIT)
 _THE_REST = (("the rest",), ("all the rest",), ("the others",))
-
-
 _TARGETS = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 
 
@@ -146,7 +142,9 @@ def _rule_out(context: Context, clause: AvoidClause, things: Things) -> None:
     before = len(context.discourse.mentions)
     rule_out_things(context, clause)
     said = context.discourse.mentions[before:]
-    kept = [mention for mention in said if mention.role is Role.THEME and not before]
+    # After others "it" is the plum, too, where that has to come out of there.
+    own = not before or any(isinstance(step, Put) and step.removal for step in context.steps)
+    kept = [mention for mention in said if mention.role is Role.THEME and own]
     targets = [structs.replace(m, role=Role.ANY) for m in said if m.role in _TARGETS]
     kept += [structs.replace(m, clause=0) for m in targets] if before else targets
     # "Nothing but the cups may be there, so put them there"; behind "no cup but the white one"

@@ -59,12 +59,32 @@ def keep_others(context: Context, keep: Keep, text: str) -> None:
         if left and (several or text == "the rest"):
             _keep_unchosen(context, keep, left)
             return
+    named, left_of_them = _but_named(context)
+    if text in ("the others", "the rest") and {*()} < {*left_of_them} < {*named}:
+        context.constraints.append(Constraint(keep, left_of_them))
+        return
     spoken = {thing.name for said in discourse.referents for thing in things_in(said.options)}
+    spoken -= {*left_of_them}
     others = tuple(name for name, info in infos.items() if name not in spoken and info.movable)
     left = _left_by_choice(context, range(len(discourse.referents)), text)
     if others:
         context.constraints.append(Constraint(keep, others))
     _keep_unchosen(context, keep, left)
+
+
+def _but_named(context: Context) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Several things that were but named, and those of them that were not spoken of since, be it as
+    one to choose ("there are three pots; put it in the smallest one and leave the others alone").
+    """
+    discourse, infos = context.discourse, context.scene.infos
+    said = [discourse.referents[mention.referent].options for mention in discourse.mentions]
+    single = {t.name for ways in said if ways[1:] or len(ways[0]) == 1 for t in things_in(ways)}
+    for noun in reversed(discourse.nouns()):
+        named = discourse.but_named(noun)
+        if named and all(t.part is None and t.name in infos for t in named):
+            names = tuple(thing.name for thing in named if infos[thing.name].movable)
+            return names, tuple(name for name in names if name not in single)
+    return (), ()
 
 
 def _moved(step: Put | Pick) -> tuple[int, ...]:

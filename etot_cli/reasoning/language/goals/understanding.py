@@ -109,7 +109,7 @@ class Understanding:
         other.context.within = list(self.context.within)
         other.context.grasps = list(self.context.grasps)
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
-        other.context.taken = self.context.taken
+        other.context.taken, other.context.puts = self.context.taken, self.context.puts
         other.context.in_the_way = list(self.context.in_the_way)
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)

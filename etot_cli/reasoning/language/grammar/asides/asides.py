@@ -27,7 +27,10 @@ from etot_cli.reasoning.language.grammar.asides.people import HEARSAY, is_of_peo
 from etot_cli.reasoning.language.grammar.asides.talk import is_talk
 from etot_cli.reasoning.language.grammar.asides.telling import stranger_is_there
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_turning, told_of_thing
-from etot_cli.reasoning.language.grammar.asides.vague_wishes import wants_such_a_thing
+from etot_cli.reasoning.language.grammar.asides.vague_wishes import (
+    wants_room_there,
+    wants_such_a_thing,
+)
 from etot_cli.reasoning.language.grammar.text.splitting import (
     COLON,
     COMMA,
@@ -123,7 +126,10 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         return None
     if not all(is_answered(item.said, rest) for item in asides):
         return None
-    if any(is_of_held_one(item.said, rest) for item in asides):
+    if any(
+        is_of_held_one(said, rest) or wants_room_there(said, rest)
+        for said in (item.said for item in asides)
+    ):
         return None
     kept = (
         said

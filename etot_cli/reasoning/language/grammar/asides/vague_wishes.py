@@ -4,6 +4,8 @@ from others: a reason why things go elsewhere, or why one of these is asked for 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from etot_cli.reasoning.language.grammar.asides.asking_words import (
     ASKING,
     PLACED,
@@ -48,10 +50,11 @@ _ROOM = (
     r"(?: more| extra| free)*(?: of)? |the )?(?:elbow )?(?:room|space)"
     r"|(?:the|that) (?:whole )?(?:surface|spot|area))"
 )
+_BESIDE = r"next to|beside|by|near|around|behind|in front of|(?:to the )?(?:left|right) of"
 _WHERE = (
     r"(?: (?:left|to (?:work|write|cook|eat|play|breathe)|(?:over |in )?here|there"
     r"|now|later(?: on)?|soon"
-    r"|(?:in|on|for) (?:the|a|an|my|our|this|some|another) (?:\w+ ){0,2}?\w+"
+    rf"|(?:in|on|for|{_BESIDE}) (?:the|a|an|my|our|this|some|another) (?:\w+ ){{0,2}}?\w+"
     r"|for (?:something|other things|more things|(?:something|anything) else|\w+ing)))*"
 )
 _LACKING = Expression(
@@ -60,6 +63,18 @@ _LACKING = Expression(
     rf"|there is (?:just )?(?:not |hardly |barely )?{_ROOM}{_WHERE}"
     rf"|(?:the |my )?(?:room|space) is (?:tight|short|scarce|limited){_WHERE})"
 )
+
+
+_THERE = Expression(r"\bthere\b")
+_ROOM_BESIDE = Expression(rf"{_ROOM} (?:{_BESIDE}) ")
+
+
+def wants_room_there(said: str, rest: Sequence[str]) -> bool:
+    """Whether somebody wants room beside something, which is where what goes "there" next goes, and
+    not in or on that.
+    """
+    beside = lacks_room(said) and _ROOM_BESIDE.search(said)
+    return bool(beside) and any(_THERE.search(words) for words in rest)
 
 
 def lacks_room(said: str) -> bool:

@@ -62,6 +62,8 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
         r"(?=[.;!]|$)",
         r"\1\4 both \2s \5 instead of \3",
     ),
+    # "Not the red cup, the other one: put it in the box"
+    (rf"{_BEGINS}not ({_SOME}),? (?:but )?({_SOME})(?=: )", r"\1not \2 but \3"),
     # "It is not the cup I want in the box but the pen"
     (
         rf"\bit is not ({_SOME}) (?:that |which )?((?:i|we) (?:want|need|would like)) "

@@ -43,6 +43,14 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?<=\w),? (?:but|(?:but|and) (?:please )?do (?:it|this|that|so)) without (?=\w+ing\b)",
         ", without ",
     ),
+    # "Put the pens in the drawer and keep the cup out": out of where these go
+    (
+        rf"(\b(?:in|inside|into)(?P<it> it| there|(?<=inside)(?=,? (?:and|but) keep))?\b"
+        rf"[^.;:!?]*?),? (?:and|but) (keep {NAMED} [^.,;:!?]*? out)(?=[.;!]|$)",
+        lambda said: (
+            f"{said[1]}, but {said[3]}" if said["it"] is None else f"{said[1]} and {said[3]} of it"
+        ),
+    ),
     # "Don't you dare touch it", "don't even think of moving it"
     (
         r"\b(do not|never) (?:you )?(?:even |ever )?"

@@ -131,6 +131,34 @@ def _row_by_row(said: re.Match[str]) -> str:
     return f"{said[1]}: {', '.join(told)}"
 
 
+_LAYER = r"(?:(?:the|my|our) )?(?:(?!in\b|on\b|at\b|and\b|then\b)\w+ ){1,4}?\w+"
+_FOOT, _HEAD = "first|at the bottom|underneath|below", "last|on top|at the top|uppermost"
+_NEXT = r"(?:and |then |next |finally |lastly |after that )*"
+_LAYERS = Expression(
+    r"\b(?P<stack>(?:stack|pile)(?: up)? (?:the|my|our|these) (?:\w+ ){0,2}?\w+s"
+    rf"(?: (?:on|in|onto) {NAMED} (?:\w+ )?\w+)?)[:,] (?P<layers>{_LAYER} (?:{_FOOT}|{_HEAD})"
+    rf"(?:,? {_NEXT}{_LAYER}(?: next| in the middle| in between)?)*?"
+    rf",? {_NEXT}{_LAYER} (?:{_FOOT}|{_HEAD}))(?=[.;!]|$)"
+)
+
+
+def _layer_by_layer(said: re.Match[str]) -> str:
+    """A tower whose layers are told from one end to the other, in the order of building ("the big
+    one first, then the red one, the small one on top").
+    """
+    one, *more = re.split(rf",? (?:and|then) {_NEXT}|, {_NEXT}", said["layers"])
+    ends = [re.search(rf" (?:({_FOOT})|({_HEAD}))$", layer) for layer in (one, more[-1])]
+    foot_first = [bool(end and end[1]) for end in ends]
+    if foot_first[0] is foot_first[1]:
+        return said[0]
+    layers = [
+        _named(re.sub(rf" (?:{_FOOT}|{_HEAD}|next|in the middle|in between)$", "", layer))
+        for layer in (one, *more)
+    ]
+    listed = ", ".join(layers if foot_first[0] else reversed(layers))
+    return f"{said['stack']} in this order: {listed}"
+
+
 LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "Precondition: the drawer is open. Effect: …": what is not so yet is made so before
     (
@@ -147,6 +175,7 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         lambda said: f"{said[1]}{said[2]}sort {said[3] or said[4]}: ",
     ),
     (_ROWS, _row_by_row),
+    (_LAYERS, _layer_by_layer),
     # "Empty the box: everything in it goes on the tray"
     (
         rf"\b((?:empty|unload|unpack|clear)(?: out)? {NAMED} (?:\w+ )??\w+)(?::| -|;) "

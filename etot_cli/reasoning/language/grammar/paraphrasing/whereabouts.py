@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
@@ -44,7 +45,35 @@ def _with_of(said: re.Match[str]) -> str:
     return said[0] if re.search(_LEVELLED, said.string) else f"{said[1]} of "
 
 
+_TOOK = (
+    rf"(?!no|any)(?:{PEOPLE}|they) (?:(?:have|has|had|just|already) )*"
+    r"(?:took|taken|got|pulled|fetched|lifted|removed)"
+)
+_A_WHILE_AGO = (
+    r"(?: (?:earlier(?: on)?|before|just now|already|yesterday|this morning|today"
+    r"|a (?:moment|minute|while|bit) ago|to \w+(?: at)? (?:it|them)))?"
+)
+_END_BACK = r"(?=[.,;!?]|$| (?:and|then|now|please|again|afterwards)\b)"
+_BACK_TO = {"out of": "in", "from": "to", "off": "on"}
+
+
+def _back_there(said: re.Match[str]) -> str:
+    """What goes back to where somebody took it from ("I took the pen out of the drawer earlier. Put
+    it back").
+    """
+    several = said["what"].endswith("s") or " and " in said["what"]
+    if (" and " in said["what"] and said["it"] == "it") or (said["it"] == "them" and not several):
+        return said[0]
+    return f"{said[1]}{said['put']} {said['what']} back {_BACK_TO[said['off']]} {said['place']}"
+
+
 WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        rf"(^|[.;!] ){_TOOK} (?P<what>{NAMED} [^.,;:!?]*?) (?P<off>out of|from|off)(?: of)? "
+        rf"(?P<place>{NAMED} (?:\w+ ){{0,2}}?\w+?){_A_WHILE_AGO}(?:[.;,!] | and |, so )"
+        rf"{ASKED}(?P<put>put|place|bring) (?P<it>it|them) back(?: in(?:side| there)?)?{_END_BACK}",
+        _back_there,
+    ),
     # Prepositions as in other languages ("behind of", "near from", "in front the box")
     (r"(?<=\w )(?:at )?(behind|beside|alongside|between|near) (?:of|from) (?=\w)", r"\1 "),
     (r"(?<=\w )(?<!the )(?:next of|beside to) (?=\w)", "next to "),

@@ -34,7 +34,7 @@ from etot_cli.reasoning.language.grammar.phrases.descriptions import (
 )
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import manner, nouns
-from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, LEVELS, is_descriptive, singular
 from etot_cli.reasoning.language.words.places import Prep
 
 LEFT = optional(manner.IS_LEFT)
@@ -113,6 +113,17 @@ def _that_one(the: str, np: NounPhrase) -> Modifier | None:
     return None if np.determiner else Modifier(Prep.EXCEPT, (_one_of_them(said),), denied=True)
 
 
+def meant_instead(np: NounPhrase, out: Modifier) -> NounPhrase:
+    """What is meant behind what is not; "not the red pen but the blue one" is about pens."""
+    (not_this, *more) = out.phrases
+    told = not_this.words[1:] or not_this.modifiers
+    if np.is_elliptic and told and not (more or not_this.is_elliptic):
+        *_, noun = not_this.head.split("_")  # labels of several words are joined
+        one = singular(noun)
+        np = np.called(one if np.head == "one" else noun if noun != one else f"{noun}s")
+    return np.told_by(out)
+
+
 _MAY_BE = "(may|can|should|must|shall|is to|are to) be"
 NONE_OF_THEM = sequence(
     f"[but|and] (neither [one]|none|not one) of (them|which|these|those) [is|are|being|{_MAY_BE}],"
@@ -137,6 +148,20 @@ CONTRASTED = quiet(
         build=_contrasted,
     )
 )
+
+
+def is_left_open(np: NounPhrase) -> bool:
+    """Whether it is not said of which sort a thing is: "not the pen but the blue one" tells no pens
+    from each other.
+    """
+    return np.is_elliptic and any(item.prep is Prep.CONTRAST for item in np.modifiers)
+
+
+def _but_this(out: Modifier, np: NounPhrase) -> NounPhrase | None:
+    meant = meant_instead(np, out)
+    return None if is_left_open(meant) else meant
+
+
 NOT_BUT = quiet(
     sequence(
         "neither, not",
@@ -144,7 +169,7 @@ NOT_BUT = quiet(
         OPTIONAL_COMMA,
         "but [rather]",
         noun_phrase,
-        build=lambda out, np: np.told_by(out),
+        build=_but_this,
     )
 )
 """What is meant behind what is not ("neither the cup nor the can but the jar")."""

@@ -72,16 +72,24 @@ _matching = either(
 )
 UNSAID_SO = ("so",)
 """The words of a modifier that leaves out what is so, as it was said of another thing before."""
-_UNSAID = sequence(
-    after("one", "ones"),
+_SO = sequence(
     "that, which",
     either(
         phrase("(is|are|do|does) not", Modifier(Prep.QUALITY, words=UNSAID_SO, denied=True)),
         phrase("is, are, does, do", Modifier(Prep.QUALITY, words=UNSAID_SO)),
     ),
-    ahead("~comma", "and", "but", "then", "into", "onto", "in", "on", "to", "next", "beside", ""),
 )
-"""In "the block that is in the box on the one that is not"."""
+_NO_MORE = ("~comma", "and", "but", "then", "")
+_UNSAID = either(
+    sequence(
+        after("one", "ones"),
+        _SO,
+        ahead(*_NO_MORE, "into", "onto", "in", "on", "to", "next", "beside"),
+    ),
+    # Behind a noun of its own a place would rather tell where that is.
+    sequence(after("that", "which"), _SO, ahead(*_NO_MORE)),
+)
+"""In "the block that is in the box on the one that is not", "… on the plate that is not"."""
 MODIFIER = Rule()
 
 

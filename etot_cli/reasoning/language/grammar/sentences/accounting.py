@@ -295,6 +295,8 @@ def _said(node: object) -> Iterator[str]:
             yield from (_DENIAL,) if isinstance(node, ReorientClause) else ()  # "not tilted"
         case ReorientClause(not_yet=True):
             yield "any"
+        case ReorientClause(remark=remark) if "only" in remark.split():
+            yield "only"  # it is noted
         case ReorientClause(meanwhile=True):  # "after rotating it"
             yield _ORDER
         case State(denied=True, subjects=subjects):

@@ -13,6 +13,8 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.trees import nodes
+from etot_cli.reasoning.language.grammar.phrases.contrasts import is_left_open, meant_instead
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.exclusions import changed, only_there
 from etot_cli.reasoning.language.grammar.phrases.where_not import denied, rather
@@ -61,11 +63,16 @@ def _without(out: Modifier, rest: Reading) -> Reading | None:
             replace(item, phrases=(first,)) if [n.pronoun for n in item.phrases] == ["it"] else item
             for item in np.modifiers
         )
-        contrasted = out.prep is Prep.CONTRAST and not more
-        return (replace(np, modifiers=tuple(upon)) if contrasted else np).told_by(out)
+        if out.prep is not Prep.CONTRAST or more:
+            return np.told_by(out)
+        return meant_instead(replace(np, modifiers=tuple(upon)), out)
 
     clause = only_there(rest[0].clause, out) or changed(rest[0].clause, told)
-    return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
+    if clause is None or any(
+        isinstance(np, NounPhrase) and is_left_open(np) for np in nodes(clause)
+    ):
+        return None
+    return (replace(rest[0], clause=clause), *rest[1:])
 
 
 def _for_each(np: NounPhrase, rest: Reading) -> Reading | None:

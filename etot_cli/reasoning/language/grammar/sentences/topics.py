@@ -8,6 +8,8 @@ from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.conditions.occupied import ALREADY
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
+    Parser,
     either,
     one_of,
     optional,
@@ -16,7 +18,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     silent,
     spanned,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import WORDS, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import COLON, WORDS, ahead, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.descriptions import ADJECTIVES, DESCRIBED
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
@@ -26,7 +28,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import Clause, ReorientC
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.grammar.text.splitting import ASIDE
 from etot_cli.reasoning.language.words import fillers, predicates, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular, word_set
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -130,10 +132,22 @@ def _meant_for(things: Things, words: tuple[str, ...]) -> Things | None:
     return Things((*things.phrases, NounPhrase("the", words))) if several else None
 
 
+_OTHERS = word_set("else other others rest")
+_NO_OTHERS = Parser(lambda given, at: [] if _OTHERS & {*given.words[at:]} else [(at, NOTHING)])
 _REMARK = either(
     sequence(ALL_THINGS, "(is|are|stands|lies) [right] in the way of", silent(noun_phrase)),
     sequence(ALL_THINGS, "is for, are for", WORDS, build=_meant_for),
     sequence(ALL_THINGS, either(fillers.REMARKS, sequence("is for, are for", silent(WORDS)))),
+    # What "the drawer is for pens only" asks for is told behind a colon, unless it is "all else".
+    sequence(
+        ALL_THINGS,
+        either(
+            sequence("(is|are) (only|just|exclusively) for", silent(WORDS)),
+            sequence("is for, are for", silent(WORDS), "only, exclusively"),
+        ),
+        ahead(COLON),
+        _NO_OTHERS,
+    ),
     sequence(fillers.DONE_WITH, ALL_THINGS, silent(optional(small_words.ANY_MORE))),
     sequence("(i|we) do not need", ALL_THINGS, small_words.ANY_MORE),
     sequence(

@@ -1,4 +1,4 @@
-"""What is left out behind "the one that is not": how another thing was told from it before."""
+"""What is left out behind "the one that is not": how another thing was told before."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from etot_cli.reasoning.language.words.lexicon import singular
 
 def spelled_out(reading: Reading) -> Reading | None:
     """A reading in which "the one that is not" is told by what another thing was told by before
-    ("the block that is in the box … the one that is not"); None where nothing was, or by several
-    things, or where the same is said of both.
+    ("the block that is in the box … the one that is not", "… the cup that is not"); None where
+    nothing was, or by several things, or where the same is said of both.
     """
     if not any(isinstance(node, Modifier) and _is_unsaid(node) for node in nodes(reading)):
         return reading
@@ -54,14 +54,15 @@ class _Told:
         return replace(node, **changed) if changed else node
 
     def _so(self, phrase: NounPhrase) -> NounPhrase:
-        """A phrase with the noun, and what is said of it or not, of the last one."""
+        """A phrase with what is said of the last one or not, and with its noun for "one"."""
         (so, *more), before = phrase.modifiers, self.last
         if before is None or more or before.modifiers[1:]:
             self.failed = True
             return phrase
         (told,) = before.modifiers
         self.failed |= told.denied is so.denied
-        one = singular(before.head)
-        plural = before.head if one != before.head else f"{one}s"
-        noun = plural if phrase.head == "ones" else one
-        return replace(phrase.called(noun), modifiers=(replace(told, denied=so.denied),))
+        if phrase.is_elliptic:
+            one = singular(before.head)
+            plural = before.head if one != before.head else f"{one}s"
+            phrase = phrase.called(plural if phrase.head == "ones" else one)
+        return replace(phrase, modifiers=(replace(told, denied=so.denied),))

@@ -32,6 +32,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     COMPOUNDS,
     CONTAINER_NOUNS,
     DESK_NOUNS,
+    JOINT_NOUNS,
     KIND_NOUNS,
     LEVELS,
     MATERIALS,
@@ -153,7 +154,7 @@ def match_words(
         )
     pools.append(vocabulary.open_vessels(adjectives, head))
     for pool in pools:
-        found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name)
+        found = _match_in(pool, adjectives, head, number, vocabulary, phrase, by_name, upon)
         if found is not None and (found.plural or found.dropped) and len(found.entries) == 1:
             # "The drawers" of the only chest, "the shelves" of the only shelf; "the resistor
             # drawer" is one of them, which "the toy shelf" need not be.
@@ -287,6 +288,7 @@ def _match_in(
     vocabulary: Vocabulary,
     phrase: str,
     by_name: bool = True,
+    upon: bool = False,
 ) -> Match | None:
     """What fits among some entries, None when nothing does."""
     sifted = Sifted(graded_by(pool, head), head)
@@ -358,7 +360,9 @@ def _match_in(
             best == GENERIC and not matches_any(head, (*THING_NOUNS, *CONTAINER_NOUNS, *DESK_NOUNS))
         )
     )
-    if loose and any(is_object(entry) for entry in entries):
+    # "The drawer" of a chest is one of its drawers, unless something is to go on it.
+    parts = not upon and all(_has_such_part(entry, head) for entry in entries)
+    if loose and not parts and any(is_object(entry) for entry in entries):
         said = head.replace("_", " ")
         sifted.notes.append(f"read {said!r} as {names_of(entries)}")
     return Match(
@@ -379,6 +383,12 @@ def _is_of_another(noun: str, entries: Sequence[Entry], vocabulary: Vocabulary) 
     called = {e.thing.name for e in vocabulary.objects if e.grade(noun) in (EXACT, HEAD)}
     boards = all(entry.thing.board is not None for entry in entries)
     return bool(called) and boards and not called & {entry.thing.name for entry in entries}
+
+
+def _has_such_part(entry: Entry, noun: str) -> bool:
+    """Whether an entry is a piece of furniture with a drawer, where that is what a noun means."""
+    parts = entry.info.parts if entry.info is not None else ()
+    return any(singular(noun) in JOINT_NOUNS[part.joint_type] for part in parts)
 
 
 def is_object(entry: Entry) -> bool:

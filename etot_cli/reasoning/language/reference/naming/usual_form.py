@@ -35,6 +35,13 @@ _OTHERS = frozenset(
 
 _WHERE = (Prep.FROM, Prep.IN, Prep.ON)
 _AROUND = (Prep.WITH, Prep.CONTAINING, Prep.BEARING)
+_TOLD_BY_ITSELF = {
+    **dict.fromkeys(_WHERE, _AROUND),
+    **dict.fromkeys((Prep.EXCEPT, Prep.CONTRAST), _WHERE),
+}
+"""By what a thing is told, where "it" behind that may be the thing itself: "the pen in the cup with
+it", "the cup, but not the pen in it".
+"""
 _LIKE_THAT = frozenset({"colored", "coloured", "shaped"})
 """Behind a word for a colour or shape they say nothing more."""
 _EACH_OF = [["each", "of", "the"], ["every", "one", "of", "the"], ["both", "of", "the"]]
@@ -202,22 +209,26 @@ def _with_its_noun(phrase: NounPhrase) -> NounPhrase:
 
 
 def around_itself(phrase: NounPhrase) -> NounPhrase:
-    """A phrase that tells where its thing is by what holds "it", with its own words for that."""
+    """A phrase that tells where its thing is by what holds "it", or leaves out what is in or on
+    "it", with its own words for that.
+    """
     pronouns = ("it",) if singular(phrase.head) == phrase.head else ("they", "them")
     itself = replace(phrase, modifiers=())
 
     def named(np: NounPhrase) -> NounPhrase:
         return replace(itself, text=np.text) if np.pronoun in pronouns else np
 
-    def inner(np: NounPhrase) -> NounPhrase:
+    def inner(np: NounPhrase, preps: tuple[Prep, ...]) -> NounPhrase:
         told = (
-            replace(item, phrases=tuple(map(named, item.phrases))) if item.prep in _AROUND else item
+            replace(item, phrases=tuple(map(named, item.phrases))) if item.prep in preps else item
             for item in np.modifiers
         )
         return replace(np, modifiers=tuple(told))
 
     modifiers = (
-        replace(item, phrases=tuple(map(inner, item.phrases))) if item.prep in _WHERE else item
+        replace(item, phrases=tuple(inner(np, _TOLD_BY_ITSELF[item.prep]) for np in item.phrases))
+        if item.prep in _TOLD_BY_ITSELF
+        else item
         for item in phrase.modifiers
     )
     return replace(phrase, modifiers=tuple(modifiers)) if phrase.words else phrase

@@ -178,6 +178,11 @@ class Surroundings:
         if beside.relation.landmarks == 0:
             return [Near(beside.relation)]
         landmarks: list[int] = []
+        clause, mark, side = self._discourse.last_landmark
+        sided = clause >= self._discourse.clause - 1 and side in OPPOSITE
+        if sided and _is_across(beside) and beside.phrases[0].pronoun:
+            # "… to the left of the mug and the pen on the other side of it"
+            beside = replace(beside, relation=OPPOSITE[side])
         for phrase in beside.phrases:
             if is_robot(phrase) or phrase.text in ("each other", "one another"):
                 raise ReferenceProblem(phrase.text, "say beside which object", 2)
@@ -190,7 +195,9 @@ class Surroundings:
                 return [Near(Nearby.NEXT_TO, tuple(landmarks)), closer]
             beside = replace(beside, relation=closer)
         if _is_across(beside):
-            beside = replace(beside, relation=self._across(beside.text, themes, landmarks))
+            things = self._discourse.things
+            last = side if sided and things(mark) == things(*landmarks) else None
+            beside = replace(beside, relation=self._across(beside.text, themes, landmarks, last))
         near_both = beside.relation in (Nearby.NEXT_TO, Nearby.NEAR) and len(landmarks) == 2
         if near_both or (beside.relation in (*OPPOSITE, Nearby.AWAY) and len(landmarks) > 1):
             return [Near(beside.relation, (landmark,)) for landmark in landmarks]
@@ -228,8 +235,12 @@ class Surroundings:
         self._discourse.notes.append(f"{text!r} is next to it, as it is near that already")
         return Nearby.NEXT_TO
 
-    def _across(self, text: str, themes: Sequence[int], landmarks: Sequence[int]) -> Nearby:
-        """The other side of something than that where things are, or have been put."""
+    def _across(
+        self, text: str, themes: Sequence[int], landmarks: Sequence[int], last: Nearby | None
+    ) -> Nearby:
+        """The other side of something than that where things are, or have been put; what is not
+        moved "to" it is not on the ``last`` side, where something else just went.
+        """
         discourse = self._discourse
         marks = discourse.things(*landmarks)
         if discourse.put & {*themes}:
@@ -242,8 +253,11 @@ class Surroundings:
                 for name in (thing.name for thing in discourse.things(*themes))
                 if holds(Whereabouts(side, tuple(t.name for t in marks)), name, self._scene)
             }
+            if last is not None:
+                found = found | {last} if text.startswith("to ") else {last}
         sides = [OPPOSITE[side] for side in found if side in OPPOSITE]
-        if len(marks) != 1 or len(sides) != len(found) or len(sides) != 1:
+        several = last is None and len(themes) > 1  # which of them are on the one side?
+        if len(marks) != 1 or several or len(sides) != len(found) or len(sides) != 1:
             raise ReferenceProblem(text, "say 'left of', 'in front of' and so on", 3)
         discourse.notes.append(f"{text!r} is {sides[0]} it")
         return sides[0]
@@ -251,7 +265,7 @@ class Surroundings:
     def across_the_desk(self, where: Destination, themes: Sequence[int]) -> Destination:
         """The other side of the desk than that where things are, which is told."""
         (beside, *more) = where.beside
-        if more or not _is_across(beside):
+        if more or not _is_across(beside) or beside.phrases[0].pronoun:
             return where
         marks = things_in(self._phrases.meaning(beside.phrases[0], Role.ANY).options)
         if [mark.name for mark in marks] != [DESK]:

@@ -95,8 +95,10 @@ class LentNouns(ABC):
         except ReferenceProblem as error:
             others = quantity_of(phrase.determiner).other
             counted = isinstance(error, AmbiguousReference)  # what is left of them, or a number
-            # "There are two mugs. Put the pen in one": a pen holds nothing
-            vessel = role in TARGETS and not phrase.words and phrase.determiner in ("one", "1")
+            # "There are two mugs. Put the pen in one", "… in the smaller": a pen holds nothing
+            one = not phrase.words and phrase.determiner in ("one", "1")
+            sized = bool(phrase.words) and {*phrase.words} <= SIZES.keys()
+            vessel = role in TARGETS and (one or sized)
             if counted or not (elliptic or vessel or (others and not phrase.words)):
                 raise
             problem = error
