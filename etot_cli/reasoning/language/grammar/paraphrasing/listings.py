@@ -131,14 +131,16 @@ def _row_by_row(said: re.Match[str]) -> str:
     return f"{said[1]}: {', '.join(told)}"
 
 
-_LAYER = r"(?:(?:the|my|our) )?(?:(?!in\b|on\b|at\b|and\b|then\b)\w+ ){1,4}?\w+"
+_LAYER = Expression(
+    r"(?:(?:the|my|our) )?(?:(?!in\b|on\b|at\b|and\b|then\b)\w+ ){1,4}?"
+    r"(?!in\b|on\b|at\b|and\b|then\b)\w+"
+)
 _FOOT, _HEAD = "first|at the bottom|underneath|below", "last|on top|at the top|uppermost"
 _NEXT = r"(?:and |then |next |finally |lastly |after that )*"
 _LAYERS = Expression(
     r"\b(?P<stack>(?:stack|pile)(?: up)? (?:the|my|our|these) (?:\w+ ){0,2}?\w+s"
-    rf"(?: (?:on|in|onto) {NAMED} (?:\w+ )?\w+)?)[:,] (?P<layers>{_LAYER} (?:{_FOOT}|{_HEAD})"
-    rf"(?:,? {_NEXT}{_LAYER}(?: next| in the middle| in between)?)*?"
-    rf",? {_NEXT}{_LAYER} (?:{_FOOT}|{_HEAD}))(?=[.;!]|$)"
+    rf"(?: (?:on|in|onto) {NAMED} (?:\w+ )?\w+)?)[:,] "
+    rf"(?P<layers>[^.;:!?]*? (?:{_FOOT}|{_HEAD}))(?=[.;!]|$)"
 )
 
 
@@ -147,15 +149,15 @@ def _layer_by_layer(said: re.Match[str]) -> str:
     one first, then the red one, the small one on top").
     """
     one, *more = re.split(rf",? (?:and|then) {_NEXT}|, {_NEXT}", said["layers"])
-    ends = [re.search(rf" (?:({_FOOT})|({_HEAD}))$", layer) for layer in (one, more[-1])]
+    ends = [re.search(rf" (?:({_FOOT})|({_HEAD}))$", layer) for layer in (one, [one, *more][-1])]
     foot_first = [bool(end and end[1]) for end in ends]
-    if foot_first[0] is foot_first[1]:
-        return said[0]
     layers = [
-        _named(re.sub(rf" (?:{_FOOT}|{_HEAD}|next|in the middle|in between)$", "", layer))
+        re.sub(rf" (?:{_FOOT}|{_HEAD}|next|in the middle|in between)$", "", layer)
         for layer in (one, *more)
     ]
-    listed = ", ".join(layers if foot_first[0] else reversed(layers))
+    if foot_first[0] is foot_first[1] or not (all(ends) and all(map(_LAYER.fullmatch, layers))):
+        return said[0]
+    listed = ", ".join(map(_named, layers if foot_first[0] else reversed(layers)))
     return f"{said['stack']} in this order: {listed}"
 
 
