@@ -117,7 +117,7 @@ def write_task(options: NewOptions) -> NewTask:
         name, entry = _object(written)
         if name in objects:
             raise EtotError(
-                f"--object {written!r}: there is a {name} already; expected another name, or "
+                f"--object {written!r}: there is {name!r} already; expected another name, or "
                 f"--remove {name} for one of the starting scene"
             )
         objects[name] = entry

@@ -150,22 +150,7 @@ def parse_plan(text: str, targets: Iterable[str] | None = None) -> tuple[Action,
         position = match.end()
     if not actions:
         raise PlanSyntaxError("the plan is empty; expected e.g. [PICK UP, pen] [PUT INTO, holder]")
-    _check_beside_others(actions)
     return tuple(map(_with_what_follows, actions, [*actions[1:], None]))
-
-
-def _check_beside_others(actions: Iterable[Action]) -> None:
-    """Refuses a place beside the thing itself, or between one thing and itself."""
-    held = ""
-    for action in actions:
-        if action.verb is Verb.PICK_UP:
-            held = action.target
-        for place in action.where:
-            if held in place.landmarks or len(set(place.landmarks)) < len(place.landmarks):
-                raise PlanSyntaxError(
-                    f"{action}: {place} is no place for {held or 'anything'}; expected one beside "
-                    "something else"
-                )
 
 
 def _with_what_follows(action: Action, following: Action | None) -> Action:
