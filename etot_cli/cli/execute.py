@@ -19,7 +19,7 @@ from etot_cli.cli.options import (
     TrialJobs,
     Verbose,
 )
-from etot_cli.cli.session import Session, read_task
+from etot_cli.cli.session import Session, errors_placed, read_task
 from etot_cli.errors import ServiceError
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Limits
 from etot_cli.specs.bounds import MAX_TRIALS
@@ -119,7 +119,7 @@ def execute(
         record=(html or video) and not dry_run,
         limits=Limits(max_nodes=max_nodes),
     )
-    with session.execution_observer() as observer:
+    with session.execution_observer() as observer, errors_placed(given):
         execution = run_execute(options, observer, given=given)
     report = execution.report
     path = session.save(report)

@@ -30,7 +30,7 @@ class JudgeName(StrEnum):
     BOTH = "both"
 
 
-def _folder(text: str) -> Path:
+def folder_name(text: str) -> Path:
     """A folder's name. An empty one, of a variable that is not set, would be the current folder."""
     if not text:
         raise typer.BadParameter("found '', expected a folder")
@@ -42,7 +42,7 @@ Out = Annotated[
     Path | None,
     typer.Option(
         "--out",
-        parser=_folder,
+        parser=folder_name,
         metavar="DIR",
         help="Folder for the report and its files. [default: results/<command>/<name>-<time>]",
     ),
@@ -129,7 +129,7 @@ VlmRecord = Annotated[
     Path | None,
     typer.Option(
         "--record",
-        parser=_folder,
+        parser=folder_name,
         metavar="DIR",
         help="Write every exchange with the model there.",
     ),
@@ -138,7 +138,7 @@ VlmReplay = Annotated[
     Path | None,
     typer.Option(
         "--replay",
-        parser=_folder,
+        parser=folder_name,
         metavar="DIR",
         help="Take the model's answers from such a folder.",
     ),
@@ -200,5 +200,7 @@ def refuse_beside(context: typer.Context, flag: str, fitting: Container[str]) ->
         source = context.get_parameter_source(name)
         if source is None or source.name != "COMMANDLINE" or name in fitting:
             continue
-        told = parameter.opts[0] if parameter.opts[0].startswith("-") else name.upper()
+        negated = context.params.get(name) is False
+        flags = parameter.secondary_opts if negated and parameter.secondary_opts else parameter.opts
+        told = flags[0] if flags[0].startswith("-") else name.upper()
         raise typer.BadParameter(f"{told} has no place beside {flag}")

@@ -36,7 +36,7 @@ from etot_cli.cli.options import (
     WhenToLook,
     model_settings,
 )
-from etot_cli.cli.session import Session, read_task
+from etot_cli.cli.session import Session, errors_placed, read_task
 from etot_cli.errors import ServiceError
 from etot_cli.planning.options import DEFAULT_MAX_NODES, Ablation, Limits
 from etot_cli.specs.bounds import MAX_WORLDS
@@ -172,7 +172,7 @@ def plan(
         limits=Limits(max_nodes=max_nodes, time_limit_s=time_limit),
         vlm=vlm,
     )
-    with session.search_observer() as observer:
+    with session.search_observer() as observer, errors_placed(given):
         planning = plan_task(options, observer, given=given)
     report = planning.report
     from etot_cli.commands.trajectories import write_trajectories

@@ -13,6 +13,7 @@ import typer
 
 from etot_cli.cli.exits import INTERRUPTED, NO, OK
 from etot_cli.cli.interrupts import uninterrupted
+from etot_cli.errors import InstructionError, SpecError, UnsatisfiableError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -44,6 +45,27 @@ def read_task(file: Path) -> Task:
     from etot_cli import rooms
 
     return rooms.default_rooms().load_task(file)
+
+
+@contextmanager
+def errors_placed(task: Task) -> Iterator[None]:
+    """Says where in the task's file that stands which was found unusable only when it was used.
+
+    Raises:
+        SpecError: an instruction or a goal that cannot be understood, or a key of the scene.
+    """
+    from etot_cli.specs.load import misread, placed
+
+    try:
+        yield
+    except UnsatisfiableError:
+        raise
+    except InstructionError as error:
+        raise misread(task, error) from None
+    except SpecError as error:
+        if error.file is not None or not error.path:
+            raise
+        raise placed(task, f"scene.{error.path}", error.message) from None
 
 
 class Session:

@@ -21,9 +21,10 @@ from etot_cli.cli.options import (
     Vary,
     Verbose,
     WhenToLook,
+    folder_name,
     refuse_beside,
 )
-from etot_cli.cli.session import Session, read_task
+from etot_cli.cli.session import Session, errors_placed, read_task
 from etot_cli.specs.look import Look
 
 if TYPE_CHECKING:
@@ -44,7 +45,12 @@ def simulate(
     ] = None,
     capture: Annotated[
         Path | None,
-        typer.Option("--capture", metavar="DIR", help="Render an RGB-D capture instead of acting."),
+        typer.Option(
+            "--capture",
+            parser=folder_name,
+            metavar="DIR",
+            help="Render an RGB-D capture instead of acting.",
+        ),
     ] = None,
     noise: Annotated[
         bool, typer.Option("--noise", help="With --capture: as a Kinect would see it.")
@@ -89,12 +95,12 @@ def simulate(
     were asked for without OpenGL, or --view without a viewer; 130: interrupted.
     """
     if capture is not None:
-        about_it = ("task", "capture", "noise", "vary", "seed", "json", "quiet")
+        about_it = ("task", "capture", "noise", "vary", "seed", "force", "quiet")
         refuse_beside(context, "--capture", about_it)
         from etot_cli.commands.capture import run_capture
 
-        folder = run_capture(task, capture, noisy=noise, seed=seed, vary=vary)
-        print(f"capture: {folder}", file=sys.stderr if json else sys.stdout)
+        folder = run_capture(task, capture, noisy=noise, seed=seed, vary=vary, force=force)
+        print(f"capture: {folder}")
         return OK
     if noise:
         raise typer.BadParameter("--noise needs --capture")
@@ -128,7 +134,8 @@ def simulate(
         error=start_error,
         record=video or frames or view or html,
     )
-    simulation = run_simulate(options, session.log(), given=given)
+    with errors_placed(given):
+        simulation = run_simulate(options, session.log(), given=given)
     report = simulation.report
     # Saved before rendering: what happened is on record even where OpenGL is missing.
     path = session.save(report)

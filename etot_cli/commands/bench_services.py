@@ -11,6 +11,7 @@ from etot_cli.control.simulator import open_simulator
 from etot_cli.errors import InstructionError, SpecError, WorldError
 from etot_cli.reasoning.builtin import BuiltinReasoner
 from etot_cli.reasoning.protocol import Assignment
+from etot_cli.specs.load import misread
 from etot_cli.specs.task import Task
 
 
@@ -77,7 +78,6 @@ def check_tasks(tasks: Iterable[Task], reasoner: str) -> None:
                         Assignment(task.instruction, task.goal), twin.start()[1]
                     )
         except InstructionError as error:
-            asked = "instruction" if task.goal is None else "goal"
-            raise SpecError(str(error), file=task.file, path=asked) from None
+            raise misread(task, error) from None
         except WorldError as error:
             raise SpecError(str(error), file=task.file, path="scene") from None

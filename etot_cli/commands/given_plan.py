@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from etot_cli.errors import PlanSyntaxError
 from etot_cli.reporting.replay import plan_from_report
-from etot_cli.skills.action import Action, parse_plan
+from etot_cli.skills.action import Action, Verb, parse_plan
 
 
 def report_of(given: str) -> Path:
@@ -31,7 +32,9 @@ def read_plan(given: str) -> tuple[Action, ...]:
         PlanSyntaxError: it is neither.
     """
     if "[" in given and not given.rstrip().endswith(".json"):
-        return parse_plan(given)
+        plan = parse_plan(given)
+        _check_beside_others(plan)
+        return plan
     path = _report_path(given)
     if path is not None:
         return plan_from_report(path)
@@ -39,6 +42,20 @@ def read_plan(given: str) -> tuple[Action, ...]:
         f"{given[:200]!r} is neither a plan such as '[PICK UP, pen] [PUT ON, desk]' nor a report "
         "file"
     )
+
+
+def _check_beside_others(actions: Iterable[Action]) -> None:
+    """Refuses a place beside the thing itself, or between one thing and itself."""
+    held = ""
+    for action in actions:
+        if action.verb is Verb.PICK_UP:
+            held = action.target
+        for place in action.where:
+            if held in place.landmarks or len(set(place.landmarks)) < len(place.landmarks):
+                raise PlanSyntaxError(
+                    f"{action}: {place} is no place for {held or 'anything'}; expected one beside "
+                    "something else"
+                )
 
 
 def _report_path(given: str) -> Path | None:

@@ -102,15 +102,24 @@ def write_task(options: NewOptions) -> NewTask:
     for name in options.removals:
         _known(objects, name, source)
         del objects[name]
+    moved = set[str]()
     for written in options.moves:
         match = _match(_MOVE, written, "--move", "NAME@X,Y")
         _known(objects, match["name"], source)
+        if match["name"] in moved:
+            raise EtotError(f"--move {written!r}: {match['name']} is moved already")
+        moved.add(match["name"])
         entry = objects[match["name"]]
         entry["at"] = [float(match["x"]), float(match["y"])]
         entry.pop("on", None)
         entry.pop("inside", None)
     for written in options.objects:
         name, entry = _object(written)
+        if name in objects:
+            raise EtotError(
+                f"--object {written!r}: there is {name!r} already; expected another name, or "
+                f"--remove {name} for one of the starting scene"
+            )
         objects[name] = entry
     if not objects:
         raise EtotError(

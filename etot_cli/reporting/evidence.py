@@ -67,7 +67,7 @@ class JudgedModel(ActionModel):
 
     cause: CauseModel | None
     changes: list[str]
-    """Objects whose state changed."""
+    """Objects whose state changed, and those that the action is about."""
     moved: list[MovedModel] = Field(default_factory=list)
     """What moved or changed, the farthest first; of a node, in the nominal world."""
     contacts: list[ContactModel] = Field(default_factory=list)

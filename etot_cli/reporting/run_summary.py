@@ -43,8 +43,14 @@ def execute_summary(out: Printer, report: ExecuteReport, path: Path) -> None:
     many = report.options.trials > 1
     told = f"{report.successes} of {counted(len(report.trials), 'trial')} succeeded"
     if out.verbosity is Verbosity.QUIET:
-        why = report.reason or " ".join(item.action for item in report.trials[-1].actions)
-        out.line(f"{report.status}: {f'{told}; ' if many else ''}{why}")
+        last = report.trials[-1] if report.trials else None
+        planned = last is not None and last.status == "planned"  # nothing was done
+        actions = [item.action for item in last.actions] if last else []
+        if last and planned:
+            actions = last.plans[-1].actions
+        why = report.reason or " ".join(actions)
+        status = "planned" if planned else report.status
+        out.line(f"{status}: {f'{told}; ' if many else ''}{why}")
         return
     words = {"success": "the task is done", "failure": "the task is not done"}
     if report.options.dry_run:

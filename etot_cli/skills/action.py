@@ -185,11 +185,9 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
     coming: dict[str, tuple[Whereabouts, ...]] = {}
     for note in (match["note"] or "").split(","):
         plain = " ".join(note.split())
-        if plain.lower() in ("horizontal", "horizontally"):
-            pose = GraspPose.HORIZONTAL
-        elif plain.lower() in ("vertical", "vertically"):
-            pose = GraspPose.VERTICAL
-        elif plain.lower() == "safe place":
+        if verb is Verb.PICK_UP and (held := _HELD.fullmatch(plain)) is not None:
+            pose = GraspPose(held[1].lower())
+        elif verb is Verb.PUT_ON and plain.lower() == "safe place":
             safe = True
         elif verb is not Verb.PICK_UP and (taken := _TAKEN.fullmatch(plain)) is not None:
             pose = GraspPose(taken[1].lower())
@@ -210,9 +208,9 @@ def _action(match: re.Match[str], allowed: set[str] | None) -> Action:
             if place is None or not _says_where(verb, place):
                 raise PlanSyntaxError(
                     f"unknown note ({plain}) after [{verb.value}, {target}]; expected "
-                    "(horizontal), (vertical), (safe place), after OPEN (partly) or, after a PUT, "
-                    "(upright), (lying) or a place such as (left of plate) or (between cup and "
-                    "box), after PUT ON (at edge), too"
+                    "(horizontal) or (vertical) after PICK UP, (partly) after OPEN or, after a "
+                    "PUT, (upright), (lying) or a place such as (left of plate) or (between cup "
+                    "and box), after PUT ON (at edge) or (safe place), too"
                 )
             _check_landmarks(place, allowed, f"[{verb.value}, {target}] ({plain})")
             where.append(place)
@@ -230,6 +228,7 @@ def _says_where(verb: Verb, place: Whereabouts) -> bool:
 
 _NAME = r"[A-Za-z]\w*(?:\.\w+)?"
 _ONWARD = re.compile(rf"(?i:to put (on|into)) ({_NAME})")
+_HELD = re.compile(r"(?i:(horizontal|vertical)(?:ly)?)")
 _TAKEN = re.compile(r"(?i:to be taken (horizontal|vertical))")
 _ROOM_FOR = re.compile(rf"(?i:room for) ({_NAME}) (.+)")
 _POINT = re.compile(r"at (-?\d+(?:\.\d+)?) (-?\d+(?:\.\d+)?)")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from etot_cli.errors import InstructionError, SpecError
 from etot_cli.specs.checks import check_scene
 from etot_cli.specs.document import Node, Place, read_document
 from etot_cli.specs.files import resolve_added, resolve_files
@@ -72,6 +73,26 @@ def load_task(path: str | Path) -> Task:
     if problems:
         raise first_error(node, problems)
     return task
+
+
+def misread(task: Task, error: InstructionError) -> SpecError:
+    """What could not be understood of a task, at its place in the file."""
+    asked = "instruction" if task.goal is None else "goal"
+    return placed(task, asked, str(error).removeprefix("goal: "))
+
+
+def placed(task: Task, path: str, message: str) -> SpecError:
+    """An error that was only found in use, at its place in the task's file.
+
+    Args:
+        task: as it was loaded.
+        path: keys of the task with dots between, such as ``scene.robot``.
+        message: what was found, and what is expected.
+    """
+    try:
+        return read_document(Path(task.file)).error(tuple(path.split(".")), message)
+    except SpecError:  # the file is gone meanwhile
+        return SpecError(message, file=task.file, path=path)
 
 
 def _named(node: Node, file: Path) -> Node:

@@ -31,6 +31,7 @@ DEFAULT_CAMERA = Camera(position=(1.05, 0.0, 0.80), look_at=(0.42, 0.0, 0.15))
 CAMERA_NAME = "capture"
 SETTLE_SECONDS = 1.5
 """Simulated time for everything to come to rest before the picture is taken [s]."""
+TRUTH = "ground_truth.json"
 MAX_PICTURE = (1920, 1440)
 """Largest picture that the off-screen buffer holds, width and height."""
 
@@ -218,6 +219,12 @@ def add_noise(picture: Picture, noise: Noise, rng: np.random.Generator) -> Pictu
     )
 
 
+def capture_in(folder: Path) -> list[Path]:
+    """The files of a capture that a folder holds already."""
+    found = [folder / name for name in ("color.png", "depth.png", "camera.json", TRUTH)]
+    return [*(path for path in found if path.is_file()), *sorted(folder.glob("masks/*.png"))]
+
+
 def write_capture(
     picture: Picture, folder: Path, *, scale: float = DEPTH_UNIT, masks: bool = True
 ) -> None:
@@ -251,7 +258,7 @@ def write_capture(
         _write_png(folder / "color.png", cv2.cvtColor(picture.color, cv2.COLOR_RGB2BGR))
         _write_png(folder / "depth.png", units.astype(np.uint16))
         (folder / "camera.json").write_text(json.dumps(info, indent=1) + "\n")
-        (folder / "ground_truth.json").write_text(json.dumps(picture.truth, indent=1) + "\n")
+        (folder / TRUTH).write_text(json.dumps(picture.truth, indent=1) + "\n")
         if masks:
             (folder / "masks").mkdir(exist_ok=True)
             for name, mask in picture.masks.items():

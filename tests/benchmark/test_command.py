@@ -128,7 +128,7 @@ def test_a_task_that_no_trial_could_read_is_missed_before_the_first(
     other.write_text(other.read_text("utf-8").replace("Pick up", "Frobnicate"), encoding="utf-8")
     out = tmp_path / "out"
     assert run(["bench", str(task.parent), "--out", str(out)]) == 2
-    assert "two.yaml: instruction: cannot read the instruction" in capsys.readouterr().err
+    assert "two.yaml:2: instruction: cannot read the instruction" in capsys.readouterr().err
     assert not out.exists()
 
 
@@ -247,7 +247,7 @@ def test_what_got_significantly_worse_is_found(tmp_path: Path, task: Path) -> No
     ("flags", "told"),
     [
         (["--compare", "a", "b", "--trials", "3"], "--trials has no place beside --compare"),
-        (["--compare", "a", "b", "--no-html"], "--html has no place beside --compare"),
+        (["--compare", "a", "b", "--no-html"], "--no-html has no place beside --compare"),
         (["--compare", "a", "b", "TASK"], "TASKS has no place beside --compare"),
         (["TASK", "--judge", "state", "--max-calls", "3"], "--judge, --max-calls: the builtin"),
         (["TASK", "--out", ""], "found '', expected a folder"),

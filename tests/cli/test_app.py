@@ -376,3 +376,40 @@ def test_a_signal_that_a_library_kept_to_itself_is_heeded(
     out = tmp_path / "out"
     assert run([words[0], "tasks/task3.yaml", *words[1:], "--out", str(out)]) == 130
     assert not out.exists()
+
+
+@pytest.mark.parametrize("command", ["plan", "execute --robot sim"])
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("instruction: Frobnicate the cup.", ":2: instruction: cannot read the instruction at "),
+        ("goal: [{not: {upright: cup}}]", ":2: goal: cup: no skill makes 'upright' untrue; "),
+        ("robot: panda", ":5: scene.robot: no robot 'panda'"),
+    ],
+)
+def test_what_is_found_out_in_use_is_told_with_its_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], command: str, asked: str, told: str
+) -> None:
+    file = tmp_path / "mine.yaml"
+    cup = "{kind: cup, at: [0.4, 0.0], diameter: 0.08, height: 0.09, mass: 0.1}"
+    robot = f"  {asked}\n" if asked.startswith("robot") else ""
+    words = "instruction: Pick up the cup." if robot else asked
+    file.write_text(f"# mine\n{words}\nscene:\n  objects: {{cup: {cup}}}\n{robot}")
+    out = ["--out", str(tmp_path / "out"), "--no-html"]
+    assert run([*command.split(), str(file), *out]) == 2
+    assert capsys.readouterr().err.startswith(f"error: {file}{told}")
+
+
+@pytest.mark.parametrize(
+    ("plan", "told"),
+    [
+        ("[PICK UP, pen] [PUT ON, desk] (left of pen)", "left of pen is no place for pen"),
+        ("[PICK UP, pen] [PUT ON, desk] (between vase and vase)", "is no place for pen"),
+    ],
+)
+def test_nothing_is_put_beside_itself(
+    plan: str, told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shipped = Path(__file__).parents[2] / "tasks" / "task3.yaml"
+    assert run(["simulate", str(shipped), "--plan", plan, "--no-html"]) == 2
+    assert told in capsys.readouterr().err

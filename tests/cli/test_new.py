@@ -84,6 +84,7 @@ def test_every_kind_stands_on_the_desk(kind: str, tmp_path: Path) -> None:
         (["--object", "ball=tree@0.4,0.1"], "no kind 'tree'; expected sphere"),
         (["--object", "a=box@9,9"], "at"),
         (["--move", "cup@0.4,0.1"], "no object 'cup'"),
+        (["--object", "a=box@0.4,0.1", "--object", "a=box@0.4,0.3"], "there is 'a' already"),
         (["--scene", "moon"], "no scene 'moon'; expected a file or one of"),
         ([], "add an object"),
     ],

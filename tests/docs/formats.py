@@ -70,7 +70,9 @@ def _section(model: type[BaseModel]) -> str:
         default = "required" if key in required else _default(value.get("default"))
         if name == "name" and model in (tasks.Task, scenes.Scene):
             default = "the file's name"
-        if "$ref" in value and "](#" in _value(value, schema):
+        if name == "instruction" and model is tasks.Task:
+            default = "required without a `goal`"  # which the loader sees to
+        if key not in required and "$ref" in value and "](#" in _value(value, schema):
             default = ""  # told where the link leads
         cells = (f"`{key}`", _value(value, schema), default, _plain(told.get(name, "")))
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")

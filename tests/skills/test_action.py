@@ -167,6 +167,8 @@ def test_spellings(text: str, action: Action) -> None:
         ("[THROW, pen]", "unknown action 'THROW'; expected one of PICK UP, PUT ON, PUT INTO, "),
         ("[PICK UP, pen] (sideways)", r"unknown note \(sideways\) after \[PICK UP, pen\]"),
         ("[PICK UP, pen] (vertical", "cannot read"),
+        ("[OPEN, chest.top] (horizontal)", r"unknown note \(horizontal\) after \[OPEN"),
+        ("[PICK UP, pen] (safe place)", r"unknown note \(safe place\) after \[PICK UP"),
     ],
 )
 def test_nonsense_is_refused(text: str, message: str) -> None:

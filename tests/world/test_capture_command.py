@@ -40,3 +40,18 @@ def test_a_broken_file_is_told_what_its_kind_lacks(
     file.write_text(yaml.safe_dump(content))
     with pytest.raises(SpecError, match=f"'{lacks}'"):
         run_capture(file, tmp_path / "capture", noisy=False, seed=0, vary=False)
+
+
+def test_a_capture_is_only_replaced_when_that_is_asked_for(tmp_path: Path) -> None:
+    """A mask that stayed would be an object of the scene that is captured next."""
+    need_opengl()
+    file, folder = tmp_path / "file.yaml", tmp_path / "capture"
+    (folder / "masks").mkdir(parents=True)
+    for name in ("color.png", "masks/battery.png"):
+        (folder / name).write_text("precious")
+    file.write_text(yaml.safe_dump(SCENE))
+    with pytest.raises(SpecError, match=r"there is a capture in .*--force to replace it"):
+        run_capture(file, folder, noisy=False, seed=0, vary=False)
+    assert (folder / "color.png").read_text() == "precious"
+    run_capture(file, folder, noisy=False, seed=0, vary=False, force=True)
+    assert [path.name for path in (folder / "masks").iterdir()] == ["ball.png"]

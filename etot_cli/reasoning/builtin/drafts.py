@@ -220,7 +220,11 @@ class Draft:
         if state is not None and atom.key in STANCES:
             holds = spatial.holds(Whereabouts(STANCES[atom.key]), name, self.scene)
         if holds == atom.denied:
-            raise ReferenceProblem(name, f"no skill makes '{atom.key}' true or false")
+            why = f"no skill makes '{atom.key}' {'untrue' if atom.denied else 'true'}"
+            if atom.denied and atom.key in STANCES:
+                (other,) = STANCES.keys() - {atom.key}
+                why += f"; expected '{other}: {name}'"
+            raise ReferenceProblem(name, why)
 
     def _refer(self, name: str, role: Role) -> int:
         """The referent of a name as the task file writes it."""

@@ -44,6 +44,8 @@ def refusal(
         phrase = plain(error.phrase)
         head = f"cannot tell what {phrase!r} means in the instruction: {plain(why)}"
         second = f"  the sentence itself was understood: {' '.join(instruction.split())}"
+        if foreign:
+            second = "  understood up to there: nothing"
         refused = Refused(instruction, phrase, word=error.word, candidates=error.candidates)
     lines = [head, second]
     unclear = mark_in(normalized(instruction))  # nobody knows what of it is taken back
