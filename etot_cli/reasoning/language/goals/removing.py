@@ -22,7 +22,6 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClaus
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import EmptyAlready, NothingThere
-from etot_cli.reasoning.language.reference.memory.by_now import is_off
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -197,7 +196,7 @@ def _check_not_filled(context: Context, themes: Sequence[int]) -> None:
         ReferenceProblem: something was, of which nobody said that it is taken out again.
     """
     discourse = context.discourse
-    put = {thing for thing in discourse.placed if not is_off(thing, discourse)}
+    put = {thing for thing in discourse.placed if not discourse.is_off(thing)}
     for index in themes:
         names = ", ".join(thing.name for thing in discourse.things(index) if thing in put)
         if names:
