@@ -99,6 +99,13 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:comes|goes|is) first(?=[.;!]|$)",
         r"\1first \2 \3",
     ),
+    # Who learned another tongue may say "him" and "her" of a thing.
+    (
+        r"^((?:please,? )?(?:take )?(?:the|my|this) (?:(?!and\b|or\b|to\b|for\b)\w+ ){0,3}\w+"
+        rf"(?:,| and|, and)(?: then| please)* {_PUT}) (?:him|her) "
+        rf"(?=(?:(?:to the )?(?:left|right) (?:of|from)|{_AT}) )",
+        r"\1 it ",
+    ),
     # What is taken "out onto the desk" goes there, out of whatever it is in
     (
         r"\b(?:take|lift|get|fetch|bring) ((?:the|my|both|all) [^.,;:]*?) out "
