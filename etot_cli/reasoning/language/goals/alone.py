@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thin
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.by_now import put_at
@@ -97,6 +98,15 @@ def check_alone(
                     context.discourse.notes.append(f"{phrase.text!r}: {names} goes to the desk")
                 return
             why = f"say where to put {others} that would be there, too"
+            raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
+
+
+def check_alone_there(context: Context, group: PutGroup, themes: Sequence[int]) -> None:
+    """Whether "only the box" is to have some such thing in it: no other place may have one."""
+    chosen = any(len(context.discourse.referents[index].options) > 1 for index in themes)
+    for phrase in (np for where in group.destinations for np in where.targets if chosen):
+        if is_only(phrase.determiner):
+            why = "say what is to go where, also of what is elsewhere"
             raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
 
 

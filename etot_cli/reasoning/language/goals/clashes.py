@@ -21,6 +21,9 @@ from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.state import DESK
 
+_LEAVES_ITS_PLACE = {("instead of",), ("rather than",)}
+"""Words for what is not meant, which goes to the desk where it is in the way of what is."""
+
 
 def check_taken(
     context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
@@ -32,26 +35,32 @@ def check_taken(
     ) or any(item.prep is Prep.FROM for phrase in group.things.phrases for item in phrase.modifiers)
     states, moved = context.scene.states, context.discourse.things(*themes)
     upon = all(states[thing.name].inside is None for thing in moved)
-    where = {
-        place.where
-        for place in places  # "from the drawer into the drawer" is right of what lies on top
-        if place.where is not None and not (upon and place.relation is Relation.INSIDE)
-    }
-    reached = {*context.discourse.things(*where)}
+    # "From the drawer into the drawer" is right of what lies on top.
+    within = [place for place in places if not (upon and place.relation is Relation.INSIDE)]
+    reached, entered = (
+        {*context.discourse.things(*(place.where for place in found if place.where is not None))}
+        for found in (places, within)
+    )
     for phrase in group.things.phrases:
-        for prep, np in ((item.prep, np) for item in phrase.modifiers for np in item.phrases):
+        for said, np in ((item, np) for item in phrase.modifiers for np in item.phrases):
             if np.pronoun:
                 continue  # by now "it" is where the things go
+            prep = said.prep
             told: set[Thing] = set()
             with suppress(ReferenceProblem):
                 told = {*things_in(context.phrases.meaning(np, Role.ANY).options)}
-            if prep is Prep.FROM and reached & told:
+            if prep is Prep.FROM and entered & told:
                 raise ReferenceProblem(phrase.text, "it would be taken from where it goes", 3)
             there = {o for o in told if any(touches(o, at, context.scene) for at in reached)}
             # "All the cups, but not the pot" only leaves that out
             every = quantity_of(phrase.determiner).every and np.head != phrase.head
             if prep is Prep.CONTRAST and there and not every:
-                context.in_the_way.append(InTheWay(np.text, frozenset(there)))
+                off = None
+                if said.words in _LEAVES_ITS_PLACE and len(told) == 1:
+                    out = context.phrases.things(Things((np,)), Role.THEME)
+                    off = Put(tuple(out), (context.places.on_the_desk(),), removal=True)
+                    context.steps.append(off)
+                context.in_the_way.append(InTheWay(np.text, frozenset(there), off=off))
     for phrase in (np for item in group.destinations for np in item.targets):
         described = any(HERE_BEFORE in item.words for item in phrase.modifiers)
         if not taken or described or not phrase.is_elliptic:

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from etot_cli.reasoning.builtin.goal import Grouping, Pick, Place, Put, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.abreast import put_side_by_side, side_by_side, told_sides
-from etot_cli.reasoning.language.goals.alone import check_alone, check_counted
+from etot_cli.reasoning.language.goals.alone import check_alone, check_alone_there, check_counted
 from etot_cli.reasoning.language.goals.bystanders import place_bystanders
 from etot_cli.reasoning.language.goals.choosing import (
     check_may_stay,
@@ -80,6 +80,7 @@ from etot_cli.reasoning.language.reference.naming.determiners import is_distribu
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 from etot_cli.reasoning.language.words.manner import HELD
+from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Nearby
 
@@ -184,9 +185,12 @@ def _check_things(group: PutGroup) -> None:
     """Raises a ReferenceProblem where it is not clear what is to go somewhere."""
     _check_not_torn(group)
     for phrase in group.things.phrases:
-        said = {item.prep for item in phrase.modifiers}
-        if phrase.words == ("anything",) and said == {Prep.EXCEPT}:
+        told = {item.prep for item in phrase.modifiers} - {Prep.EXCEPT}
+        if phrase.words == ("anything",) and not told:
             raise AmbiguousReference(phrase.text, ["one thing", "everything"])
+        alone = any(is_only(np.determiner) for where in group.destinations for np in where.targets)
+        if phrase.words == ("something",) and not (told or alone):
+            raise ReferenceProblem(phrase.text, "say what, 'something red' or 'any cup'", 3)
 
 
 def _put_as_told(
@@ -282,6 +286,7 @@ def _check_places(
     """Raises a ReferenceProblem where things cannot be meant to go to places; notes what was made
     of how these are described.
     """
+    check_alone_there(context, group, themes)
     check_contrasted(context, group.things, themes, places)
     check_not_there(context, group, places)
     check_counted(context, group.things.phrases, places)

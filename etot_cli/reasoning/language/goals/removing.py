@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Grouping, things_in
+from etot_cli.reasoning.builtin.goal import Grouping, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.choosing import (
     choose_from_somewhere,
     choose_stacked,
@@ -22,7 +22,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClaus
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import EmptyAlready, NothingThere
-from etot_cli.reasoning.language.reference.memory.by_now import is_off
+from etot_cli.reasoning.language.reference.memory.by_now import put_at
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
@@ -54,6 +54,8 @@ def remove(context: Context, clause: RemoveClause) -> None:
     if unnamed is not None:
         clause = replace(clause, source=None)  # out of what it is in, as nothing else was named
     things = clause.things.taken_from(clause.source)
+    if clause.by_then and _is_source_empty(context, clause):
+        return
     if is_emptying(clause):
         if _is_left_over(context, clause):
             held = tuple(np for m in things.phrases[0].modifiers for np in m.phrases)
@@ -161,6 +163,37 @@ def _check_emptied(context: Context, clause: RemoveClause, themes: Sequence[int]
         raise ReferenceProblem(text, f"say first where {names} goes", 3)
 
 
+def _is_source_empty(context: Context, clause: RemoveClause) -> bool:
+    """Whether "it" is what something was just taken out of ("take the pen out of the cup; once it
+    is empty, …"), which is empty by then and is spoken of next.
+
+    Raises:
+        ReferenceProblem: something is left in it.
+    """
+    discourse, scene, last = context.discourse, context.scene, context.last
+    held = [
+        np.pronoun for said in clause.things.phrases for m in said.modifiers for np in m.phrases
+    ]
+    if held != ["it"] or not isinstance(last, RemoveClause) or is_emptying(last):
+        return False
+    sources = [at.where for at in discourse.last_places if at.where is not None]
+    taken = [i for step in context.done if isinstance(step, Put) for i in step.what]
+    holds = any(can_be(thing, Role.CONTAINER, scene) for thing in discourse.things(*taken))
+    if len(sources) != 1 or holds or discourse.is_desk(sources[0]):
+        return False
+    left = [
+        name
+        for name in scene.infos
+        for at in discourse.things(*sources)
+        if touches(Thing(name), at, scene) and Thing(name) not in discourse.placed
+    ]
+    left += [thing.name for thing in put_at(discourse.things(*sources), discourse)]
+    if left:
+        raise ReferenceProblem("it", f"say first where {', '.join(left)} goes", 3)
+    discourse.mention_again(sources[0], Role.THEME)
+    return True
+
+
 def _check_holds(context: Context, things: Things) -> None:
     """Whether "it", which nothing is in or on by now, ever held anything; else something else may
     be meant ("put the pen in the cup after emptying it").
@@ -197,7 +230,7 @@ def _check_not_filled(context: Context, themes: Sequence[int]) -> None:
         ReferenceProblem: something was, of which nobody said that it is taken out again.
     """
     discourse = context.discourse
-    put = {thing for thing in discourse.placed if not is_off(thing, discourse)}
+    put = {thing for thing in discourse.placed if not discourse.is_off(thing)}
     for index in themes:
         names = ", ".join(thing.name for thing in discourse.things(index) if thing in put)
         if names:

@@ -170,11 +170,16 @@ FELL = """
 """Between a thing and what it is in or on by now."""
 BY_NOW = "right now, now, at the moment, currently, still, already, just, anyway, again, by now"
 """With how things are."""
-SOMEBODY_LEFT = f"""
-    (i|we|you|they|he|she|someone|somebody|(the|my|our) ({RELATIONS})) [have|has|had] [just] left,
-    whoever (was|worked) here [before|last] [has] left,
-    (he|she|(the|my|our) ({RELATIONS})) [has] put
+_STRANGER = f"""
+    he|she|(the|my|our|a|one of (the|my|our)) ({RELATIONS}|guests|visitors|colleagues|students|
+    children|kids|boys|girls|cat|cats|dog|dogs|puppy)
 """
+SOMEBODY_LEFT = f"""
+    (i|we|you|they|someone|somebody|{_STRANGER}) [have|has|had] [just] (left|dropped),
+    whoever (was|worked) here [before|last] [has] left,
+    ({_STRANGER}) [have|has] [just] put
+"""
+"""What somebody did with a thing that is there by now."""
 DONE_WITH = """
     (i am|we are|i have|we have) [all] (done|finished|through) with, (i|we) no longer need,
     (i|we) have [got] no [more|further] (use|need) for

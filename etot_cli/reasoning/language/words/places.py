@@ -167,8 +167,8 @@ ONE_AT_EACH_SIDE = """
 _LEFT = "to [the] left [hand] [side] of, left of, to the left from"
 _RIGHT = "to [the] right [hand] [side] of, right of, to the right from"
 NEARBY: dict[Nearby, str] = {
-    Nearby.LEFT: f"{_LEFT}, {ON_SIDE[Prep.LEFT]}",
-    Nearby.RIGHT: f"{_RIGHT}, {ON_SIDE[Prep.RIGHT]}",
+    Nearby.LEFT: f"{_LEFT}, left from, {ON_SIDE[Prep.LEFT]}",
+    Nearby.RIGHT: f"{_RIGHT}, right from, {ON_SIDE[Prep.RIGHT]}",
     Nearby.FRONT: "in front of, (on|at|to) the near side of, to the front of",
     Nearby.BEHIND: "[to] behind, in back of, (on|at|to) the far side of, to the (rear|back) of",
     Nearby.NEXT_TO: "next to, beside, alongside, adjacent to, by, by the side of, right next to",

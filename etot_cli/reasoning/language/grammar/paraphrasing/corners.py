@@ -26,6 +26,11 @@ CORNERS_AND_SIDES: tuple[tuple[str, str], ...] = (
         r"((?:front|back|rear)(?: (?:left|right))?)\b",
         r"\1 the \2 corner",
     ),
+    (
+        r"\b(?:near|close to) (?=the (?:front|back|rear|far|near) (?:left|right) corner"
+        rf"(?: of the {TABLE}|(?! of))\b)",
+        "at ",
+    ),
     # On a picture of the table its far side is on top.
     *(
         (

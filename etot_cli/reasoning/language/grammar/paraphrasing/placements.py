@@ -40,6 +40,12 @@ _STACKED = (
 )
 _PUT = r"(?:put|bring|move|place|transfer|drop|tip)"
 _GO = r"(?:(?:should|must|can|have to|need to|are to) )?(?:go|goes|belong|move|come)"
+_GOES = (
+    r"(?:goes|belongs?|go|(?:should|must|needs? to|ha(?:s|ve) to|(?:is|are) to|ought to) "
+    r"(?:go|come|end up|belong|be (?:put|placed|moved|set|stored)))"
+)
+"""What asks where a thing is to be; "should be in the box" may say where it is by now."""
+_AT = "into|in|onto|on|inside|to|at|near|between|in front of|next to|beside|behind"
 _ENDS = r"(?=[.,;!?]|$)"
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
@@ -77,11 +83,28 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
             ("above|over", "bottom|lower|middle", "top|topmost|highest"),
         )
     ),
-    # "Start with the cup: into the box"
+    # "Start with the cup: into the box", "… the cup, which goes into the box"
     (
-        r"(^|[.;!] )((?:start|begin) with ((?:the|my) [^.,;:]*?)): "
-        r"(?=(?:into|in|onto|on|inside|next to|beside|behind) )",
-        lambda said: f"{said[1]}{said[2]}: put {_it(said[3])} ",
+        r"(^|[.;!] )((?:(?:please|let us) )?(?:start|begin) with ((?:the|my) [^.,;:]*?))"
+        rf"(?::|, which {_GOES}) (?=(?:{_AT}) )",
+        lambda said: (
+            said[0]
+            if "which" in said[0] and re.search(rf" (?:{_AT}) ", said[3])
+            else f"{said[1]}{said[2]}: put {_it(said[3])} "
+        ),
+    ),
+    # "The cup, which goes into the box, comes first"
+    (
+        rf"(^|[.;!] )((?:the|my) (?:(?!(?:{_AT}) )\w+ )*\w+), which ({_GOES} (?:{_AT}) [^.,;:]*?), "
+        r"(?:comes|goes|is) first(?=[.;!]|$)",
+        r"\1first \2 \3",
+    ),
+    # Who learned another tongue may say "him" and "her" of a thing.
+    (
+        r"^((?:please,? )?(?:take )?(?:the|my|this) (?:(?!and\b|or\b|to\b|for\b)\w+ ){0,3}\w+"
+        rf"(?:,| and|, and)(?: then| please)* {_PUT}) (?:him|her) "
+        rf"(?=(?:(?:to the )?(?:left|right) (?:of|from)|{_AT}) )",
+        r"\1 it ",
     ),
     # What is taken "out onto the desk" goes there, out of whatever it is in
     (

@@ -100,11 +100,11 @@ _only_ahead = Parser(lambda given, at: [(at, NOTHING)] if nouns.is_only(given.ah
 ONLY_THOSE = sequence(_only_ahead, exceptions, build=partial(excepting, only=True))
 
 
-def _contrasted(nps: tuple[NounPhrase, ...]) -> Modifier | None:
+def _contrasted(nps: tuple[NounPhrase, ...], word: str = "") -> Modifier | None:
     """What is not meant, but what a thing is told from."""
     nps = tuple(map(_such, nps))
     told = all(np.words and (np.determiner or not is_descriptive(np.head)) for np in nps)
-    return Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps))) if told else None
+    return Modifier(Prep.CONTRAST, tuple(map(_one_of_them, nps)), (word,)) if told else None
 
 
 def _that_one(the: str, np: NounPhrase) -> Modifier | None:
@@ -142,10 +142,10 @@ OF_ALL = sequence("~comma", NONE_OF_THEM, either(COMMA, at_end))
 """Likewise, set off by commas ("two cups, neither of them red, on the tray")."""
 CONTRASTED = quiet(
     sequence(
-        either(nouns.CONTRAST, sequence(after("rather", "prefer"), "than")),
+        either(phrase(nouns.CONTRAST), sequence(after("rather", "prefer"), phrase("than"))),
         separated(noun_phrase, "or, nor", most=3),
         not_ahead("first", "last"),  # "…, not the cup first" speaks of an order
-        build=_contrasted,
+        build=lambda word, nps: _contrasted(nps, word),
     )
 )
 

@@ -58,7 +58,8 @@ def _piled(
 def _standing_on(pairs: Any) -> TowerClause | None:
     """A tower told pair by pair without a verb ("blue on red, yellow on blue")."""
     (second, first), *more = pairs
-    return _piled(None, second, first, tuple(more))
+    said = tuple((upper, None if lower.pronoun else lower) for upper, lower in more)
+    return _piled(None, second, first, said)
 
 
 COLOR = sequence(
@@ -151,3 +152,19 @@ PAIR_BY_PAIR = sequence(
     build=_standing_on,
 )
 """Without a verb."""
+ON_EACH_OTHER = sequence(
+    separated(
+        sequence(
+            silent(optional("first")),
+            noun_phrase,
+            silent(optional("right, directly, straight")),
+            places.ONTO,
+            noun_phrase,
+            build=lambda *pair: pair,
+        ),
+        NEXT,
+        most=5,
+    ),
+    build=_standing_on,
+)
+"""Behind what announces a tower."""

@@ -27,7 +27,12 @@ from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATION
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.phrases.turns import TURN
 from etot_cli.reasoning.language.grammar.requests.nesting import NESTED
-from etot_cli.reasoning.language.grammar.requests.piles import ONE_OF_TWO, PAIR_BY_PAIR, PILED
+from etot_cli.reasoning.language.grammar.requests.piles import (
+    ON_EACH_OTHER,
+    ONE_OF_TWO,
+    PAIR_BY_PAIR,
+    PILED,
+)
 from etot_cli.reasoning.language.grammar.requests.tower_bases import (
     A_TOWER,
     FIRST_TO_LAST,
@@ -308,13 +313,11 @@ _TOWER = either(
         # "Make a pile: yellow on top of the red block"
         A_TOWER,
         SO,
-        noun_phrase,
-        places.ONTO,
-        noun_phrase,
-        build=lambda tower, *nps: (
+        ON_EACH_OTHER,
+        build=lambda tower, pile: (
             None
-            if (named := _announced(tower, nps[::-1])) is None
-            else TowerClause(Things(_with_nouns(named)), upward=True)
+            if (named := _announced(tower, pile.things.phrases)) is None
+            else replace(pile, things=Things(_with_nouns(named)))
         ),
     ),
     variants(

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
     either,
     optional,
+    phrase,
     sequence,
     valued,
 )
@@ -32,9 +33,14 @@ from etot_cli.reasoning.language.words import predicates, small_words
 from etot_cli.reasoning.language.words.places import Prep
 
 _NOT_THIS = either(
-    sequence(small_words.IN_STEAD, noun_phrase, OPTIONAL_COMMA),
+    sequence(
+        phrase(small_words.IN_STEAD),
+        noun_phrase,
+        OPTIONAL_COMMA,
+        build=lambda word, np: Modifier(Prep.CONTRAST, (np,), (word,)),
+    ),
     # "Not the cup should be empty" says nothing of another one.
-    sequence("not", noun_phrase, COMMA),
+    sequence("not", noun_phrase, COMMA, build=lambda np: Modifier(Prep.CONTRAST, (np,))),
 )
 
 
@@ -103,7 +109,7 @@ _NOT_THERE = sequence(
 )
 NOT_SO = either(
     sequence(LEFT_OUT, COMMA, CHAIN, build=_without),
-    sequence(valued(_NOT_THIS, lambda np: Modifier(Prep.CONTRAST, (np,))), CHAIN, build=_without),
+    sequence(_NOT_THIS, CHAIN, build=_without),
     sequence(_NOT_THERE, CHAIN, build=_elsewhere),
     sequence("for", noun_phrase, OPTIONAL_COMMA, CHAIN, build=_for_each),
 )

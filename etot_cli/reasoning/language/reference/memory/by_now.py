@@ -105,7 +105,7 @@ def note_placed(discourse: Discourse, put: Put) -> None:
         chosen = len(discourse.referents[index].options) == 1
         for thing in discourse.things(index):
             before = discourse.placed.pop(thing, (None,))
-            off = all(place is None or _is_anywhere(place, discourse) for place in before)
+            off = all(place is None or discourse.is_anywhere(place) for place in before)
             if put.removal or not off:
                 discourse.moved_on |= {thing} if before != (None,) else set()
             discourse.placed[thing] = put.places if chosen else (*put.places, *before)
@@ -211,14 +211,3 @@ def is_shut_away(referent: int, discourse: Discourse) -> bool:
     }
     shut = all(discourse.turned.get(part) is False for part in around)
     return len(places) == 1 and bool(around) and shut
-
-
-def is_off(thing: Thing, discourse: Discourse) -> bool:
-    """Whether a thing has been taken from somewhere and waits on the desk."""
-    places = discourse.placed.get(thing, (None,))
-    return all(place is not None and _is_anywhere(place, discourse) for place in places)
-
-
-def _is_anywhere(place: Place, discourse: Discourse) -> bool:
-    """Whether a place is but the desk, such as where what is taken away waits."""
-    return place.where is not None and discourse.is_desk(place.where) and not place.beside

@@ -317,9 +317,11 @@ class Discourse:
         for at, mention in enumerate(self.mentions):
             options = self.referents[mention.referent].options
             later = (self.referents[item.referent].options for item in self.mentions[at + 1 :])
-            since = any({*own} < {*options[0]} for several in later for own in several)
+            since = {t for many in later for own in many if {*own} < {*options[0]} for t in own}
             dealt_with = {*self.put, *self.left_alone}  # "the apple and another fruit"
-            if since and mention.referent not in self.put:
+            # "Take both apples out. The red one goes on the plate, the other one in the bowl"
+            waits = all(self.is_off(thing) for thing in {*options[0]} - since)
+            if since and (waits or mention.referent not in self.put):
                 continue
             if mention.referent in self.compared - dealt_with and mention.role is Role.ANY:
                 continue
@@ -335,6 +337,15 @@ class Discourse:
                 found.update(dict.fromkeys(options[0]))
         # What was but taken away may be told a place yet.
         return tuple(thing for thing in found if thing not in self.cleared)
+
+    def is_off(self, thing: Thing) -> bool:
+        """Whether a thing has been taken from somewhere and waits on the desk."""
+        places = self.placed.get(thing, (None,))
+        return all(place is not None and self.is_anywhere(place) for place in places)
+
+    def is_anywhere(self, place: Place) -> bool:
+        """Whether a place is but the desk, such as where what is taken away waits."""
+        return place.where is not None and self.is_desk(place.where) and not place.beside
 
     def left_open(self) -> tuple[tuple[Thing, ...], ...]:
         """What may be meant by what was but named last, where that is one of several phrases ("the

@@ -26,7 +26,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 from etot_cli.reasoning.language.reference.geometry import rows, space
 from etot_cli.reasoning.language.reference.geometry.vessels import lies_on
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
-from etot_cli.reasoning.language.reference.memory.by_now import is_off, open_by_now
+from etot_cli.reasoning.language.reference.memory.by_now import open_by_now
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -115,7 +115,7 @@ class Places:
     def _waits(self, index: int) -> bool:
         """Whether things have been taken from somewhere and were told no other place."""
         things = self.discourse.things(index)
-        return bool(things) and all(is_off(thing, self.discourse) for thing in things)
+        return bool(things) and all(self.discourse.is_off(thing) for thing in things)
 
     def of(
         self, destinations: Sequence[Destination], themes: Sequence[int], *, stays: bool = False
