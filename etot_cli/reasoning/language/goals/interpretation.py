@@ -99,10 +99,16 @@ _ARTICLE = Expression(
 )
 
 
+_ALL_ELSE = r"(?:(?:everything|anything|all) else|(?:all )?the (?:rest|others?))\b"
+_IN_THERE = (
+    r"(?! (?:from|out of|off|of|(?:in|on|inside) (?:it|there)) ?"
+    r"| (?:in|on) the (?:\w+ )?\w+ (?:goes|comes|should|must|belongs|has)\b)"
+)
+_FOR = r"\b(?:is|are) (?:(?:only|just|exclusively) )?for "
 _ELSE = Expression(
-    r"\b(?:is|are) (?:(?:only|just|exclusively) )?for \w[^~]*?\b"
-    r"(?P<else>(?:everything|anything|all) else|(?:all )?the (?:rest|others?))\b"
-    r"(?! (?:from|out of|off|of|(?:in|on|inside) (?:it|there)) ?)"
+    rf"(?:{_FOR}(?!(?:the|my|our|all|both)\b)\w[^~]*?\b(?P<else>{_ALL_ELSE}){_IN_THERE}"
+    rf"|{_FOR}(?P<for>{_ALL_ELSE})(?! (?:in|on) )"
+    rf"|{_FOR}[^~]*?\b(?P<out>{_ALL_ELSE})(?= (?:\w+ ){{0,3}}(?:out|off|away)\b(?! of)))"
 )
 """What else there is beside what something is for."""
 
@@ -127,7 +133,7 @@ def _check_else(text: str) -> None:
     """
     if found := _ELSE.search(text):
         why = "say whether that is all else in there, or all else there is"
-        raise ReferenceProblem(found["else"], why, 3)
+        raise ReferenceProblem(found[found.lastgroup or 0], why, 3)
 
 
 def _used(goal: Goal) -> set[int]:

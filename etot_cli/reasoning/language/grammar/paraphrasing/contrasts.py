@@ -81,8 +81,9 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
     ),
     # "One pedal is not in the crate yet. Put it in there"
     (
-        rf"^(?:please,? )?(?:the|one|(two|three)) ((?:\w+ )??\w+) (is|are) (?:still )?not"
-        rf"(?: yet)? ((in|on) {_SOME})(?: yet)?[.,;] (?:so )?(?:please )?({_PUT}) (?:it|them) "
+        rf"^(?:please,? )?(?:the|one|(two|three)) ((?:\w+ )??(?!that\b|which\b)\w+) (is|are) "
+        rf"(?:still )?not(?: yet)? ((in|on) {_SOME})(?: yet)?[.,;] "
+        rf"(?:so )?(?:please )?({_PUT}) (?:it|them) "
         rf"(?:\5 there|there|\5 it|\5)(?= with\b| too\b| as well\b|{_ENDS})",
         lambda said: (
             f"{said[6]} the {said[1] or ''} {said[2]} that {said[3]} not {said[4]} {said[4]}"
