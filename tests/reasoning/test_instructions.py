@@ -347,6 +347,10 @@ def test_full_hand_at_the_start() -> None:
         "[PUT ON, desk] [OPEN, chest] [PICK UP, plum] [PUT INTO, chest] [CLOSE, chest]"
     ]
     assert plans("Pick up the mug.", state) == ["[PUT ON, desk] [PICK UP, mug]"]
+    assert plans("Put what you're holding into the mug.", state) == ["[PUT INTO, mug]"]
+    assert plans("What's in your hand goes in the mug.", state) == ["[PUT INTO, mug]"]
+    with pytest.raises(InstructionError, match="something else by then"):
+        plans("Pick up the mug and put what you are holding in the drawer.", state)
 
 
 def test_open_enough_and_ajar() -> None:

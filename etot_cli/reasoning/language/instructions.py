@@ -10,6 +10,7 @@ from etot_cli.reasoning.builtin.goal import Goal
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized
 from etot_cli.reasoning.language.grammar.text.corrections import mark_in
+from etot_cli.reasoning.language.in_hand import with_held_named
 from etot_cli.reasoning.language.owners import without_owners
 from etot_cli.reasoning.language.plainly import is_name, read_plainly, without_corrections
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
@@ -29,7 +30,7 @@ def goal_of(instruction: str, scene: SceneState) -> Goal:
     """
     vocabulary = Vocabulary(scene)
     try:
-        instruction = without_viewpoint(instruction, scene)
+        instruction = with_held_named(without_viewpoint(instruction, scene), scene)
     except ReferenceProblem as error:
         raise _refused(error, instruction, scene, vocabulary) from None
     said = without_owners(instruction, partial(is_name, vocabulary=vocabulary))

@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 )
 from etot_cli.reasoning.language.reference.geometry.space import is_flat, lies_in, rests_on, touches
 from etot_cli.reasoning.language.reference.naming.states import state_holds
+from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.state import DESK, SceneState
 
 _HOLDS = {Toward.INSIDE: Role.CONTAINER, Toward.ON: Role.SURFACE}
@@ -94,6 +95,7 @@ def _asked_for(
         if any(isinstance(n, Modifier) and n.words == CLEARED for n in nodes(first[0].clause)):
             told[given.so] = _named(given.place.targets if given.place else (), start)
     told[not given.so] += _named(_themes(first), start)
+    second = tuple(_with_them(said, _themes(first)) for said in second)
     ways_out = {given.so: first, not given.so: second}
     to_do = {so: tuple(s for s in ways_out[so] if s.clause != NOTHING) for so in ways_out}
     now, otherwise = to_do[holds], to_do[not holds]
@@ -146,6 +148,16 @@ def _themes(clauses: Iterable[Spoken]) -> tuple[NounPhrase, ...]:
         if not isinstance(said.clause, MoveClause):
             break
     return ()
+
+
+def _with_them(said: Spoken, moved: tuple[NounPhrase, ...]) -> Spoken:
+    """What is left alone otherwise, where "them" is what would have been moved, not the place."""
+    clause = said.clause
+    several = bool(moved[1:]) or any(singular(np.head) != np.head for np in moved)
+    left = clause.things if several and isinstance(clause, AvoidClause) else None
+    if left is None or [np.pronoun for np in left.phrases] != ["them"]:
+        return said
+    return replace(said, clause=replace(clause, things=Things(moved)))
 
 
 def _check_further(state: Understanding, reading: Sequence[Spoken]) -> None:

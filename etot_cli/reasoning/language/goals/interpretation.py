@@ -57,6 +57,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
             different things.
     """
     returning = any(_BACK.search(sentence.text) for sentence in sentences)
+    _check_else(" ".join(sentence.text for sentence in sentences))
     discourse = Discourse(scene, returning=returning)
     state = Understanding(scene, discourse, Resolver(scene, vocabulary))
     for sentence in sentences:
@@ -98,6 +99,20 @@ _ARTICLE = Expression(
 )
 
 
+_ALL_ELSE = r"(?:(?:everything|anything|all) else|(?:all )?the (?:rest|others?))\b"
+_IN_THERE = (
+    r"(?! (?:from|out of|off|of|(?:in|on|inside) (?:it|there)) ?"
+    r"| (?:in|on) the (?:\w+ )?\w+ (?:goes|comes|should|must|belongs|has)\b)"
+)
+_FOR = r"\b(?:is|are) (?:(?:only|just|exclusively) )?for "
+_ELSE = Expression(
+    rf"(?:{_FOR}(?!(?:the|my|our|all|both)\b)\w[^~]*?\b(?P<else>{_ALL_ELSE}){_IN_THERE}"
+    rf"|{_FOR}(?P<for>{_ALL_ELSE})(?! (?:in|on) )"
+    rf"|{_FOR}[^~]*?\b(?P<out>{_ALL_ELSE})(?= (?:\w+ ){{0,3}}(?:out|off|away)\b(?! of)))"
+)
+"""What else there is beside what something is for."""
+
+
 def _leave_open(discourse: Discourse, known: frozenset[int], sentence: str) -> None:
     """In a sentence without any article "pen in holder" is about a holder, whichever that is."""
     if _ARTICLE.search(sentence):
@@ -108,6 +123,17 @@ def _leave_open(discourse: Discourse, known: frozenset[int], sentence: str) -> N
             names = " or ".join(thing.address for thing in things_in(referent.options))
             discourse.notes.append(f"{referent.text!r} is any: {names}")
             discourse.undecided -= {index}
+
+
+def _check_else(text: str) -> None:
+    """Whether "the bowl is for lemons; everything else goes on the plate" leaves it open what else.
+
+    Raises:
+        ReferenceProblem: it may be all else in the bowl, or all else there is.
+    """
+    if found := _ELSE.search(text):
+        why = "say whether that is all else in there, or all else there is"
+        raise ReferenceProblem(found[found.lastgroup or 0], why, 3)
 
 
 def _used(goal: Goal) -> set[int]:

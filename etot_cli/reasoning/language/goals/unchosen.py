@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from itertools import combinations
 from math import comb
 
@@ -15,8 +16,10 @@ from etot_cli.reasoning.builtin.goal import (
     Thing,
     things_in,
 )
-from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
+from etot_cli.reasoning.language.words.lexicon import singular
 
 _MOST_WAYS = 64
 """In which a choice may leave things, all of which are told."""
@@ -63,6 +66,9 @@ def keep_others(context: Context, keep: Keep, text: str) -> None:
     if text in ("the others", "the rest") and {*()} < {*left_of_them} < {*named}:
         context.constraints.append(Constraint(keep, left_of_them))
         return
+    if text == "the others" and (alike := _others_alike(context)):
+        context.constraints.append(Constraint(keep, alike))
+        return
     spoken = {thing.name for said in discourse.referents for thing in things_in(said.options)}
     spoken -= {*left_of_them}
     others = tuple(name for name, info in infos.items() if name not in spoken and info.movable)
@@ -70,6 +76,26 @@ def keep_others(context: Context, keep: Keep, text: str) -> None:
     if others:
         context.constraints.append(Constraint(keep, others))
     _keep_unchosen(context, keep, left)
+
+
+def _others_alike(context: Context) -> tuple[str, ...]:
+    """The others of the one sort of which one was told from several by the clause before ("put it
+    in the smallest pot"); none where that is not clear.
+    """
+    discourse, infos = context.discourse, context.scene.infos
+    last = max((mention.clause for mention in discourse.mentions), default=0)
+    found: set[tuple[str, ...]] = set()
+    for mention in discourse.mentions:
+        options = discourse.referents[mention.referent].options
+        if mention.clause != last or not mention.adjectives or len(options) > 1:
+            continue
+        with suppress(ReferenceProblem):
+            every = NounPhrase("all", (f"{singular(mention.noun)}s",))
+            alike = context.phrases.meaning(every, Role.ANY).options[0]
+            names = tuple(t.name for t in alike if t not in options[0] and t.part is None)
+            found.add(tuple(name for name in names if name in infos and infos[name].movable))
+    ways = [names for names in found if names]
+    return ways[0] if len(ways) == 1 and len(ways[0]) > 1 else ()
 
 
 def _but_named(context: Context) -> tuple[tuple[str, ...], tuple[str, ...]]:

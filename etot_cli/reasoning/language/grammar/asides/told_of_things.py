@@ -51,7 +51,10 @@ _PREDICATE = Expression(
 _A_BIT = Expression(
     r" (?:a (?:little|bit|lot)|quite a bit|by now|all the time|so often|every time)(?= |$)"
 )
-_TOO_SO = Expression(r"^(?:is|are|looks?|gets?) (?:far |much )?too \w+")
+_TOO_SO = Expression(
+    r"^(?:is|are|looks?|gets?) (?:far |much |way )?too \w+"
+    r"(?: (?:to|for|from) (?:the|my|our|that|its) (?:(?!and\b|or\b|but\b|to\b)\w+ ?){1,3}$)?"
+)
 _NOT_STAYING = (
     r"(?:can|must|should|may|does|do) not (?:be (?:left|kept)|stay|remain"
     r"|(?:stand|lie|sit|belong|live|be|go)(?= (?:(?:up|down|over|out) )?(?:here|there)$))"

@@ -36,6 +36,11 @@ _FROM_STATE = (
     r"from (?:(?:half |being )?(?:open|closed|shut)|ajar) to "
     r"(?=(?:being )?(?:fully |completely |wide )?(?:open|closed|shut)\b)"
 )
+_COMPARED = (
+    r"(?:bigger|larger|smaller|taller|shorter|longer|wider|narrower"
+    r"|(?:further|farther|more) to the (?:left|right|front|back)"
+    rf"|(?:closer|nearer) to {_ONE})"
+)
 _WISH = Expression(
     r"(?:(?<=^)|(?<=[.;!?,:] )|(?<=\b(?:and|but) ))(?:i|we) (?P<no>do not |would not )?"
     r"(?:would )?(?:really |just )?(?:want|need|like|prefer)\b[^.;!?]* left (?:in|on|inside)\b"
@@ -162,6 +167,12 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"|suitable|simplest|quickly|fastest|first))?(?: to (?:reach|get to|get at|access))?"
         r"(?: for you)?(?=[.,;!]|$)",
         r"\1you like",
+    ),
+    # "The cup or the jar, whichever is bigger"
+    (
+        rf"(?<!, )\b(?:either )?({_ONE}) or ({_ONE})( (?:in|into|on|onto|inside|to) {_ONE})?, "
+        rf"whichever(?: one)? is (?:the )?({_COMPARED})(?:,|(?=[.;!?]|$))",
+        lambda said: f"the one of {said[1]} and {said[2]} that is {said[4]}{said[3] or ''}",
     ),
     # A question whose answer is what something is done with
     (

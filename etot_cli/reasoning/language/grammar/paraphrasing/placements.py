@@ -46,6 +46,7 @@ _GOES = (
 )
 """What asks where a thing is to be; "should be in the box" may say where it is by now."""
 _AT = "into|in|onto|on|inside|to|at|near|between|in front of|next to|beside|behind"
+_FLAT = frozenset({"tray", "plate", "saucer", "mat", "board", "shelf", "book", "tile", "coaster"})
 _ENDS = r"(?=[.,;!?]|$)"
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
@@ -68,6 +69,15 @@ def _to_do(told: re.Match[str]) -> str:
         told[2],
     )
     return f"{PAST[told[1]]} {done}"
+
+
+def _swapped(said: re.Match[str]) -> str:
+    """What takes each other's place, told by what both are in or on."""
+    begun, place = said[1], singular(said[6])
+    where = (
+        f"that is {'on' if place in _FLAT else 'in'} {'an' if place[0] in 'aeiou' else 'a'} {place}"
+    )
+    return f"{begun}swap {said[2] or said[4]} {where} and {said[3] or said[5]} {where}"
 
 
 PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
@@ -253,6 +263,22 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"(^|[.;!] )({NAMED} [^.,:;]*?) should (?:trade|swap|switch|change|exchange) places: ",
         r"\1swap \2: ",
+    ),
+    # "The cup and the jar go in the box. The former must be put in last"
+    (
+        r"\b((?:the|my) [^.,;:]*? and (?:the|my) [^.,;:]*? (?:go|belong|should go|must go) "
+        r"(?:in|into|on|onto) [^.,;:]*?)[.;] (?:but )?(the (?:former|latter)) "
+        r"(?:goes|(?:must|should|has to|is to) (?:be put|go))(?: in| on| there)? "
+        r"(first|last)(?=[.,;!]|$)",
+        r"\1, \2 \3",
+    ),
+    # "Let the cup and the jar change trays": each has to be on one
+    (
+        rf"(^|[.;!] |\b(?:and|then) )"
+        rf"(?:(?:let|have|make) ({NAMED} [^.,:;]*?) and ({NAMED} [^.,:;]*?)"
+        rf"|({NAMED} [^.,:;]*?) and ({NAMED} [^.,:;]*?) (?:should|must|have to|are to)) "
+        rf"(?:change|swap|exchange|trade|switch) (?!places|positions|spots)(\w+s){_ENDS}",
+        _swapped,
     ),
     # "So red is in the cup and green on the tray"
     (
