@@ -69,6 +69,9 @@ def _meant_before(
         if others and not {*others} & {*found}:
             return others  # "take the cup to the drawers and put it on them", of one chest
         two = the_two_named(discourse, role, excluded)
+        parts = openable(discourse) if role is Role.PART else ()
+        if len(parts) == len({*discourse.things(*parts)}) == 2:
+            return parts  # "open the top drawer, put the pen in the lower one and close them"
         if not two:
             raise AmbiguousReference(text, [item.text for item in discourse.referents])
         return two  # "put the plum into the cup, then set them on the tray"
