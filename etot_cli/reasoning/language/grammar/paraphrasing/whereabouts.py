@@ -200,6 +200,11 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"(?<=\w )up (?=with\b)", ""),
     (r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", ""),
     (r"\bback down (?=(?:on|onto)\b)", "down "),
+    (
+        r"\b(?:back down|down back)(?: again)?(?=[.,;!]|$| (?:and|then|afterwards|(?:to )?where"
+        r"|(?:in|at|on|to) (?:its|their|the same) (?:\w+ )?(?:place|spot|position)s?)\b)",
+        "back",
+    ),
     (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
     # "Open the drawer, but not with the cup inside": it is not in there by then
     (
