@@ -93,13 +93,14 @@ def _several_named(discourse: Discourse, role: Role) -> tuple[int, ...]:
 def the_two_named(
     discourse: Discourse, role: Role, excluded: Sequence[int] = ()
 ) -> tuple[int, ...]:
-    """The two things that were spoken of in all, be it as places."""
-    spoken = tuple(dict.fromkeys(item.referent for item in discourse.mentions))
+    """The two things that were spoken of in all, be it as places, but for what they cannot be."""
+    named = dict.fromkeys(item.referent for item in discourse.mentions)
+    spoken = tuple(index for index in named if index not in excluded)
     things = [option for i in spoken for option in discourse.referents[i].options]
     both = len(things) == len(spoken) == 2 and all(
         len(option) == 1 and can_be(option[0], role, discourse.scene) for option in things
     )
-    return spoken if both and not set(spoken) & set(excluded) else ()
+    return spoken if both else ()
 
 
 def emptied_by(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:
