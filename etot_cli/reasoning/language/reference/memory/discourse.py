@@ -322,7 +322,7 @@ class Discourse:
             later = (self.referents[item.referent].options for item in self.mentions[at + 1 :])
             since = any({*own} < {*options[0]} for several in later for own in several)
             dealt_with = {*self.put, *self.left_alone}  # "the apple and another fruit"
-            if since:
+            if since and (mention.several or mention.referent not in self.put):
                 continue
             if mention.referent in self.compared - dealt_with and mention.role is Role.ANY:
                 continue
