@@ -143,6 +143,7 @@ SIDED = [
         r"(is|be|been|were|someone|somebody|has|i|thing) left\b"
         r"|left (open|closed|shut|untouched|alone|exactly|where|standing|lying|sitting)"
         r"|\bwant .* left (in|on) |\byour (left|right) of"  # the robot's, whoever looks
+        r"|left (the|a|an|my|his|her|its|their|some|both|all) "  # behind
         r"|just left|right (on|into|in)\b|either side|like this:|the robot sees",
         text,
     )

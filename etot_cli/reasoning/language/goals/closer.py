@@ -57,10 +57,12 @@ def set_closer(
             if len(chosen) < len(moved):
                 return closer
             own = moved
+        spoken = [*discourse.mentions]
         rest = [
             item if isinstance(item, int) else context.single(item, item.name)
             for item in sorted(moved - own, key=str)
         ]
+        discourse.mentions = spoken  # nobody spoke of the rest, which "the other one" may be
         left = replace(step, what=tuple(rest))
         if step.grouping is not Grouping.ANY:  # each to a place of its own
             left = replace(left, places=tuple(_but(context, item, there) for item in step.places))

@@ -35,6 +35,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
     EnsureClause,
     ReorientClause,
 )
+from etot_cli.reasoning.language.grammar.text.splitting import ASIDE
 from etot_cli.reasoning.language.reference.choosing.noun_phrases import Resolver
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
@@ -89,7 +90,8 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     wished = " is for " in remark or " are for " in remark  # to be put there?
     if wished or not (goal.steps or state.asked or not (forbidden or named or allowed)):
         said = "how things are" if named else "what may be" if allowed else "what not to do"
-        text = sentences[-1 if wished else 0].text
+        asked = [item.text for item in sentences if not item.text.endswith(ASIDE)]
+        text = (asked or [sentences[0].text])[-1 if wished else 0]
         raise ReferenceProblem(text, f"this says {said}, but not what to do", 2)
     return without_needless(goal)
 

@@ -150,6 +150,8 @@ def add_put(
             discourse.put_into[theme] = where
         else:
             discourse.put_into.pop(theme, None)
+        upon = where is not None and places[0].relation is Relation.ON and discourse.things(where)
+        discourse.put_upon |= dict.fromkeys(discourse.things(theme), upon or ())
     context.discourse.put |= {*themes}
     context.steps.append(Put(tuple(themes), places, grouping, removal=removal))
 

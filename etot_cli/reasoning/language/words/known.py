@@ -85,10 +85,12 @@ BLAMED = words_of((verbs.PULL, verbs.PUSH)) | {"where", "room", "space"}
 NEVER_NOUNS = frozenset({"the", "a", "an", "and", "or", "in", "on", "of", "not", "~comma", "to"})
 GRAMMAR_WORDS = frozenset(_FUNCTION.split()) | VERB_WORDS | OTHER_VERBS | {"~comma"}
 
+_THINGS_IN_LY = word_set("jelly belly lily doily telly lolly brolly dolly holly butterfly")
+
 
 def is_adverb(text: str) -> bool:
     """Whether a word looks like one that says how something is done."""
-    return len(text) > 4 and text.endswith("ly") and text not in ("jelly", "belly", "lily", "doily")
+    return len(text) > 4 and text.endswith("ly") and text not in _THINGS_IN_LY
 
 
 NO_SKILL = "no skill does that; things can be picked up, put somewhere, opened and closed"

@@ -60,8 +60,9 @@ _HABIT = Expression(
 )
 """What somebody has as he likes it, which is no thing of the scene ("I take my tea with lemon")."""
 _UNUSED = Expression(
-    r"^(?:nobody|no one) (?:is going to |will |would |ever |really )*"
-    r"(?:use|need|drink|eat|read|wear)s? "
+    r"^(?:nobody|no one|(?:hardly|barely) any(?:one|body)|none of (?:us|them|you)) "
+    r"(?:(?:is|are) going to |will |would |ever |really |actually |still )*"
+    r"(?:use|need|want|drink|eat|read|wear)s? "
 )
 _DOES = Expression(
     r"^(?:(?:will|might|may|could|can|would|does not|do not|did not|"
@@ -119,6 +120,12 @@ def is_remark(said: str, is_name: IsName) -> bool:
         return lacks_room(said)
     if is_forbidding(said):
         return False
+    if unused := _UNUSED.match(said):
+        # "Nobody needs it in the box", "open", "moved" may say how it is to be.
+        what = {*said[unused.end() :].split()}
+        done = any(word.endswith("ed") and word != "red" for word in what)
+        how = WORK | ASKING | PLACED | {*STATES, "to", "back", "there", "here", "left", "taken"}
+        return not (done or how & what)
     if deed:
         happened, habit = _HAPPENED.match(deed), _HABIT.match(deed)
         if habit and _is_of_no_thing(habit, words, is_name):

@@ -27,6 +27,12 @@ _FROM_THERE = Expression(
 _THEM = rf"{_IT}(?: and {_IT})*"
 _ANY = rf"(?:any(?:thing| \w+(?: \w+){{0,2}}?)|{_THEM})"
 _NONE = r"(?:nothing|no (?:\w+ ){0,2}?\w+)"
+_DONE_TO = {
+    "put": "put", "placed": "place", "moved": "move", "shifted": "move", "opened": "open",
+    "touched": "touch", "disturbed": "disturb", "taken": "take", "removed": "remove",
+    "lifted": "lift", "picked up": "pick up",
+}  # fmt: skip
+"""What somebody may not want done to a thing, and the verb; "closed" and "left" are how it is."""
 _TURN = {"opened": "open", "closed": "close", "shut": "close"}
 
 
@@ -36,6 +42,16 @@ def _neither_turned(said: re.Match[str]) -> str:
     some = things or ("anything" if none == "nothing" else none.replace("no ", "any ", 1))
     acts = " and ".join(f"do not {_TURN[act]} {some}" for act in (one, two))
     return f"{begins}{acts}"
+
+
+def _unwanted(said: re.Match[str]) -> str:
+    """What somebody does not want done must not be done."""
+    some = said["some"] or re.sub("^(?:nothing|no |none )", _any_of, said["none"])
+    return f"do not {_DONE_TO[said['done']]} {some}"
+
+
+def _any_of(none: re.Match[str]) -> str:
+    return {"nothing": "anything", "no ": "any ", "none ": "any "}[none[0]]
 
 
 FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
@@ -65,6 +81,14 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r", not one \1 the other",
     ),
     (_FROM_THERE, r"\1"),
+    # "I do not want anything put on the tray", "I want nothing moved"
+    (
+        rf"\b(?:i|we) (?:(?:do not want|would not like|will not have) (?:to (?:see|have) )?"
+        rf"(?P<some>{_ANY})|want (?P<none>{_NONE}|none of {_IT})) (?:to be |being )?"
+        rf"(?P<done>{'|'.join(_DONE_TO)})\b(?! (?:and|or)\b)"
+        r"(?![^.;!?]*\b(?:until|till|before|unless)\b)",
+        _unwanted,
+    ),
     # "Do not open or close anything", "nothing may be opened or closed"
     (
         rf"\b(do not|never) (open|close|shut) (?:or|nor) (open|close|shut) ({_ANY})"

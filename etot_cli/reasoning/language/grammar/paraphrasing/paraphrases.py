@@ -254,6 +254,17 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"is to|are to)) first (?=be\b)",
         r"first, \1 ",
     ),
+    # "Only when it is open may the pen go in it" gives leave, and asks for nothing before
+    (
+        r"\bonly (?:when|while|if) ([^.,;!?]*?\b(?:is|are) [^.,;!?]*?),? (may|can|could) "
+        rf"(you|it|they|{NAMED}(?: \w+){{1,3}}?) (?=(?:go|be|put|stand|lie|open|close)\b)",
+        r"only if \1, \3 \2 ",
+    ),
+    (
+        r"\b(may) (only )?([^.,;!?]*?) (?(2)|only )(?:when|while) "
+        rf"(?=(?:it|they|{NAMED}(?: \w+){{1,3}}?) (?:is|are)\b)",
+        r"\1 \3 only if ",
+    ),
     (
         r"(^|[.;,] |\b(?:and|but) )only (?:then|afterwards?|thereafter|after (?:that|this)),? "
         r"(?=\w)(?!(?:should|may|can|could|must|shall|will|is|are|has|have|does|do)\b)",

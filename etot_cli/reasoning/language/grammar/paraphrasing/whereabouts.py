@@ -36,6 +36,17 @@ def _not_unstacked(said: re.Match[str]) -> str:
     return f"{said[1]}{said[3]} {said[2]}" if said[3] else f"{said[1]}{said[4]} {said[2]} apart"
 
 
+_IN_THE = r"\bin(?:to)? the (?:{})\b"
+_IN_THE_MIDDLE = rf"({_IN_THE.format('middle')})(?=[,;:.!]| and\b|$)"
+
+
+def _of_three_drawers(said: re.Match[str]) -> str:
+    """In a list that has drawers, the top and the bottom the middle is one of them, too."""
+    listed = ("drawers?", _IN_THE.format("top|upper"), _IN_THE.format("bottom|lower"))
+    three = all(re.search(rf"{what}", said[0]) for what in listed)
+    return re.sub(_IN_THE_MIDDLE, r"\1 one", said[0]) if three else said[0]
+
+
 _PLAIN_PLACE = rf"(?:(?:the|my) )?(?:(?!{WHERE}|and\b|or\b)\w+ ?){{1,3}}(?=[.!]|$)"
 _LEVELLED = r"\b(?:behind|back|bottom|below|beneath|underneath|middle)\b"
 
@@ -199,7 +210,13 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     (r"(?<=\w )up (?=with\b)", ""),
     (r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", ""),
+    (rf"[^.!?]*{_IN_THE_MIDDLE}[^.!?]*", _of_three_drawers),
     (r"\bback down (?=(?:on|onto)\b)", "down "),
+    (
+        r"\b(?:back down|down back)(?: again)?(?=[.,;!]|$| (?:and|then|afterwards|(?:to )?where"
+        r"|(?:in|at|on|to) (?:its|their|the same) (?:\w+ )?(?:place|spot|position)s?)\b)",
+        "back",
+    ),
     (rf"(\brather [^.;]*?) than (?:just )?{_LYING}(?=[.,;!?]|$)", r"\1"),
     # "Open the drawer, but not with the cup inside": it is not in there by then
     (

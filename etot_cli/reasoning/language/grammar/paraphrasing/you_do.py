@@ -173,7 +173,11 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         r"(?=(?:put|set|shut)\b)",
         r"\1\2",
     ),
-    (rf"({_NOW})you (?={_DO_OR_DID}\b)", r"\1"),
+    # "First you put it there, now take it off" tells what was done.
+    (
+        rf"((?!first\b[^!?]*[,.;] (?:and |but )?now\b){_NOW})you (?={_DO_OR_DID}\b)",
+        r"\1",
+    ),
     (rf"{_LED}you (?=(?:{_DO})\b(?! (?:at|in|on|by|for|from|to)\b))", r"\1"),
     (rf"^(you )(?=(?:put|set|shut) {_REST}(?:, (?:and|then) {_REST})*[.!]?$)", ""),
     (rf"^({_THING}), you (?=(?:{_DO_OR_DID}) (?:it|them) {_REST}{_END})", r"\1, "),

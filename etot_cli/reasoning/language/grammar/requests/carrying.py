@@ -12,7 +12,6 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     separated,
     sequence,
-    some,
     spanned,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
@@ -87,6 +86,8 @@ _COMES_AND_GOES = """
     [should|must|has to|have to|can] come[s] (out|off) [of (it|there)] and
     [should|must|has to|have to|can|to] (go|goes|be put|stand|sit|lie|rest)
 """
+_EXACTLY = optional(sequence(LIST_COMMA, separated(PUT_GROUP, LIST, most=4)), ())
+"""Where some of several things go: "get the cup and the pen onto the tray, pen in the cup"."""
 CARRIED = either(
     sequence(
         either(
@@ -132,8 +133,7 @@ CARRIED = either(
                 LIST,
                 most=5,
             ),
-            # "Get the cup and the pen onto the tray, pen in the cup"
-            some(sequence(LIST_COMMA, PUT_GROUP), most=3),
+            _EXACTLY,
             EXTRAS,
             build=lambda groups, more, extras: put_of((*groups, *more), extras),
         ),
@@ -143,6 +143,7 @@ CARRIED = either(
         # "Clear it all off the tray and onto the shelf"
         f"{verbs.REMOVE}, clear[ing], unload[ing]",
         sequence(THINGS, sequence(SOURCE, optional(LIST)), DIRECTED, build=brought),
-        build=lambda group: PutClause((group,)),
+        _EXACTLY,
+        build=lambda group, more: PutClause((group, *more)),
     ),
 )

@@ -12,6 +12,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     phrase,
     quiet,
     sequence,
+    silent,
     valued,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
@@ -227,8 +228,13 @@ ALONG_WITH = sequence(
     verbs.PUT,
     NP_LIST,
     DESTINATIONS,
-    OPTIONAL_COMMA,
-    small_words.AS_WELL_AS,
+    # "On the box as well as the mug" may say where.
+    silent(
+        either(
+            sequence(OPTIONAL_COMMA, small_words.ALONG_WITH),
+            sequence(COMMA, small_words.IN_ADDITION),
+        )
+    ),
     NP_LIST,
     build=lambda things, where, more: put_to(Things((*things, *more)), where),
 )

@@ -16,9 +16,12 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     quiet,
     sequence,
     silent,
+    some,
     spanned,
+    word,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COLON, WORDS, ahead, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.input import Input
 from etot_cli.reasoning.language.grammar.phrases.descriptions import ADJECTIVES, DESCRIBED
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
@@ -28,7 +31,15 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import Clause, ReorientC
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase, Things
 from etot_cli.reasoning.language.grammar.text.splitting import ASIDE
 from etot_cli.reasoning.language.words import fillers, predicates, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, matches_any, singular, word_set
+from etot_cli.reasoning.language.words.categories import is_category
+from etot_cli.reasoning.language.words.known import GRAMMAR_WORDS
+from etot_cli.reasoning.language.words.lexicon import (
+    JOINT_NOUNS,
+    is_in_lexicon,
+    matches_any,
+    singular,
+    word_set,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
 
@@ -132,12 +143,25 @@ def _meant_for(things: Things, words: tuple[str, ...]) -> Things | None:
     return Things((*things.phrases, NounPhrase("the", words))) if several else None
 
 
+def _is_stranger(given: Input, said: str) -> bool:
+    """Whether a word names nobody and nothing that may be in the scene ("customer", "party")."""
+    return said.isalpha() and not (
+        said in {*given.nouns, *GRAMMAR_WORDS} or is_category(said) or is_in_lexicon(said)
+    )
+
+
+_FOR_STRANGERS = sequence(
+    "(is|are) [only|just|meant] for (a|an|the|my|our|one of (my|our|the))",
+    some(word(_is_stranger), least=1, most=3),
+)
+"""What a thing is said to be for that is nowhere here; who gets it then is nothing to the robot."""
 _OTHERS = word_set("else other others rest")
 _NO_OTHERS = Parser(lambda given, at: [] if _OTHERS & {*given.words[at:]} else [(at, NOTHING)])
 _REMARK = either(
     sequence(ALL_THINGS, "(is|are|stands|lies) [right] in the way of", silent(noun_phrase)),
     sequence(ALL_THINGS, "is for, are for", WORDS, build=_meant_for),
     sequence(ALL_THINGS, either(fillers.REMARKS, sequence("is for, are for", silent(WORDS)))),
+    sequence(ALL_THINGS, silent(_FOR_STRANGERS)),
     # What "the drawer is for pens only" asks for is told behind a colon, unless it is "all else".
     sequence(
         ALL_THINGS,

@@ -155,7 +155,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         if kept and rest[:1] == (",",) and not further:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
-        new = (*said[:-1], *_also_told(taken, said), _noun_of(taken)) if noun else said
+        new = (*said[:-1], *_also_told(taken, said), *_called(taken, said)) if noun else said
         new = new[:-1] if new[-1] == "instead" else new
         mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
         if new[-1] == "it" and _is_place(new):  # "on the tray, no, next to it"
@@ -223,6 +223,23 @@ def _noun_of(phrase: Sequence[str]) -> str:
     """What a thing is called: "board" of "the upper board of the shelf"."""
     end = phrase.index("of") if "of" in phrase[1:] else len(phrase)
     return phrase[end - 1] if phrase else ""
+
+
+def _called(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
+    """What "the white one" takes over of "the blue pill box": all that it is called; "the steel
+    one" may be no pill box.
+    """
+    end = taken.index("of") if "of" in taken[1:] else len(taken)
+    begin = end - 1
+    while begin > 0 and not (_tells(taken[begin - 1]) or taken[begin - 1] in _BEFORE_THINGS):
+        begin -= 1
+    whole = begin > 0 and all(map(_tells, (word for word in said[:-1] if word != said[0])))
+    return (*taken[begin:end],) if whole and said[1:-1] else (_noun_of(taken),)
+
+
+def _tells(word: str) -> bool:
+    """Whether a word tells things of one sort apart, whatever they are."""
+    return is_descriptive(word) or any(word in sort for sort in (SIZES, SIDES, LEVELS))
 
 
 def _other_than(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:

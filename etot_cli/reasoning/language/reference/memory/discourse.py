@@ -41,6 +41,8 @@ class Discourse:
     mentions: list[Mention] = field(default_factory=list)
     clause: int = 0
     last_places: tuple[Place, ...] = ()
+    put_upon: dict[Thing, tuple[Thing, ...]] = field(default_factory=dict)
+    """What was put anywhere → what it was put onto last, if that is one place."""
     placed: dict[Thing, tuple[Place | None, ...]] = field(default_factory=dict)
     """Where things have been put, one of several places; None is where one was at the start."""
     turned: dict[Thing, bool] = field(default_factory=dict)
@@ -107,6 +109,7 @@ class Discourse:
             self,
             referents=list(self.referents),
             mentions=list(self.mentions),
+            put_upon=dict(self.put_upon),
             placed=dict(self.placed),
             turned=dict(self.turned),
             put_into=dict(self.put_into),
@@ -321,7 +324,7 @@ class Discourse:
             dealt_with = {*self.put, *self.left_alone}  # "the apple and another fruit"
             # "Take both apples out. The red one goes on the plate, the other one in the bowl"
             waits = all(self.is_off(thing) for thing in {*options[0]} - since)
-            if since and (waits or mention.referent not in self.put):
+            if since and (waits or mention.several or mention.referent not in self.put):
                 continue
             if mention.referent in self.compared - dealt_with and mention.role is Role.ANY:
                 continue

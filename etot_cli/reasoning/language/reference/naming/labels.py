@@ -41,7 +41,9 @@ def words_of(text: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=1024)
 def twins_of(words: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
-    """Other names of what is called so, one that is written as one word among them."""
+    """Other names of what is called so, one that is written as one word among them, and those
+    with another name of what it is for ("telly remote" of a TV remote).
+    """
     nouns = tuple(word for word in words if not word.isdigit())
     # A magnifying glass is no tumbler.
     other = len(nouns) > 1 and nouns[-2] in OTHER_SORTS.get(nouns[-1], ())
@@ -53,7 +55,15 @@ def twins_of(words: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
         if any((nouns[-len(t) :] == t and len(t) > other) or t in written for t in group)
         for name in group
     ]
-    return tuple(name for name in (*own, *written) if name != nouns[-len(name) :])
+    purpose = [
+        (*name, *nouns[len(t) :])
+        for group in groups
+        for t in group
+        if nouns[: len(t)] == t and len(t) < len(nouns)
+        for name in group
+    ]
+    named = (*own, *written, *purpose)
+    return tuple(dict.fromkeys(name for name in named if name != nouns[-len(name) :]))
 
 
 def contents_of(words: tuple[str, ...]) -> tuple[str, ...]:

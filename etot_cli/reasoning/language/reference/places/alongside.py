@@ -134,7 +134,7 @@ class Landmarks:
             else self._that_one(phrase, themes)
             or self._phrases.refer(self.told_there(phrase, below), Role.ANY, themes)
         )
-        for index in indices:
+        for index in self._lowest(indices, phrase) if phrase.pronoun else indices:
             discourse.last_landmark = (discourse.clause, index, relation)
             referent = self._discourse.referents[index]
             if index in themes:
@@ -161,6 +161,22 @@ class Landmarks:
                     alone = Resolved(((thing,),), noun=thing.name)
                     found.append(self._discourse.add(alone, phrase.text, Role.ANY))
         return found
+
+    def _lowest(self, indices: Sequence[int], phrase: NounPhrase) -> list[int]:
+        """Of things that were put upon each other the lowest: what is beside them is beside that.
+
+        Raises:
+            ReferenceProblem: some were put into something.
+        """
+        discourse, lowest = self._discourse, []
+        named = {*discourse.things(*indices)}
+        for index in indices:
+            if len(indices) > 1 and index in discourse.put_into:
+                raise ReferenceProblem(phrase.text, "some of it lies in a container by then", 2)
+            below = (discourse.put_upon.get(thing, ()) for thing in discourse.things(index))
+            if not named & {thing for things in below for thing in things}:
+                lowest.append(index)
+        return lowest or [*indices]
 
     def _is_other_than(self, phrase: NounPhrase, themes: Sequence[int]) -> bool:
         """Whether "the other one" is another such thing as is taken from somewhere ("take the

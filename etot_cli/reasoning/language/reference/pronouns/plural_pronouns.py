@@ -69,6 +69,9 @@ def _meant_before(
         if others and not {*others} & {*found}:
             return others  # "take the cup to the drawers and put it on them", of one chest
         two = the_two_named(discourse, role, excluded)
+        parts = openable(discourse) if role is Role.PART else ()
+        if len(parts) == len({*discourse.things(*parts)}) == 2:
+            return parts  # "open the top drawer, put the pen in the lower one and close them"
         if not two:
             raise AmbiguousReference(text, [item.text for item in discourse.referents])
         return two  # "put the plum into the cup, then set them on the tray"
@@ -90,13 +93,14 @@ def _several_named(discourse: Discourse, role: Role) -> tuple[int, ...]:
 def the_two_named(
     discourse: Discourse, role: Role, excluded: Sequence[int] = ()
 ) -> tuple[int, ...]:
-    """The two things that were spoken of in all, be it as places."""
-    spoken = tuple(dict.fromkeys(item.referent for item in discourse.mentions))
+    """The two things that were spoken of in all, be it as places, but for what they cannot be."""
+    named = dict.fromkeys(item.referent for item in discourse.mentions)
+    spoken = tuple(index for index in named if index not in excluded)
     things = [option for i in spoken for option in discourse.referents[i].options]
     both = len(things) == len(spoken) == 2 and all(
         len(option) == 1 and can_be(option[0], role, discourse.scene) for option in things
     )
-    return spoken if both and not set(spoken) & set(excluded) else ()
+    return spoken if both else ()
 
 
 def emptied_by(discourse: Discourse, clause: int, role: Role) -> tuple[int, ...]:
