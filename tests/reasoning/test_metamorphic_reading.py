@@ -98,6 +98,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
     framed += r"which |when i |end with |as for |with |now |on the |if |unless |is |are |"
     framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |do not |"
     framed += r"\w+ (nothing|neither) |\w+ things, |"
+    framed += r"no \w+ may |somewhere |\w+ (can|may) be |"
     framed += r"(\w+ ){0,4}\w+: |right, |\w+, \w+\. |for each |whatever |how about |.*\benough\b)"
     if re.match(framed, text):
         return  # it has a frame of its own
