@@ -73,12 +73,12 @@ class CameraEyes:
         moved = self._furniture.look(scan, last.parts)
         carried = self._hand.carried(before, state)
         self._found = self._following.find_all(scan, {**before, **carried}, set(carried))
+        seen = {name: (pose, Mark.SEEN) for name, pose in self._found.items()}
         for name, pose in self._found.items():
-            known.put(name, pose)
-        seen = {
-            name: (pose, Mark.HELD if self._hand.grips(name, pose, state) else Mark.SEEN)
-            for name, pose in self._found.items()
-        }
+            if self._hand.grips(name, pose, state):
+                self._found[name] = self._hand.between_pads(name, pose, state)
+                seen[name] = self._found[name], Mark.HELD
+            known.put(name, self._found[name])
         if any(mark is Mark.HELD for _, mark in seen.values()):
             carried = {}  # what the hand holds is seen, and so it holds nothing else
         lost = {name for name, item in last.objects.items() if item.mark is Mark.LOST}
