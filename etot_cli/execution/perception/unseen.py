@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from etot_cli.execution.perception.fitting import outlined
@@ -32,6 +34,8 @@ ROOM, LIFTED = 0.003, 0.008
 SOMETHING = 60
 """Readings that hang together, belong to nothing, and are no farther than ``AT_HAND`` from where a
 missing object was or was let go, may be that object."""
+SEEN_INSIDE = 0.01
+"""What is in a container may be seen this far in its walls or floor [m]: two looks err by that."""
 SLIDE, TURN = 0.012, 0.15
 """First steps in which a rod is moved and turned to fit its outline [m, rad]."""
 LEANS = tuple(
@@ -57,20 +61,30 @@ def slid(known: KnownScene, surface: Surface, pose: Pose, scan: Scan) -> Pose:
     return outlined(surface, pose, scan.view, scan.depth, [along, turn])[0]
 
 
-def with_its_part(known: KnownScene, name: str, pose: Pose, moved: dict[str, Pose]) -> Pose:
-    """Where an unseen object is when the drawer that it lay in has moved."""
+def with_its_container(known: KnownScene, name: str, pose: Pose, moved: Mapping[str, Pose]) -> Pose:
+    """Where an object is when the drawer or the vessel that it was in has moved, the smallest of
+    those that it was in.
+
+    Args:
+        known: the scene, with the containers where they are now.
+        name: of the object.
+        pose: before they moved.
+        moved: how, by body.
+    """
     surface = known.surfaces.get(name)
     if surface is None:
         return pose
-    middle = pose.place(surface.middle[None])[0]
+    placed = pose.place(surface.points)
+    # What sticks out of a vessel is in it all the same, with its foot.
+    foot = placed[int(placed[:, 2].argmin())]
+    around: list[tuple[float, str]] = []
     for region in known.regions:
-        if region.body in moved:
-            now = known.body(region.body)
-            then = moved[region.body].inverse() @ now
-            local = then.local(middle[None])[0] - region.center
-            if (np.abs(local) <= np.array(region.half) + 0.01).all():
-                return moved[region.body] @ pose
-    return pose
+        if region.body in moved and region.body != known.world.entries[name].body:
+            then = moved[region.body].inverse() @ known.body(region.body)
+            local = then.local(foot[None])[0] - region.center
+            if (np.abs(local) <= np.array(region.half) + SEEN_INSIDE).all():
+                around.append((float(np.prod(region.half)), region.body))
+    return moved[min(around)[1]] @ pose if around else pose
 
 
 def out_of_sight(
