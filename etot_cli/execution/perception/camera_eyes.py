@@ -81,7 +81,7 @@ class CameraEyes:
         carried = self._hand.carried(before, state)
         moved.update(self._put(carried, before))
         expected = {name: with_its_container(known, name, before[name], moved) for name in before}
-        expected.update(carried)
+        expected.update({**self._hand.let_go(state), **carried})
         self._found = self._following.find_all(scan, expected, set(carried))
         seen = {name: (pose, Mark.SEEN) for name, pose in self._found.items()}
         for name, pose in self._found.items():

@@ -56,6 +56,13 @@ class HandContents:
             return {}
         return {nearest: tool @ then.inverse() @ before[nearest]}
 
+    def let_go(self, state: RobotState) -> dict[str, Pose]:
+        """Where what it held was when the fingers let go of it; empty while they hold it."""
+        if self.holding(state):
+            return {}
+        tool = self.where_it_let_go(state)
+        return {name: tool @ pose for name, pose in self.held.items()}
+
     def holding(self, state: RobotState) -> bool:
         """Whether the fingers may hold something: between closed and open, not opened since."""
         opening = self._known.world.robot.spec.gripper.opening

@@ -14,7 +14,7 @@ from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.world.index import Region
-from etot_cli.world.pose import Pose, rotation_between
+from etot_cli.world.pose import UP, Pose, rotation_between
 
 STILL_THERE = 0.7
 """An object that agrees with so much of what is visible of its last place is still there."""
@@ -25,8 +25,8 @@ GONE = 0.5
 HIDDEN = 0.6
 """Share of an object behind nearer things from which it may be there unseen."""
 BELOW = 0.02
-"""What was let go is in a container rather than on the desk when that is this near to the hand
-[m], seen from above."""
+"""What was let go is in a container rather than on what is below the hand when that container is
+this near to the hand [m], seen from above."""
 AT_HAND = 0.15
 """The hand that let something go into a container is this near to it [m], seen from above."""
 ROOM, LIFTED = 0.003, 0.008
@@ -96,15 +96,19 @@ def out_of_sight(
         known: the scene.
         name: of the object.
         before: its pose at the last look.
-        held: how it lay in the hand then, if it did: it was let go in a container, or on the desk
-            below the hand; what is nearest to the hand comes first.
+        held: how it lay in the hand then, if it did: it was let go in a container that is open, or
+            on what is below the hand; what is nearest to the hand comes first.
         tool: where the hand was when it let go.
         scan: what is seen.
     """
     surface = known.surfaces[name]
     options: list[tuple[float, Pose]] = []
     leaning: list[tuple[float, Pose]] = []
+    body = known.world.entries[name].body
+    narrow = float(np.ptp(surface.points, axis=0).min())
     for region in known.regions if held is not None else ():
+        if region.body == body or _covered(known, region, body, narrow):
+            continue
         pose = _in_region(known, region, surface, before)
         aside = float(np.linalg.norm((pose.position - tool.position)[:2]))
         if surface.long_axis is not None and region.opening[2] > 0.5 and aside < AT_HAND:
@@ -116,8 +120,11 @@ def out_of_sight(
         return max(leaning, key=lambda item: item[0])[1]
     if held is not None:
         let_go = tool @ held
-        lowest = float(let_go.place(surface.points)[:, 2].min())
-        drop = np.array([0.0, 0.0, lowest - known.scene.desk.top])
+        placed = let_go.place(surface.points)
+        lowest = float(placed[:, 2].min())
+        _, free = known.ahead(let_go.place(surface.middle[None])[0], -UP, body)
+        level = max(float(placed[:, 2].mean()) - free, known.scene.desk.top)
+        drop = np.array([0.0, 0.0, lowest - level])
         options.append((BELOW, Pose(let_go.position - drop, let_go.rotation)))
     for _, pose in sorted(options, key=lambda item: item[0]):
         if not contradicted(surface, pose, scan):
@@ -198,6 +205,21 @@ def _stands(pose: Pose, axis: Array, body: Pose, region: Region) -> bool:
         if not inside:
             return False
     return True
+
+
+def _covered(known: KnownScene, region: Region, body: str, narrow: float) -> bool:
+    """Whether a container is closed to a thing: a drawer in its chest, a vessel with a lid on.
+
+    Args:
+        known: the scene.
+        region: its inside.
+        body: of the thing.
+        narrow: its smallest extent [m].
+    """
+    stands, out = known.body(region.body), np.array(region.opening)
+    mouth = stands.place((np.array(region.center) + out * np.array(region.half))[None])[0]
+    owner, free = known.ahead(mouth, stands.rotation @ out, body)
+    return owner is not None and free < narrow
 
 
 def _in_region(known: KnownScene, region: Region, surface: Surface, before: Pose) -> Pose:
