@@ -208,7 +208,7 @@ class Loop:
         outcome = tried[-1].outcome
         record = RolloutRecord(
             before, believed.scene, outcome.effect, outcome.cause,
-            simulated_s=round(account.robot_s() - begin_s, 4),
+            simulated_s=round(account.robot_s() - begin_s, 4), watched=False,
         )  # fmt: skip
         verdict = self._judge(action, record)
         carried = Carried(

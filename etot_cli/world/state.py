@@ -245,3 +245,6 @@ class RolloutRecord:
     """Discs through which parts and displaced objects moved."""
     simulated_s: float = 0.0
     steps: int = 0
+    watched: bool = True
+    """Whether contacts and ways were recorded all along; a look before and one after tell of none,
+    so that no account of how things came about can be given."""

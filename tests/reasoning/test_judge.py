@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from etot_cli.reasoning.builtin import BuiltinReasoner
@@ -515,3 +517,20 @@ def test_what_is_wider_than_the_mouth_is_refused_for_that(
     assert verdict.cause is not None
     assert ("the mouth" in verdict.cause.text) == too_wide
     assert (verdict.cause.kind is CauseKind.NO_ROOM) == too_wide
+
+
+def test_two_looks_tell_no_story() -> None:
+    """What was not watched has no account of how it came about, only what is seen afterwards."""
+    start = scenes.apple_and_holder()
+    gone = changed(start, holder={"lost": True, "on": ()}, apple={"in_hand": True, "on": ()})
+    lifted = record(start, gone)
+    for watched, words in ((True, "fell off the desk"), (False, "is gone from the desk")):
+        verdict = judge("[PICK UP, apple]", replace(lifted, watched=watched))
+        assert verdict.cause is not None
+        assert verdict.cause.text.endswith(f"holder {words}")
+    before = held(start, "apple")
+    beside = record(before, released(before), effect=False)
+    for watched, words in ((True, "without touching it"), (False, "did not stay in holder")):
+        verdict = judge("[PUT INTO, holder]", replace(beside, watched=watched))
+        assert verdict.cause is not None
+        assert words in verdict.cause.text

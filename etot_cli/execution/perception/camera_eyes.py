@@ -7,6 +7,8 @@ lost. The arm is left out by where its joints are sensed to be; no OpenGL is nee
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import cv2
 import numpy as np
 from scipy.spatial import cKDTree
@@ -19,7 +21,12 @@ from etot_cli.execution.perception.hand import HandContents
 from etot_cli.execution.perception.scan import Scan, scan_of, view_of
 from etot_cli.execution.perception.support import shown
 from etot_cli.execution.perception.twin import KnownScene
-from etot_cli.execution.perception.unseen import contradicted, out_of_sight, slid, with_its_part
+from etot_cli.execution.perception.unseen import (
+    contradicted,
+    out_of_sight,
+    slid,
+    with_its_container,
+)
 from etot_cli.execution.protocols import Camera, Frame
 from etot_cli.reconstruction.capture.view import Mask
 from etot_cli.specs.scene import Scene
@@ -72,20 +79,24 @@ class CameraEyes:
         }
         moved = self._furniture.look(scan, last.parts)
         carried = self._hand.carried(before, state)
-        self._found = self._following.find_all(scan, {**before, **carried}, set(carried))
+        moved.update(self._put(carried, before))
+        expected = {name: with_its_container(known, name, before[name], moved) for name in before}
+        expected.update({**self._hand.let_go(state), **carried})
+        self._found = self._following.find_all(scan, expected, set(carried))
+        seen = {name: (pose, Mark.SEEN) for name, pose in self._found.items()}
         for name, pose in self._found.items():
-            known.put(name, pose)
-        seen = {
-            name: (pose, Mark.HELD if self._hand.grips(name, pose, state) else Mark.SEEN)
-            for name, pose in self._found.items()
-        }
+            if self._hand.grips(name, pose, state):
+                self._found[name] = self._hand.between_pads(name, pose, state)
+                seen[name] = self._found[name], Mark.HELD
+        moved.update(self._put(self._found, before))
         if any(mark is Mark.HELD for _, mark in seen.values()):
             carried = {}  # what the hand holds is seen, and so it holds nothing else
         lost = {name for name, item in last.objects.items() if item.mark is Mark.LOST}
-        for name in known.free:
+        for name in self._containers_first():
             if name not in seen:
-                there = with_its_part(known, name, before[name], moved)
+                there = with_its_container(known, name, before[name], moved)
                 seen[name] = self._unseen(name, there, carried.get(name), name in lost, scan, state)
+                moved.update(self._put({name: seen[name][0]}, before))
         held = {name: pose for name, (pose, mark) in seen.items() if mark is Mark.HELD}
         self._hand.remember(held, state)
         objects = {name: _sighting(*seen[name]) for name in known.free}
@@ -93,6 +104,21 @@ class CameraEyes:
             mark = Mark.SEEN if standing.seen else Mark.HIDDEN
             objects[name] = _sighting(standing.pose, mark)
         return Observation(state, objects, dict(self._furniture.values))
+
+    def _put(self, poses: Mapping[str, Pose], before: Mapping[str, Pose]) -> dict[str, Pose]:
+        """Puts objects where they are taken to be; how each one's body has moved to there."""
+        for name, pose in poses.items():
+            self._known.put(name, pose)
+        entries = self._known.world.entries
+        return {entries[name].body: pose @ before[name].inverse() for name, pose in poses.items()}
+
+    def _containers_first(self) -> list[str]:
+        """Free objects, the larger before the smaller ones, which may be in them."""
+        surfaces = self._known.surfaces
+        return sorted(
+            self._known.free,
+            key=lambda name: -surfaces[name].radius if name in surfaces else 0.0,
+        )
 
     def picture_of(self, name: str) -> tuple[Frame, Mask] | None:
         """The last picture and an object's pixels (h, w) in it; None where it was not seen."""
@@ -129,7 +155,7 @@ class CameraEyes:
 
         Args:
             name: of the object.
-            before: where it was, or was brought by the drawer that it lies in.
+            before: where it was, or was brought by the container that it is in.
             carried: where the hand has brought it, if it may hold it.
             lost: whether it was lost already.
             scan: the picture.

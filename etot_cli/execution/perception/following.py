@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Set
 
 import numpy as np
+from numpy.typing import NDArray
 
 from etot_cli.execution.perception.coloring import by_color
 from etot_cli.execution.perception.fitting import Freedom, improved, outlined
@@ -95,11 +96,35 @@ class Following:
                 if thin:
                     outlines.add(name)
         fits.sort(key=lambda item: -item[0])
-        return {
-            name: pose
-            for _, name, pose in fits
-            if self._explains(scan, name, pose) or name in outlines
-        }
+        found: dict[str, Pose] = {}
+        taken: dict[str, NDArray[np.bool_]] = {}
+        for _, name, pose in fits:
+            fresh = scan.unexplained.copy()
+            if self._explains(scan, name, pose) or name in outlines:
+                found[name] = pose
+                taken[name] = fresh & ~scan.unexplained
+        for name in [name for name in found if name not in outlines]:
+            if self._is_another(scan, name, found, taken[name]):
+                del found[name]
+        return found
+
+    def _is_another(
+        self, scan: Scan, name: str, found: dict[str, Pose], taken: NDArray[np.bool_]
+    ) -> bool:
+        """Whether most of what speaks for a thing lies nearer to another one's surface: what is
+        taken for a ball is the wall of the mug that it is in.
+        """
+        points = scan.points[taken]
+
+        def off(other: str) -> Array:
+            apart, _ = self._known.surfaces[other].tree.query(
+                found[other].local(points), distance_upper_bound=NEAR
+            )
+            return np.asarray(apart)
+
+        own = off(name)
+        nearer = [off(other) < own for other in found if other != name]
+        return bool(nearer) and float(np.any(nearer, axis=0).mean()) > 0.5
 
     def _followed(
         self, surface: Surface, pose: Pose, scan: Scan, readings: Array

@@ -16,6 +16,8 @@ AT_PADS = 0.014
 """What is in the hand has surface this near to both pads [m]: perception errs by less."""
 CLOSED_ON = 0.025
 """What the fingers closed on was last seen this near to both pads [m]; it may have been pushed."""
+SHIFT = 0.001
+"""Steps in which it is brought between them [m]: less than its seen surface is known by."""
 LET_GO = 0.004
 """Fingers that have opened by more since they held something hold it no longer [m]."""
 
@@ -54,6 +56,13 @@ class HandContents:
             return {}
         return {nearest: tool @ then.inverse() @ before[nearest]}
 
+    def let_go(self, state: RobotState) -> dict[str, Pose]:
+        """Where what it held was when the fingers let go of it; empty while they hold it."""
+        if self.holding(state):
+            return {}
+        tool = self.where_it_let_go(state)
+        return {name: tool @ pose for name, pose in self.held.items()}
+
     def holding(self, state: RobotState) -> bool:
         """Whether the fingers may hold something: between closed and open, not opened since."""
         opening = self._known.world.robot.spec.gripper.opening
@@ -66,6 +75,19 @@ class HandContents:
         """Whether an object is between the pads and as wide as they are apart."""
         tool = self._known.tool()
         return self.holding(state) and self._far(name, pose, tool, state.opening) < AT_PADS
+
+    def between_pads(self, name: str, pose: Pose, state: RobotState) -> Pose:
+        """What is held, moved along the way that the fingers close to where both touch it: a
+        picture of a thing between fingers does not tell it from them.
+        """
+        tool = self._known.tool()
+        across = tool.rotation[:, 1]
+        shifts = SHIFT * np.arange(-round(AT_PADS / SHIFT), round(AT_PADS / SHIFT) + 1)
+        tried = [Pose(pose.position + shift * across, pose.rotation) for shift in shifts]
+        far = np.array([self._far(name, one, tool, state.opening) for one in tried])
+        # Between the steps, and between the points of its surface: the middle of the best ones.
+        best = float(shifts[far < far.min() + SHIFT].mean())
+        return Pose(pose.position + best * across, pose.rotation)
 
     def remember(self, held: Mapping[str, Pose], state: RobotState) -> None:
         """Takes note of what is held now, by its pose in the base frame."""

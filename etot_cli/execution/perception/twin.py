@@ -16,6 +16,8 @@ from etot_cli.world.placing import world_at_start
 from etot_cli.world.pose import Pose
 from etot_cli.world.rest import settle_objects
 
+PAST = 1e-4
+"""A ray goes on this far behind a surface that it passes [m], so that it does not meet it again."""
 SETTLE_S = 0.8
 """Simulated time for a new scene to come to rest [s]."""
 
@@ -130,6 +132,31 @@ class KnownScene:
         self._other.qpos[self.world.robot.qpos] = joints
         mujoco.mj_kinematics(self.world.model, self._other)
         return self._tool_in(self._other)
+
+    def ahead(self, point: Array, direction: Array, without: str) -> tuple[str | None, float]:
+        """What is next on a ray, the robot aside.
+
+        Args:
+            point: where the ray begins (3,), base frame [m].
+            direction: unit vector (3,).
+            without: a body that it passes through.
+
+        Returns:
+            Its owner and how far it is [m]; (None, inf) where nothing is.
+        """
+        mujoco.mj_kinematics(self.world.model, self.data)
+        geom, passed = np.array([-1], dtype=np.int32), 0.0
+        body = self.world.model.body(without).id
+        while True:
+            start = point + passed * direction
+            far = mujoco.mj_ray(self.world.model, self.data, start, direction, None, 1, body, geom)
+            if far < 0:
+                return None, np.inf
+            passed += far
+            owner = self.world.geom_object[int(geom[0])]
+            if owner not in ("robot", "gripper"):
+                return owner, passed
+            passed += PAST
 
     def _tool_in(self, data: mujoco.MjData) -> Pose:
         site = self.world.robot.tool_site

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from etot_cli.execution.perception.fitting import outlined
@@ -12,7 +14,7 @@ from etot_cli.execution.perception.surfaces import Surface
 from etot_cli.execution.perception.twin import KnownScene
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.world.index import Region
-from etot_cli.world.pose import Pose, rotation_between
+from etot_cli.world.pose import UP, Pose, rotation_between
 
 STILL_THERE = 0.7
 """An object that agrees with so much of what is visible of its last place is still there."""
@@ -23,8 +25,8 @@ GONE = 0.5
 HIDDEN = 0.6
 """Share of an object behind nearer things from which it may be there unseen."""
 BELOW = 0.02
-"""What was let go is in a container rather than on the desk when that is this near to the hand
-[m], seen from above."""
+"""What was let go is in a container rather than on what is below the hand when that container is
+this near to the hand [m], seen from above."""
 AT_HAND = 0.15
 """The hand that let something go into a container is this near to it [m], seen from above."""
 ROOM, LIFTED = 0.003, 0.008
@@ -32,6 +34,8 @@ ROOM, LIFTED = 0.003, 0.008
 SOMETHING = 60
 """Readings that hang together, belong to nothing, and are no farther than ``AT_HAND`` from where a
 missing object was or was let go, may be that object."""
+SEEN_INSIDE = 0.01
+"""What is in a container may be seen this far in its walls or floor [m]: two looks err by that."""
 SLIDE, TURN = 0.012, 0.15
 """First steps in which a rod is moved and turned to fit its outline [m, rad]."""
 LEANS = tuple(
@@ -57,20 +61,30 @@ def slid(known: KnownScene, surface: Surface, pose: Pose, scan: Scan) -> Pose:
     return outlined(surface, pose, scan.view, scan.depth, [along, turn])[0]
 
 
-def with_its_part(known: KnownScene, name: str, pose: Pose, moved: dict[str, Pose]) -> Pose:
-    """Where an unseen object is when the drawer that it lay in has moved."""
+def with_its_container(known: KnownScene, name: str, pose: Pose, moved: Mapping[str, Pose]) -> Pose:
+    """Where an object is when the drawer or the vessel that it was in has moved, the smallest of
+    those that it was in.
+
+    Args:
+        known: the scene, with the containers where they are now.
+        name: of the object.
+        pose: before they moved.
+        moved: how, by body.
+    """
     surface = known.surfaces.get(name)
     if surface is None:
         return pose
-    middle = pose.place(surface.middle[None])[0]
+    placed = pose.place(surface.points)
+    # What sticks out of a vessel is in it all the same, with its foot.
+    foot = placed[int(placed[:, 2].argmin())]
+    around: list[tuple[float, str]] = []
     for region in known.regions:
-        if region.body in moved:
-            now = known.body(region.body)
-            then = moved[region.body].inverse() @ now
-            local = then.local(middle[None])[0] - region.center
-            if (np.abs(local) <= np.array(region.half) + 0.01).all():
-                return moved[region.body] @ pose
-    return pose
+        if region.body in moved and region.body != known.world.entries[name].body:
+            then = moved[region.body].inverse() @ known.body(region.body)
+            local = then.local(foot[None])[0] - region.center
+            if (np.abs(local) <= np.array(region.half) + SEEN_INSIDE).all():
+                around.append((float(np.prod(region.half)), region.body))
+    return moved[min(around)[1]] @ pose if around else pose
 
 
 def out_of_sight(
@@ -82,15 +96,19 @@ def out_of_sight(
         known: the scene.
         name: of the object.
         before: its pose at the last look.
-        held: how it lay in the hand then, if it did: it was let go in a container, or on the desk
-            below the hand; what is nearest to the hand comes first.
+        held: how it lay in the hand then, if it did: it was let go in a container that is open, or
+            on what is below the hand; what is nearest to the hand comes first.
         tool: where the hand was when it let go.
         scan: what is seen.
     """
     surface = known.surfaces[name]
     options: list[tuple[float, Pose]] = []
     leaning: list[tuple[float, Pose]] = []
+    body = known.world.entries[name].body
+    narrow = float(np.ptp(surface.points, axis=0).min())
     for region in known.regions if held is not None else ():
+        if region.body == body or _covered(known, region, body, narrow):
+            continue
         pose = _in_region(known, region, surface, before)
         aside = float(np.linalg.norm((pose.position - tool.position)[:2]))
         if surface.long_axis is not None and region.opening[2] > 0.5 and aside < AT_HAND:
@@ -102,8 +120,11 @@ def out_of_sight(
         return max(leaning, key=lambda item: item[0])[1]
     if held is not None:
         let_go = tool @ held
-        lowest = float(let_go.place(surface.points)[:, 2].min())
-        drop = np.array([0.0, 0.0, lowest - known.scene.desk.top])
+        placed = let_go.place(surface.points)
+        lowest = float(placed[:, 2].min())
+        _, free = known.ahead(let_go.place(surface.middle[None])[0], -UP, body)
+        level = max(float(placed[:, 2].mean()) - free, known.scene.desk.top)
+        drop = np.array([0.0, 0.0, lowest - level])
         options.append((BELOW, Pose(let_go.position - drop, let_go.rotation)))
     for _, pose in sorted(options, key=lambda item: item[0]):
         if not contradicted(surface, pose, scan):
@@ -184,6 +205,21 @@ def _stands(pose: Pose, axis: Array, body: Pose, region: Region) -> bool:
         if not inside:
             return False
     return True
+
+
+def _covered(known: KnownScene, region: Region, body: str, narrow: float) -> bool:
+    """Whether a container is closed to a thing: a drawer in its chest, a vessel with a lid on.
+
+    Args:
+        known: the scene.
+        region: its inside.
+        body: of the thing.
+        narrow: its smallest extent [m].
+    """
+    stands, out = known.body(region.body), np.array(region.opening)
+    mouth = stands.place((np.array(region.center) + out * np.array(region.half))[None])[0]
+    owner, free = known.ahead(mouth, stands.rotation @ out, body)
+    return owner is not None and free < narrow
 
 
 def _in_region(known: KnownScene, region: Region, surface: Surface, before: Pose) -> Pose:

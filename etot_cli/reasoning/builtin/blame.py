@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from etot_cli.reasoning.builtin.effects import acted_object, effect_holds
-from etot_cli.reasoning.builtin.harm import Harm, HarmKind
+from etot_cli.reasoning.builtin.harm import LOST_WORDS, Harm, HarmKind
 from etot_cli.reasoning.builtin.relations import container_address, contents, is_on
 from etot_cli.skills.action import PUTS, Action, Verb
 from etot_cli.world.spatial import Nearby
@@ -103,11 +103,12 @@ def _not_put(action: Action, record: RolloutRecord, held: str, harmed: Sequence[
         text = f"{held} struck {_listed(struck)} and did not come to rest {joint} {target}"
         return Cause(CauseKind.COLLISION, (*struck, held), text, _first_touch(record, struck[0]))
     if record.after.states[held].lost:
-        return Cause(CauseKind.LOST, (held,), f"{held} fell off the desk")
+        return Cause(CauseKind.LOST, (held,), f"{held} {LOST_WORDS[record.watched]}")
     blamed = (owner, held) if owner in record.before.infos else (held,)
     if action.verb is Verb.PUT_INTO and (why := _too_wide(held, owner, record)):
         return Cause(CauseKind.NO_ROOM, blamed, f"{held} does not go into {target}: {why}")
-    if target != DESK and owner not in _struck_by({held}, record, excluding=set()):
+    untouched = owner not in _struck_by({held}, record, excluding=set())
+    if target != DESK and untouched and record.watched:
         text = f"{held} came down beside {target} without touching it"
         return Cause(CauseKind.NO_EFFECT, blamed, text)
     if action.verb is Verb.PUT_INTO and is_on(record.after, held, owner):

@@ -28,6 +28,8 @@ PART_MOVED = 0.25
 """A part moved by more than this share of its travel, unasked, has been disturbed."""
 AJAR = 2 * CLOSED_AT
 """... and one that was closed by more than this: it is closed no longer, and perhaps is to be."""
+LOST_WORDS = {True: "fell off the desk", False: "is gone from the desk"}
+"""What is said of what was lost, by whether it was watched."""
 
 
 class HarmKind(IntEnum):
@@ -72,6 +74,8 @@ class Harm:
     kind: HarmKind
     distance: float
     left: str | None = None
+    watched: bool = True
+    """Whether how it came about was recorded."""
 
     def words(self) -> str:
         """What happened, as a clause with the object as its subject."""
@@ -80,7 +84,7 @@ class Harm:
             f"came out of {self.left}" if self.left else f"was knocked from its place ({far})"
         )
         return {
-            HarmKind.LOST: f"{self.name} fell off the desk",
+            HarmKind.LOST: f"{self.name} {LOST_WORDS[self.watched]}",
             HarmKind.STRANDED: f"{self.name} ended up out of the arm's reach",
             HarmKind.TOPPLED: f"{self.name} toppled",
             HarmKind.DISLODGED: f"{self.name} {dislodged}",
@@ -98,7 +102,8 @@ def harms(action: Action, record: RolloutRecord) -> tuple[Harm, ...]:
         kind = _harm(name, action, record)
         if kind is not None:
             left = record.before.states[name].inside if _has_come_out(name, record) else None
-            found.append(Harm(name, kind, displacement(name, record), left))
+            far = displacement(name, record)
+            found.append(Harm(name, kind, far, left, record.watched))
     return tuple(sorted(found, key=lambda harm: (harm.kind, -harm.distance)))
 
 
