@@ -182,9 +182,8 @@ def _shapes(
     seen: Calibrated, segments: list[Segment], options: Options
 ) -> tuple[list[Solid], list[str]]:
     """Solids, and the names of segments that show too little."""
-    rng = np.random.default_rng(options.seed)
     hints = {s.name: hint for s in segments if s.named and (hint := hint_of(s.name))}
-    solids = fit_all(seen, segments, rng=rng, hints=hints)
+    solids = fit_all(seen, segments, seed=options.seed, hints=hints)
     lost = {segment.name for segment in segments} - {solid.name for solid in solids}
     whole, solids = solids, look_again(seen, segments, solids, hints, seed=options.seed)
     if solids is not whole:

@@ -74,8 +74,12 @@ class Observation:
         low, high = np.percentile(self.points, [2, 98], axis=0)
         return float(np.linalg.norm(high - low))
 
-    def thinned(self, edges: int, points: int, rng: np.random.Generator) -> Observation:
-        """With at most so many edge points and surface points."""
+    def thinned(self, edges: int, points: int, seed: int) -> Observation:
+        """With at most so many edge points and surface points.
+
+        Which ones depends on the seed and on what is seen of this object alone.
+        """
+        rng = np.random.default_rng(seed)
         return replace(
             self,
             edges=_sample(self.edges, edges, rng),
