@@ -41,17 +41,16 @@ def test_rods_are_told_apart_by_their_ends_whatever_their_name(family, values, h
     assert best.params[4] == pytest.approx(truth[4], rel=0.02)
 
 
-@pytest.mark.parametrize("hint", ["drawer_unit", None])
-@pytest.mark.parametrize("opened", [0.03, 0.05])
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_an_open_drawer_seen_from_behind_is_no_deeper_chest(hint, opened, seed) -> None:
+@pytest.mark.parametrize(("hint", "opened"), [("drawer_unit", 0.03), (None, 0.05)])
+def test_an_open_drawer_seen_from_behind_is_no_deeper_chest(hint, opened) -> None:
     """Hardly more than a gap of it is seen, which a block as long as both explains but for that."""
     truth = np.array([0.48, 0.10, DESK, np.pi, 0.22, 0.20, 0.16, opened])
     observation, evidence = observed(*trace(OpenUnit(), truth))
-    best = best_fit(tiers(hint), observation, evidence, seed)[0]
-    assert isinstance(best.family, OpenUnit)
-    assert best.params[4] == pytest.approx(0.22, abs=0.003)
-    assert best.params[7] == pytest.approx(opened, abs=0.004)
+    for seed in range(2):
+        best = best_fit(tiers(hint), observation, evidence, seed)[0]
+        assert isinstance(best.family, OpenUnit)
+        assert best.params[4] == pytest.approx(0.22, abs=0.003)
+        assert best.params[7] == pytest.approx(opened, abs=0.004)
 
 
 @pytest.mark.slow
