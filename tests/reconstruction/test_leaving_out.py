@@ -117,6 +117,7 @@ def test_an_unknown_name_is_an_error_with_the_nearest() -> None:
         ("--workspace=0.5,0.2,0,1", "expected X0 < X1 and Y0 < Y1"),
         ("--workspace=200,700,-300,300", "expected metres, none beyond ±5"),
         ("--ignore=mugg", "nothing has this name; expected mug"),
+        ("--material=mugg=wood", "--material 'mugg': nothing has this name; expected mug"),
     ],
 )
 def test_bad_values_are_one_error(
