@@ -273,7 +273,9 @@ def best_fit(
                 # An involved shape must explain much that a simple one leaves open.
                 if plain is None or best_option.misfit < INVOLVED * plain.misfit:
                     fits.append(best_option)
-    if not fits:
-        return []
-    best = best_of(fits)
-    return [best, *sorted((fit for fit in fits if fit is not best), key=lambda fit: fit.score)]
+    ordered: list[Fit] = []
+    while fits:
+        best = best_of(fits)
+        ordered.append(best)
+        fits = [fit for fit in fits if fit is not best]
+    return ordered
