@@ -31,14 +31,14 @@ def _pairs(items: list[str] | None, flag: str) -> dict[str, str]:
     return found
 
 
-def _numbers(text: str, flag: str, names: str, optional: int = 0) -> tuple[float, ...]:
-    """Numbers that a flag takes, separated by commas; ``optional``: so many may be missing."""
+def _numbers(text: str, flag: str, names: str) -> tuple[float, ...]:
+    """Numbers that a flag takes, commas between; those after a ``[`` may be missing."""
     try:
         found = tuple(float(part) for part in text.split(","))
     except ValueError:
         found = ()
     most = names.count(",") + 1
-    if not most - optional <= len(found) <= most or not all(map(math.isfinite, found)):
+    if not most - names.count("[") <= len(found) <= most or not all(map(math.isfinite, found)):
         raise typer.BadParameter(f"{flag} {text!r}: expected {names}, numbers with commas between")
     return found
 
@@ -57,7 +57,7 @@ def _metres(found: tuple[float, ...], what: str) -> tuple[float, ...]:
 
 
 def _standpoint(text: str) -> tuple[float, ...]:
-    x, y, yaw, *top = _numbers(text, "--camera-at", "X,Y,YAW,TOP", optional=1)
+    x, y, yaw, *top = _numbers(text, "--camera-at", "X,Y,YAW[,TOP]")
     return (*_metres((x, y), f"--camera-at {text!r}"), yaw, *_height(top, f"--camera-at {text!r}"))
 
 
@@ -151,7 +151,8 @@ def reconstruct(
 ) -> int:
     """Turn one RGB-D frame into a scene that etot plan uses.
 
-    Exit code 0: the twin is whole; 1: it is usable in part, see its warnings; 2: the capture is
+    Exit code 0: the twin is whole; 1: it is usable in part, or the
+    instruction is not understood, see the warnings; 2: the capture is
     unusable; 3: a server is not there; 130: interrupted.
     """
     area = None if workspace is None else _workspace(workspace)
@@ -195,20 +196,22 @@ def reconstruct(
     if json:
         print_json(report)
     else:
-        _show(report, folder, quiet=quiet, verbose=verbose)
+        _show(report, folder, reconstruction.problem, quiet=quiet, verbose=verbose)
     if report.interrupted:
         return INTERRUPTED
     return OK if report.status == "success" else NO
 
 
-def _show(report: object, folder: Path, *, quiet: bool, verbose: bool) -> None:
+def _show(report: object, folder: Path, problem: str, *, quiet: bool, verbose: bool) -> None:
+    """``problem``: why the task's instruction is not understood, or nothing."""
     from etot_cli.reporting.reconstruct_report import ReconstructReport
     from etot_cli.reporting.style import counted
     from etot_cli.specs.reading import visible
 
     assert isinstance(report, ReconstructReport)  # imported late: --help stays quick
     found = counted(len(report.objects), "object")
-    print(f"{report.status}: {found}, {folder / (report.scene or '')}")
+    why = f"; not understood: {visible(problem.splitlines()[0])}" if quiet and problem else ""
+    print(f"{report.status}: {found}, {folder / (report.scene or '')}{why}")
     if quiet:
         return
     for item in report.objects:
@@ -222,5 +225,5 @@ def _show(report: object, folder: Path, *, quiet: bool, verbose: bool) -> None:
         print(f"  note: {visible(warning)}")
     if "page" in report.files:
         print(f"  page: {folder / report.files['page']}")
-    if report.task:
+    if report.task and not problem:
         print(f"  etot plan {folder / report.task}")

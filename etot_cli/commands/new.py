@@ -13,10 +13,10 @@ from typing import Any
 
 import yaml
 
+from etot_cli.commands.ideas import ideas
 from etot_cli.errors import EtotError, SpecError
 from etot_cli.reasoning.builtin.demands import demands
 from etot_cli.reasoning.language.instructions import goal_of
-from etot_cli.reasoning.protocol import Assignment
 from etot_cli.reporting.files import write_atomically
 from etot_cli.reporting.page.topview import top_view
 from etot_cli.specs.document import read_document
@@ -205,18 +205,7 @@ def _text(instruction: str, scene: dict[str, Any], success: Sequence[dict[str, A
 
 def _look(file: Path) -> NewTask:
     """Reads the file back, settles its scene, draws it, and asks how it is understood."""
-    from etot_cli.control.simulated_world import SimulatedWorld
-    from etot_cli.reasoning.builtin import BuiltinReasoner
-
-    task = load_task(file)
-    _, state = SimulatedWorld(task.scene).start()
+    found = ideas(load_task(file))
     drawing = file.with_suffix(".svg")
-    write_atomically(drawing, top_view(state).decode())
-    plans: tuple[str, ...] = ()
-    problem = ""
-    try:
-        branches = BuiltinReasoner().propose(Assignment(task.instruction, task.goal), state)
-        plans = tuple(" ".join(map(str, branch.actions)) for branch in branches)
-    except EtotError as error:
-        problem = str(error)
-    return NewTask(file, drawing, state, plans, problem)
+    write_atomically(drawing, top_view(found.state).decode())
+    return NewTask(file, drawing, found.state, found.plans, found.problem)

@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 import yaml
 
+from etot_cli.commands.ideas import ideas
 from etot_cli.errors import EtotError, SpecError, WorldError
 from etot_cli.reconstruction.capture.board import Board, find_camera, read_board
 from etot_cli.reconstruction.capture.standpoint import CameraAt
@@ -34,7 +35,7 @@ from etot_cli.reporting.reconstruct_report import (
     ReconstructedObjectModel,
     ReconstructReport,
 )
-from etot_cli.specs.load import load_scene
+from etot_cli.specs.load import load_scene, load_task
 from etot_cli.specs.reading import printable
 from etot_cli.world.build.pieces import convex_pieces
 from etot_cli.world.state import ROUND_KINDS, triple
@@ -46,10 +47,14 @@ SCENE, TASK, OVERLAY, MJCF, MESHES = "scene.yaml", "task.yaml", "overlay.png", "
 
 @dataclass(frozen=True, slots=True)
 class Reconstruction:
-    """A report, and what its page needs besides it; ``twin`` is None when interrupted early."""
+    """A report, and what its page needs besides it; ``twin`` is None when interrupted early.
+
+    ``problem``: why the instruction of the task is not understood; empty when it is.
+    """
 
     report: ReconstructReport
     twin: Twin | None
+    problem: str = ""
 
 
 def reconstruct_capture(
@@ -69,6 +74,7 @@ def reconstruct_capture(
     files: dict[str, str] = {}
     pieces: list[PiecesModel] = []
     interrupted = False
+    problem = ""
     try:
         if board is not None:
             with watch.phase("calibrate"):
@@ -80,12 +86,17 @@ def reconstruct_capture(
                 folder.mkdir(parents=True, exist_ok=True)
                 written, pieces = _write(twin, options, folder)
                 files |= written
+                if "task" in files and twin.settled:
+                    problem = ideas(load_task(folder / TASK)).problem
             except OSError as error:
                 raise EtotError(f"cannot write to {folder}: {error.strerror or error}") from error
+        if problem and twin is not None:
+            twin.warnings.append(f"the instruction is not understood: {problem}")
+            twin.whole = False
     except KeyboardInterrupt:
         interrupted = True
     report = _report(options, twin, files, pieces, watch, interrupted=interrupted)
-    return Reconstruction(report, twin)
+    return Reconstruction(report, twin, problem)
 
 
 def _with_board(options: Options, board: Board, folder: Path) -> tuple[Options, dict[str, str]]:

@@ -23,24 +23,27 @@ BOARD_HEIGHT = 0.03
 """A calibration board on its plate is no thicker than this [m]."""
 
 
-def checked_names(ignore: Collection[str], known: Collection[str], file: str) -> set[str]:
-    """The names to be ignored, as objects are called.
+def checked_names(
+    asked: Collection[str], known: Collection[str], file: str, flag: str = "--ignore"
+) -> set[str]:
+    """The names that an option tells, as objects are called.
 
     Args:
-        ignore: names as the user wrote them.
+        asked: names as the user wrote them.
         known: all names that there are.
         file: what shows them, for messages.
+        flag: the option.
 
     Raises:
         SpecError: nothing has one of the names.
     """
-    names = {safe_name(name): name for name in ignore}
+    names = {safe_name(name): name for name in asked}
     for name, written in names.items():
         if name not in known:
             near = get_close_matches(name, known) or sorted(known)
             raise SpecError(
-                f"--ignore {written!r}: nothing has this name; expected "
-                f"{', '.join(near) or 'no --ignore: nothing is found'}",
+                f"{flag} {written!r}: nothing has this name; expected "
+                f"{', '.join(near) or 'no {flag}: nothing is found'}",
                 file=file,
             )
     return set(names)

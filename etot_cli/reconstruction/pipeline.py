@@ -91,8 +91,11 @@ def reconstruct(options: Options) -> Twin:
     before = [solid.name for solid in solids]
     solids = _named(seen, solids, options.instruction)
     called = dict(zip(before, (solid.name for solid in solids), strict=True))
+    names = {solid.name for solid in solids}
+    # What is seen too little of, out of reach or ignored has a name, too.
+    there = {*names, *(segment.name for segment in segments), *map(safe_name, options.ignore)}
+    checked_names(options.materials, there, str(options.capture), "--material")
     if not segments[0].named:
-        names = {solid.name for solid in solids}
         solids, notes = without_ignored(
             solids, checked_names(options.ignore, names, str(options.capture))
         )
@@ -101,7 +104,8 @@ def reconstruct(options: Options) -> Twin:
             raise SpecError("all that is found is ignored", file=str(options.capture))
     clock.lap("articulation")
     title = safe_title(options.capture)
-    document = assembly.scene_document(title, seen, solids, options.materials)
+    materials = {safe_name(name): what for name, what in options.materials.items()}
+    document = assembly.scene_document(title, seen, solids, materials)
     solids, document, impossible = assembly.what_a_scene_may_have(solids, document)
     warnings += impossible
     joints = [
@@ -182,9 +186,8 @@ def _shapes(
     seen: Calibrated, segments: list[Segment], options: Options
 ) -> tuple[list[Solid], list[str]]:
     """Solids, and the names of segments that show too little."""
-    rng = np.random.default_rng(options.seed)
     hints = {s.name: hint for s in segments if s.named and (hint := hint_of(s.name))}
-    solids = fit_all(seen, segments, rng=rng, hints=hints)
+    solids = fit_all(seen, segments, seed=options.seed, hints=hints)
     lost = {segment.name for segment in segments} - {solid.name for solid in solids}
     whole, solids = solids, look_again(seen, segments, solids, hints, seed=options.seed)
     if solids is not whole:

@@ -18,7 +18,7 @@ from tests.reconstruction.traced import DESK, observed, seen_as, trace
 
 def fitted(families, observation, evidence):
     """The best shape, fitted to all that is seen of it."""
-    best = best_fit(families, observation, evidence, np.random.default_rng(0))[0]
+    best = best_fit(families, observation, evidence, 0)[0]
     params = fit_shape(best.family, observation, best.params)
     return judge(best.family, observation, params)
 
@@ -41,6 +41,18 @@ def test_rods_are_told_apart_by_their_ends_whatever_their_name(family, values, h
     assert best.params[4] == pytest.approx(truth[4], rel=0.02)
 
 
+@pytest.mark.parametrize(("hint", "opened"), [("drawer_unit", 0.03), (None, 0.05)])
+def test_an_open_drawer_seen_from_behind_is_no_deeper_chest(hint, opened) -> None:
+    """Hardly more than a gap of it is seen, which a block as long as both explains but for that."""
+    truth = np.array([0.48, 0.10, DESK, np.pi, 0.22, 0.20, 0.16, opened])
+    observation, evidence = observed(*trace(OpenUnit(), truth))
+    for seed in range(2):
+        best = best_fit(tiers(hint), observation, evidence, seed)[0]
+        assert isinstance(best.family, OpenUnit)
+        assert best.params[4] == pytest.approx(0.22, abs=0.003)
+        assert best.params[7] == pytest.approx(opened, abs=0.004)
+
+
 @pytest.mark.slow
 def test_a_thin_cup_gets_out_of_a_local_minimum() -> None:
     """Readings inside the far wall must not be taken for its outside."""
@@ -50,9 +62,20 @@ def test_a_thin_cup_gets_out_of_a_local_minimum() -> None:
     observation, _ = observed(mask, depth)
     away = truth + np.array([0.003, 0, 0, 0, 0.001, -0.0005, 0.001, 0])
     start = judge(family, observation, away)
-    fit, _, _ = refine(seen_as(depth), observation, [start], np.random.default_rng(0))
+    fit, _, _ = refine(seen_as(depth), observation, [start], 0)
     assert np.linalg.norm(family.center(fit.params) - family.center(truth)) < 0.0005
     assert fit.params[3:5] == pytest.approx(truth[3:5], rel=0.01)
+
+
+def test_which_points_are_drawn_depends_on_what_is_seen_of_the_thing_alone() -> None:
+    """An unrelated thing that is fitted before it must not change the fit."""
+    observation, _ = observed(*trace(Block(), np.array([0.42, 0.03, DESK, 0.4, 0.06, 0.06, 0.08])))
+    first = observation.thinned(50, 50, 3)
+    observation.thinned(20, 20, 3)
+    again = observation.thinned(50, 50, 3)
+    assert np.array_equal(first.pixels, again.pixels)
+    assert np.array_equal(first.points, again.points)
+    assert not np.array_equal(first.points, observation.thinned(50, 50, 4).points)
 
 
 def test_a_strip_of_something_behind_is_not_the_objects() -> None:

@@ -45,7 +45,7 @@ def test_what_no_simple_kind_is_gets_its_height_and_a_mark(tmp_path: Path) -> No
     segments = [
         Segment("bottle", masks["body"] | masks["cap"]), Segment("crate", masks["crate"]),
     ]  # fmt: skip
-    solids = fit_all(seen, segments, rng=np.random.default_rng(0), hints={})
+    solids = fit_all(seen, segments, seed=0, hints={})
     bottle, crate = (
         complete(seen, solid, [other.mask for other in segments if other.name != solid.name])
         for solid in sorted(solids, key=lambda solid: solid.name)
@@ -65,6 +65,6 @@ def test_how_high_a_thing_is_shows_where_the_one_on_it_begins(tmp_path: Path) ->
     write_capture(render(scene(objects, CAMERA)), tmp_path)
     seen = calibrate(read_capture(tmp_path))
     segments = [Segment(name, mask) for name, mask in seen.capture.masks.items()]
-    solids = fit_all(seen, segments, rng=np.random.default_rng(0), hints={})
+    solids = fit_all(seen, segments, seed=0, hints={})
     heights = {solid.name: solid.size[2] for solid in solids}
     assert heights == pytest.approx({"can": 0.07, "box": 0.03}, abs=0.003)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from etot_cli.cli.app import run
 from etot_cli.commands.plan import PlanOptions, plan_task
 from etot_cli.commands.reconstruct import reconstruct_capture
 from etot_cli.reconstruction.options import Options
@@ -96,6 +97,21 @@ def test_two_frames_show_a_drawer(tmp_path: Path) -> None:
     (joint,) = twin.joints
     assert joint.type == "slide"
     assert sorted(joint.values) == pytest.approx(sorted(states), abs=0.005)
+
+
+@pytest.mark.usefixtures("fitted_once")
+def test_a_task_that_plan_would_refuse_is_no_success(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    asked = ["reconstruct", str(folder), "--instruction", "Fly to the moon.", "--no-html"]
+    assert run([*asked, "--out", str(out)]) == 1
+    shown = capsys.readouterr().out
+    assert "not understood" in shown
+    assert "etot plan" not in shown
+    assert load_task(out / "task.yaml").instruction == "Fly to the moon."
+    assert run([*asked, "--out", str(out), "--force", "-q"]) == 1
+    assert len(capsys.readouterr().out.splitlines()) == 1
 
 
 @pytest.mark.usefixtures("fitted_once")

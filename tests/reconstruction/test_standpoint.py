@@ -98,8 +98,8 @@ def test_a_desk_out_of_reach_says_so(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("value", "words"),
     [
-        ("1,0", "expected X,Y,YAW"),
-        ("1,0,left", "expected X,Y,YAW"),
+        ("1,0", "expected X,Y,YAW[,TOP],"),
+        ("1,0,left", "expected X,Y,YAW[,TOP],"),
         ("980,50,180", "expected metres"),
         ("1,0,180,0.9", "expected the desk's top at -0.4 to 0.6 m"),
     ],

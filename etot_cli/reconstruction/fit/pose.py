@@ -31,7 +31,9 @@ MOST_STARTS = 4
 FINE = (700, 700)
 """Edge and surface points of the final fit."""
 GOOD_MISFIT = 0.4
-"""With a misfit below this no more involved shapes are tried."""
+"""With a misfit below this no more involved shapes are tried but those that are :attr:`Family.local
+<etot_cli.reconstruction.shapes.base.Family.local>`: a drawer that stands open is too small a part
+of what is seen to spoil a block that is as long as both."""
 INVOLVED = 0.5
 """An involved shape replaces a simple one when it leaves less than this share of its misfit."""
 SIMPLICITY = 0.12
@@ -43,6 +45,9 @@ IMPLAUSIBLE = 50.0
 MOST_HIDDEN = 3.0
 """No side of a thing is more than so many times as long as what is seen of it: of a flat patch or a
 sliver a huge ball explains every reading."""
+ALIKE = 0.01
+"""Scores that differ by less differ by which points were drawn: with other ones the same
+fit changes by as much. Nothing seen tells such shapes apart."""
 FARTHEST_OFF = 9.0
 """An error counts in the score as at most this many squares of twice its standard deviation."""
 EXPLAINED_PX = 2.0
@@ -212,6 +217,12 @@ def _bounded(errors: Array | None, unit: float) -> float:
     return float(np.minimum((errors / unit) ** 2, FARTHEST_OFF).mean())
 
 
+def best_of(fits: Sequence[Fit]) -> Fit:
+    """The fit that explains best what is seen; of those that do alike the first."""
+    least = min(fit.score for fit in fits)
+    return next(fit for fit in fits if fit.score <= least + ALIKE)
+
+
 def _promising(family: Family, seen: Observation, guesses: list[Array]) -> list[Array]:
     """The guesses that explain an observation best as they are, where there are many."""
     if len(guesses) <= MOST_STARTS:
@@ -231,27 +242,28 @@ def best_fit(
     families: list[list[Family]],
     seen: Observation,
     evidence: Evidence,
-    rng: np.random.Generator,
+    seed: int,
 ) -> list[Fit]:
     """Fits of several shapes to some of what is seen, the best first.
 
     Args:
-        families: tiers from simple to involved; a later tier is tried only when nothing before
-            it explains the observation well.
+        families: tiers from simple to involved; where something explains the observation well,
+            of later tiers only shapes are tried that differ in a small part.
         seen: the observation.
         evidence: what first guesses are made from.
-        rng: draws the samples.
+        seed: of the samples.
 
     Returns:
         at least one fit, unless no family has a guess.
     """
-    coarse = seen.thinned(*COARSE, rng)
+    coarse = seen.thinned(*COARSE, seed)
     fits: list[Fit] = []
     for tier in families:
         plain = min(fits, key=lambda fit: fit.score, default=None)
-        if plain is not None and plain.misfit < GOOD_MISFIT:
-            break
+        explained = plain is not None and plain.misfit < GOOD_MISFIT
         for family in tier:
+            if explained and not family.local:
+                continue
             options = []
             for guess in _promising(family, coarse, family.guesses(evidence)):
                 params = fit_shape(family, coarse, guess, steps=25, tolerance=COMPARED)
@@ -261,4 +273,9 @@ def best_fit(
                 # An involved shape must explain much that a simple one leaves open.
                 if plain is None or best_option.misfit < INVOLVED * plain.misfit:
                     fits.append(best_option)
-    return sorted(fits, key=lambda fit: fit.score)
+    ordered: list[Fit] = []
+    while fits:
+        best = best_of(fits)
+        ordered.append(best)
+        fits = [fit for fit in fits if fit is not best]
+    return ordered

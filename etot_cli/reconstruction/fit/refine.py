@@ -9,7 +9,15 @@ import numpy as np
 from etot_cli.reconstruction.capture.calibration import Calibrated
 from etot_cli.reconstruction.capture.view import Array
 from etot_cli.reconstruction.fit.observation import Observation
-from etot_cli.reconstruction.fit.pose import EXPLAINED_M, FINE, FINE_DEPTH, Fit, fit_shape, judge
+from etot_cli.reconstruction.fit.pose import (
+    EXPLAINED_M,
+    FINE,
+    FINE_DEPTH,
+    Fit,
+    best_of,
+    fit_shape,
+    judge,
+)
 from etot_cli.reconstruction.shapes.upright import Cup
 
 FIRST_DEPTH = 0.006
@@ -51,7 +59,7 @@ def trusted(rms: float, least: float) -> float:
 
 
 def refine(
-    seen: Calibrated, placed: Observation, fits: list[Fit], rng: np.random.Generator
+    seen: Calibrated, placed: Observation, fits: list[Fit], seed: int
 ) -> tuple[Fit, Observation, tuple[str, ...]]:
     """The best of several shapes, fitted to all that is seen of an object on its support.
 
@@ -59,7 +67,7 @@ def refine(
         seen: the calibrated capture.
         placed: what is seen of the object.
         fits: shapes, the best first.
-        rng: draws samples.
+        seed: of the samples.
 
     Returns:
         the fit, what it was fitted to, and what is doubtful about it in words.
@@ -68,7 +76,7 @@ def refine(
     # How far depth is to be trusted shows in how well it agrees with the silhouette.
     for turn in range(REWEIGHTINGS):
         sigma = trusted(fit.depth_rms, least_sigma(seen))
-        fine = replace(placed, depth_sigma=sigma).thinned(*FINE, rng)
+        fine = replace(placed, depth_sigma=sigma).thinned(*FINE, seed)
         rivals = fits[:RIVALS] if turn == 0 else [fit]
         starts = [(rival, rival.params) for rival in rivals]
         if turn == 0 and seen.exact:
@@ -77,7 +85,7 @@ def refine(
             judge(rival.family, fine, fit_shape(rival.family, fine, start, steps=60))
             for rival, start in starts
         ]
-        fit = min(options, key=lambda option: option.score)
+        fit = best_of(options)
     warnings: list[str] = []
     if abs(fit.depth_bias) > BIASED + 2 * seen.noise / 2:
         warnings.append(

@@ -55,8 +55,7 @@ def look_again(
         parts = two_colors(seen, whole[solid.name].mask)
         if parts is None:
             continue
-        rng = np.random.default_rng(seed)
-        if not _has_ball_above(seen, parts, rng):
+        if not _has_ball_above(seen, parts, seed):
             continue
         others = [segment for name, segment in whole.items() if name != solid.name]
         pair = [
@@ -64,7 +63,7 @@ def look_again(
             for index, part in enumerate(_redrawn(seen, parts, others), start=1)
         ]
         kept = _apart(solid, whole[solid.name].mask, solids)
-        again = fit_all(seen, [*others, *pair], rng=rng, hints=hints, kept=kept)
+        again = fit_all(seen, [*others, *pair], seed=seed, hints=hints, kept=kept)
         if _is_filled_mouth(again, pair, solid):
             solids = again
             whole = {segment.name: segment for segment in [*others, *pair]}
@@ -85,11 +84,11 @@ def _apart(solid: Solid, mask: Mask, solids: list[Solid]) -> dict[str, Solid]:
     return {other.name: other for other in solids if other.name not in touched}
 
 
-def _has_ball_above(seen: Calibrated, parts: tuple[Mask, Mask], rng: np.random.Generator) -> bool:
+def _has_ball_above(seen: Calibrated, parts: tuple[Mask, Mask], seed: int) -> bool:
     """Whether the higher of two parts looks like a ball; spares fits of all that does not."""
     heights = [median_height(seen.cloud, part) for part in parts]
     upper, lower = (parts[index] for index in np.argsort(heights)[::-1])
-    ball = free_ball(seen, Segment("upper", upper), [Segment("lower", lower)], rng)
+    ball = free_ball(seen, Segment("upper", upper), [Segment("lower", lower)], seed)
     return ball.explained > BALL_LIKE
 
 

@@ -46,7 +46,7 @@ def fit_all(
     seen: Calibrated,
     segments: list[Segment],
     *,
-    rng: np.random.Generator,
+    seed: int,
     hints: dict[str, str] | None = None,
     kept: Mapping[str, Solid] = MappingProxyType({}),
 ) -> list[Solid]:
@@ -55,7 +55,7 @@ def fit_all(
     Args:
         seen: the calibrated capture.
         segments: the objects' pixels.
-        rng: draws samples.
+        seed: of the samples.
         hints: kinds by object name that are known from elsewhere.
         kept: solids of segments that have been fitted already, by name.
 
@@ -69,10 +69,10 @@ def fit_all(
         if segment.name in kept:
             done.append(kept[segment.name])
             continue
-        solid = _fit_one(seen, segment, segments, done, rng, hints.get(segment.name))
+        solid = _fit_one(seen, segment, segments, done, seed, hints.get(segment.name))
         if solid is not None:
             done = stacked([*done, solid])
-            done = _reopened(seen, segments, done, rng, hints)
+            done = _reopened(seen, segments, done, seed, hints)
     return settle_on_rim(seen, done, kept.keys())
 
 
@@ -80,7 +80,7 @@ def _reopened(
     seen: Calibrated,
     segments: list[Segment],
     done: list[Solid],
-    rng: np.random.Generator,
+    seed: int,
     hints: dict[str, str],
 ) -> list[Solid]:
     """The solids, with a cylinder made a cup where what was fitted last rests better in its mouth.
@@ -93,10 +93,10 @@ def _reopened(
         return done
     open_below = [as_cup(solid) if solid is below else solid for solid in done[:-1]]
     hint = hints.get(last.name)
-    inside = _fit_one(seen, last.segment, segments, open_below, rng, hint)
+    inside = _fit_one(seen, last.segment, segments, open_below, seed, hint)
     rivals = [inside] if inside is not None and inside.support == below.name else []
     if hint in (None, Ball.kind):
-        rivals.append(_ball_in(seen, last.segment, segments, below, rng))
+        rivals.append(_ball_in(seen, last.segment, segments, below, seed))
     names = (below.name, last.name)
     pairs = [
         [s for s in settle_on_rim(seen, [*open_below, rival]) if s.name in names]
@@ -118,25 +118,23 @@ def _ball_in(
     segment: Segment,
     segments: list[Segment],
     vessel: Solid,
-    rng: np.random.Generator,
+    seed: int,
 ) -> Solid:
     """A segment as a ball that rests in the mouth of a vessel, as high as it is seen."""
     observation = replace(_observe(seen, segment, segments), base=vessel.top)
     observation = replace(observation, depth_sigma=first_sigma(seen))
-    fit = _free_fit(seen, observation, rng)
-    return Solid(segment, fit, vessel.name, "rim", observation.thinned(*FINE, rng))
+    fit = _free_fit(seen, observation, seed)
+    return Solid(segment, fit, vessel.name, "rim", observation.thinned(*FINE, seed))
 
 
-def free_ball(
-    seen: Calibrated, segment: Segment, others: list[Segment], rng: np.random.Generator
-) -> Fit:
+def free_ball(seen: Calibrated, segment: Segment, others: list[Segment], seed: int) -> Fit:
     """A segment as a ball, as high as it is seen, whatever it rests on."""
     observation = _observe(seen, segment, others)
-    return _free_fit(seen, replace(observation, depth_sigma=first_sigma(seen)), rng)
+    return _free_fit(seen, replace(observation, depth_sigma=first_sigma(seen)), seed)
 
 
-def _free_fit(seen: Calibrated, observation: Observation, rng: np.random.Generator) -> Fit:
-    ball, coarse = Ball(), observation.thinned(*COARSE, rng)
+def _free_fit(seen: Calibrated, observation: Observation, seed: int) -> Fit:
+    ball, coarse = Ball(), observation.thinned(*COARSE, seed)
     guesses = ball.guesses(_evidence(seen, observation))
     fits = [judge(ball, coarse, fit_shape(ball, coarse, g, free_z=True)) for g in guesses]
     return min(fits, key=lambda fit: fit.score)
@@ -174,10 +172,10 @@ def _fit_one(
     segment: Segment,
     segments: list[Segment],
     done: list[Solid],
-    rng: np.random.Generator,
+    seed: int,
     hint: str | None,
 ) -> Solid | None:
-    choice = _choose(seen, segment, segments, done, rng, hint)
+    choice = _choose(seen, segment, segments, done, seed, hint)
     if choice is None:
         return None
     fits, support, placed = choice
@@ -185,14 +183,14 @@ def _fit_one(
     if strays is not None:
         own = replace(segment, mask=strays.own)
         before = Segment(f"before {segment.name}", strays.before, named=False)
-        again = _choose(seen, own, [*segments, before], done, rng, hint)
+        again = _choose(seen, own, [*segments, before], done, seed, hint)
         if again is not None and again[0][0].explained >= CONVINCING:
             fits, support, placed = again
             # A mask that was given stays as it is; one that was found is put right.
             segment = segment if segment.named else own
-    fit, used, warnings = refine(seen, placed, fits, rng)
+    fit, used, warnings = refine(seen, placed, fits, seed)
     whole = Solid(segment, fit, support.name, support.relation, used, warnings=warnings)
-    return _without_handle(seen, whole, segments, done, rng.spawn(1)[0], hint)
+    return _without_handle(seen, whole, segments, done, seed, hint)
 
 
 def _without_handle(
@@ -200,7 +198,7 @@ def _without_handle(
     whole: Solid,
     segments: list[Segment],
     done: list[Solid],
-    rng: np.random.Generator,
+    seed: int,
     hint: str | None,
 ) -> Solid:
     """The solid, or the round body of it that explains what is seen without its handle better.
@@ -211,11 +209,11 @@ def _without_handle(
     if body is None:
         return whole
     own = replace(whole.segment, mask=body)
-    choice = _choose(seen, own, segments, done, rng, hint)
+    choice = _choose(seen, own, segments, done, seed, hint)
     if choice is None or not isinstance(choice[0][0].family, Cylinder):
         return whole
     fits, support, placed = choice
-    fit, used, warnings = refine(seen, placed, fits, rng)
+    fit, used, warnings = refine(seen, placed, fits, seed)
     if fit.explained < CONVINCING or fit.misfit > INVOLVED * whole.fit.misfit:
         return whole
     return Solid(
@@ -228,7 +226,7 @@ def _choose(
     segment: Segment,
     segments: list[Segment],
     done: list[Solid],
-    rng: np.random.Generator,
+    seed: int,
     hint: str | None,
 ) -> tuple[list[Fit], Support, Observation] | None:
     """The best shapes on the support that agrees best, and what they were fitted to."""
@@ -241,7 +239,7 @@ def _choose(
         evidence = _evidence(seen, placed)
         # In a mouth of a cup only balls rest.
         tried = tiers("sphere" if support.relation == "rim" else hint)
-        fits = best_fit(tried, placed, evidence, rng)
+        fits = best_fit(tried, placed, evidence, seed)
         if fits:
             choices.append((fits, support, placed))
     if not choices:

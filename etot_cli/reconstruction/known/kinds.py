@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from etot_cli.reconstruction.capture.view import Array
-from etot_cli.reconstruction.fit.pose import Fit, fit_shape, judge
+from etot_cli.reconstruction.fit.pose import COARSE, Fit, fit_shape, judge
 from etot_cli.reconstruction.objects import Solid
 from etot_cli.reconstruction.shapes.ball import Ball
 from etot_cli.reconstruction.shapes.base import Family
@@ -47,8 +47,7 @@ def fit_known_kind(solid: Solid, spec: specs.SceneObject) -> Solid:
         solid: what was found.
         spec: the known thing, any kind but meshes, shelves and MJCF models.
     """
-    rng = np.random.default_rng(0)
-    coarse = solid.observation.thinned(160, 160, rng)
+    coarse = solid.observation.thinned(*COARSE, 0)
     fits: list[tuple[Fit, tuple[str, ...]]] = []
     for family, sizes in _shapes(spec):
         held = tuple(name for name in sizes if name not in ("open", "angle"))

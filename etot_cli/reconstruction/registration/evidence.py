@@ -68,7 +68,7 @@ def target_of(
     """
     observation = replace(
         observed(seen, mask, list(others), base), depth_sigma=least_sigma(seen)
-    ).thinned(*FINE, np.random.default_rng(seed))
+    ).thinned(*FINE, seed)
     pixels = np.column_stack(np.nonzero(mask)[::-1]).astype(np.float64)
     window = window_around(pixels, MARGIN, seen.view)
     cell = max(1, round(max(window.width, window.height) / CELLS))

@@ -55,6 +55,9 @@ class Family(ABC):
     """Parameter names, in the order of the vector."""
     complexity: ClassVar[float]
     """How much the simplicity prior holds against it."""
+    local: ClassVar[bool] = False
+    """Whether what tells it from a simpler shape may be a small part of what is seen, so that a
+    simpler one may explain all of it well on the whole."""
 
     @abstractmethod
     def guesses(self, evidence: Evidence) -> list[Array]:
