@@ -58,7 +58,7 @@ _GOES_ON = Expression(r"(?P<plain>and)\b")
 """Behind whom something is for ("get the tape for my sister and put it down")."""
 _AHEAD = Expression(
     r"(?:(?P<reason>as"
-    r"(?! (?:soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
+    r"(?! (?:\w+ as|soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
     r"|as(?= (?:it is|they are) (?:going|\w+ing|not|so|too|very|rather|quite|getting)\b)|though)\b"
     r"|(?P<comment>which|who)\b|(?P<purpose>otherwise)\b"
     r"|(?P<plain>and so|and|but|(?:and )?that is why|therefore|hence)\b)"

@@ -20,7 +20,8 @@ _PLEASE = "(?:please|pleas|pls|plz|kindly)"
 _TELLS = (
     r"\b(?:goes|go|belongs?|should|must|has|have|had|is|are|was|were|needs?|want|stays?|comes?|did"
     r"|but|instead|already|again|back|still|so|because|although|yesterday|earlier|before|wrong|i"
-    r"|we|who|which|that)\b"
+    r"|we|who|which|that|usually|always|often|sometimes|every|ago|just|when|the other day|on \w+day"
+    r"|this (?:morning|afternoon|evening|week)|last (?:night|time|week|month|year|\w+day))\b"
 )
 """Words beside which what "you put" somewhere may be what was put there."""
 _REST = rf"(?:(?!{_TELLS})[^.;:!?,])*"
