@@ -81,7 +81,7 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
     if word == "without" and [w.strip(".,;") for w in words[where : where + 1]] == ["one"]:
         return  # "the blue without one" is the one that has none of them
     called = {w for info in SCENES[name].infos.values() for w in info.label.split()}
-    of_a_noun = words[max(where - 2, 0)].lower() == "the" and where < len(words)
+    of_a_noun = words[max(where - 2, 0)].lower() in ("the", "its") and where < len(words)
     if word == "not" and of_a_noun and words[where].strip(".,;") in called:
         return  # "what is on the red, not book", "the trash, not can" are something else
     denied = " ".join([*words[:where], word, *words[where:]])
