@@ -151,9 +151,8 @@ def reconstruct(
 ) -> int:
     """Turn one RGB-D frame into a scene that etot plan uses.
 
-    Exit code 0: the twin is whole; 1: it is usable in part, or the
-    instruction is not understood, see the warnings; 2: the capture is
-    unusable; 3: a server is not there; 130: interrupted.
+    Exit code 0: the twin is whole; 1: it is usable in part, or the instruction is not understood,
+    see the warnings; 2: the capture is unusable; 3: a server is not there; 130: interrupted.
     """
     area = None if workspace is None else _workspace(workspace)
     place = None if camera_at is None else _standpoint(camera_at)

@@ -43,7 +43,7 @@ def checked_names(
             near = get_close_matches(name, known) or sorted(known)
             raise SpecError(
                 f"{flag} {written!r}: nothing has this name; expected "
-                f"{', '.join(near) or 'no {flag}: nothing is found'}",
+                f"{', '.join(near) or f'no {flag}: nothing is found'}",
                 file=file,
             )
     return set(names)

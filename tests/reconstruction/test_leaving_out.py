@@ -127,3 +127,9 @@ def test_bad_values_are_one_error(
     shown = capsys.readouterr()
     assert words in " ".join(shown.err.split())
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("flag", ["--ignore", "--material"])
+def test_where_nothing_is_found_no_name_is_expected(flag: str) -> None:
+    with pytest.raises(SpecError, match=f"expected no {flag}: nothing is found"):
+        checked_names(["cup"], set(), "f", flag)
