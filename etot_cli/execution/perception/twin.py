@@ -147,16 +147,18 @@ class KnownScene:
         mujoco.mj_kinematics(self.world.model, self.data)
         geom, passed = np.array([-1], dtype=np.int32), 0.0
         body = self.world.model.body(without).id
-        while True:
+        # A ray enters and leaves each convex geom at most once.
+        for _ in range(2 * self.world.model.ngeom):
             start = point + passed * direction
             far = mujoco.mj_ray(self.world.model, self.data, start, direction, None, 1, body, geom)
             if far < 0:
-                return None, np.inf
+                break
             passed += far
             owner = self.world.geom_object[int(geom[0])]
             if owner not in ("robot", "gripper"):
                 return owner, passed
             passed += PAST
+        return None, np.inf
 
     def _tool_in(self, data: mujoco.MjData) -> Pose:
         site = self.world.robot.tool_site
