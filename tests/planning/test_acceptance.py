@@ -87,10 +87,10 @@ def test_taken_away_is_taken_anywhere(where: dict[str, object], done: bool) -> N
 
 
 def test_nothing_speaks_against_a_plan_that_goes_as_it_is_meant() -> None:
-    """Every eighth sentence of the corpus, but for those that put something beside something."""
+    """Every 24th sentence of the corpus, but for those that put something beside something."""
     looked_at = 0
     for name, found in CORPUS.items():
-        for text in list(found.get("read", {}))[::8]:
+        for text in list(found.get("read", {}))[::24]:
             start = SCENES[name]
             try:
                 (branch,) = islice(branches_of((goal_of(text, start),), start), 1)
@@ -104,7 +104,7 @@ def test_nothing_speaks_against_a_plan_that_goes_as_it_is_meant() -> None:
                     intended(start, branch.actions[:n]) for n, _ in enumerate(branch.actions, 1)
                 ]
                 assert undone(zip(branch.actions, filter(None, ends), strict=True), final) == ""
-    assert looked_at > 200
+    assert looked_at > 100
 
 
 def test_what_left_with_a_vessel_is_told() -> None:

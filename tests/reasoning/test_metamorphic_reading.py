@@ -367,13 +367,13 @@ SEEDS = st.lists(st.integers(0, 2**32), min_size=BATCH, max_size=BATCH, unique=T
 
 @pytest.mark.slow
 @settings(
-    max_examples=130, deadline=None, derandomize=True,
+    max_examples=40, deadline=None, derandomize=True,
     phases=[Phase.generate],  # a seed has nothing to shrink, and each try reads 40 sentences
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )  # fmt: skip
 @given(SEEDS)
 def test_grown_and_broken_sentences_are_read_or_refused_in_time(seeds: list[int]) -> None:
-    """5,200 sentences: none crashes the reader, none takes long."""
+    """1,600 sentences: none crashes the reader, none takes long."""
     vocabulary = Vocabulary(BREAKFAST)
     for text in map(grown, seeds):
         assert is_read_in_time(text, vocabulary), text
@@ -385,7 +385,7 @@ def test_things_described_at_random_are_read_or_refused_in_time(name: str) -> No
     scene = SCENES[name]
     vocabulary, pick = Vocabulary(scene), random.Random(name)
     labels = [info.label for info in scene.infos.values()]
-    for number in range(20):
+    for number in range(6):
         text = pick.choice(JOINTS).join(composed(pick, labels) for _ in range(1 + number % 2))
         assert is_read_in_time(text, vocabulary, scene), text
 

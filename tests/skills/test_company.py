@@ -12,8 +12,9 @@ from etot_cli.world.state import CauseKind, SceneState
 from tests.skills.helpers import BOX, Episode, episode
 
 SEEDS = range(3)
-SOON = 1.5
-"""Processor time after which an action that has no place has said so [s]; a third of it is used."""
+SOON = 25
+"""How many times as long as to pick something up an action may take that has no place; 9 to 11 were
+measured."""
 CUP = {"kind": "cup", "at": [0.42, -0.28], "diameter": 0.075, "height": 0.09, "mass": 0.15}
 CHEST = {"kind": "box", "at": [0.45, 0.15], "size": [0.16, 0.28, 0.08], "mass": 2, "fixed": True}
 MAT = {"kind": "box", "at": [0.45, 0.05], "size": [0.22, 0.40, 0.008], "mass": 0.4}
@@ -98,10 +99,12 @@ def test_no_is_said_soon_where_room_is_kept_for_many() -> None:
         first=can | {"at": [0.55, -0.23]}, second=can | {"at": [0.36, 0.08]},
         third=cup | {"at": [0.41, -0.06]}, end=cup | {"at": [0.28, -0.13]},
     )  # fmt: skip
+    started = process_time()
     run.must("[PICK UP, first]")
+    picking_s = process_time() - started
     row = "room for second behind first, room for third behind second, room for third in front of"
     started = process_time()
     record = run.do(f"[PUT ON, desk] ({row} end)").record
-    assert process_time() - started < SOON
+    assert process_time() - started < SOON * picking_s
     assert record.cause is not None
     assert record.cause.kind is CauseKind.NO_ROOM
