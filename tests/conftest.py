@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import sys
 from pathlib import Path
 
@@ -21,6 +22,10 @@ os.environ.setdefault("ETOT_HTML", "0")
 # Hundreds of processes would otherwise compile the whole package, each for itself.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+# Under nohup the program goes on after a SIGHUP, as it should; what is started here must stop.
+if hasattr(signal, "SIGHUP"):
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 # What Hypothesis keeps takes seconds to make; some tests work in folders of their own.
 set_hypothesis_home_dir(Path(__file__).parents[1] / ".hypothesis")
