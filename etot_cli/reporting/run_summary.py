@@ -71,7 +71,7 @@ def execute_summary(out: Printer, report: ExecuteReport, path: Path) -> None:
 
 
 def _trial(out: Printer, trial: TrialModel) -> None:
-    line = Text(f"{trial.number:>3} ", style="dim")
+    line = Text(f"{trial.number + 1:>3} ", style="dim")
     line.append_text(out.badge(LOOKS_LIKE.get(trial.status, trial.status)))
     notes = [counted(len(trial.actions), "action")]
     if trial.replans:
