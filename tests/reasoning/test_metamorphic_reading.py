@@ -89,7 +89,7 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
     assert understood is None or understood != meaning(text, SCENES[name])
 
 
-@pytest.mark.parametrize(("name", "text"), sample(22))
+@pytest.mark.parametrize(("name", "text"), sample(44))
 def test_politeness_changes_nothing(name: str, text: str) -> None:
     plain = meaning(text, SCENES[name])
     framed = r"(?i)(i |i'\w+ |since |can |could|would|the |my |there\b|some(one|body|thing) |"
@@ -207,7 +207,7 @@ def test_the_other_way_round_everything_is_seen_the_other_way_round(name: str, t
         assert meaning(exchanged(text), behind) == exchanged(plain)
 
 
-@pytest.mark.parametrize(("name", "text"), sample(16))
+@pytest.mark.parametrize(("name", "text"), sample(24))
 def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None:
     if re.search(
         r"(?i)every|any|else|thing|object|item|rest|other|all |clear|tidy|empty|free|using|"
@@ -225,7 +225,7 @@ def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None
     assert meaning(text, wider) == meaning(text, scene)
 
 
-@pytest.mark.parametrize(("name", "text"), sample(16, 2))
+@pytest.mark.parametrize(("name", "text"), sample(24, 2))
 def test_the_order_of_things_in_the_scene_file_changes_nothing(name: str, text: str) -> None:
     scene = SCENES[name]
     names = list(scene.infos)[::-1]
@@ -367,13 +367,13 @@ SEEDS = st.lists(st.integers(0, 2**32), min_size=BATCH, max_size=BATCH, unique=T
 
 @pytest.mark.slow
 @settings(
-    max_examples=40, deadline=None, derandomize=True,
+    max_examples=20, deadline=None, derandomize=True,
     phases=[Phase.generate],  # a seed has nothing to shrink, and each try reads 40 sentences
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )  # fmt: skip
 @given(SEEDS)
 def test_grown_and_broken_sentences_are_read_or_refused_in_time(seeds: list[int]) -> None:
-    """1,600 sentences: none crashes the reader, none takes long."""
+    """800 sentences: none crashes the reader, none takes long."""
     vocabulary = Vocabulary(BREAKFAST)
     for text in map(grown, seeds):
         assert is_read_in_time(text, vocabulary), text
@@ -385,7 +385,7 @@ def test_things_described_at_random_are_read_or_refused_in_time(name: str) -> No
     scene = SCENES[name]
     vocabulary, pick = Vocabulary(scene), random.Random(name)
     labels = [info.label for info in scene.infos.values()]
-    for number in range(6):
+    for number in range(3):
         text = pick.choice(JOINTS).join(composed(pick, labels) for _ in range(1 + number % 2))
         assert is_read_in_time(text, vocabulary, scene), text
 
