@@ -88,7 +88,7 @@ class Harm:
             HarmKind.STRANDED: f"{self.name} ended up out of the arm's reach",
             HarmKind.TOPPLED: f"{self.name} toppled",
             HarmKind.DISLODGED: f"{self.name} {dislodged}",
-            HarmKind.CARRIED: f"{self.name}, which stood on it, was carried along",
+            HarmKind.CARRIED: f"{self.name}, which stood on it, was moved with it",
             HarmKind.TIPPED: f"{self.name} was tipped and leans",
             HarmKind.SHOVED: f"{self.name} was pushed {far}",
             HarmKind.PART_MOVED: f"{self.name} was opened or closed unasked",
