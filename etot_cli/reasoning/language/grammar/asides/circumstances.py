@@ -42,10 +42,11 @@ _LASTING = Expression(
 )
 _THIS = word_set("it there here") | {*STATES}
 _SEVERAL = word_set("them they both all each every everything two three four five and")
-_NO_REQUEST = word_set(
-    "need needs swap exchange trade replace change substitute switch mistake treat use"
+OF_A_CASE = word_set(
+    "need needs swap exchange trade replace change substitute switch mistake treat use or"
+    " not only just never nobody nothing alternative option fallback backup replacement default"
 )
-"""With these "for" and "as" are about what is asked for, or tell why."""
+"""With these "for" and "as" are about what is asked for, or when, or tell why."""
 
 
 def circumstances_apart(clauses: Iterable[Clause], is_name: IsName) -> Iterator[Clause]:
@@ -71,7 +72,8 @@ def _is_circumstance(asked: str, found: re.Match[str], is_name: IsName) -> bool:
     """Whether a phrase behind what is asked for asks for nothing."""
     before, words = asked.split(), found["said"].split()
     what = [word for word in words[words[0] in BEFORE_NAMES :] if word != "'s"]
-    if not before or not what or any(map(is_name, what)) or {*before} & _NO_REQUEST:
+    own = {*(found["asked"] or asked).split(), what[-1] if what else ""}
+    if not before or not what or any(map(is_name, what)) or own & OF_A_CASE:
         return False
     if found["joint"] == "out of":
         away = _AWAY.fullmatch(found["said"]) and not _OF_ROBOT & {*what}

@@ -15,7 +15,7 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     asks_besides,
     is_doing,
 )
-from etot_cli.reasoning.language.grammar.asides.circumstances import KIND
+from etot_cli.reasoning.language.grammar.asides.circumstances import KIND, OF_A_CASE
 from etot_cli.reasoning.language.grammar.asides.displeasure import dislikes
 from etot_cli.reasoning.language.grammar.asides.facts import tells_fact
 from etot_cli.reasoning.language.grammar.asides.going import goes_to_it
@@ -154,6 +154,8 @@ def is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
 def _gives_a_reason(place: _Place) -> bool:
     """Whether a clause behind "because", "as" or "while" says how things are."""
     said, is_name = place.said, place.is_name
+    if re.match("an? ", said) and any(is_name(it) or it in OF_A_CASE for it in said.split()):
+        return False  # "as a backup the banana"
     return (
         is_reason(said, is_name)
         or may_befall(said)
