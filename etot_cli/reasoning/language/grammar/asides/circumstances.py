@@ -21,7 +21,7 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
 )
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import all_words
-from etot_cli.reasoning.language.words.lexicon import STATES, is_descriptive, word_set
+from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, STATES, is_descriptive, word_set
 
 KIND = "circumstance"
 _PHRASE = Expression(
@@ -90,4 +90,5 @@ def _is_circumstance(asked: str, found: re.Match[str], is_name: IsName) -> bool:
         return True
     # "Into the box for zorps" may be one of several boxes, "the pens for review" some of the pens
     whole = bool(PLACED & {*before}) or not before[-1].endswith("s")
-    return whole and is_name(before[-1]) and len(what) == 1 and bool(_DEED.fullmatch(what[0]))
+    named = is_name(before[-1]) or any(before[-1] in nouns for nouns in JOINT_NOUNS.values())
+    return whole and named and len(what) == 1 and bool(_DEED.fullmatch(what[0]))
