@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.plainly import is_name, read_plainly, reads
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.start_told import without_start
 from etot_cli.reasoning.language.words import verbs
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, opening_words
 from etot_cli.reasoning.language.words.lexicon import (
@@ -34,6 +35,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     NUMBERS,
     SIDES,
     is_descriptive,
+    is_in_lexicon,
     word_set,
 )
 from etot_cli.reasoning.language.words.nouns import STACK
@@ -69,6 +71,16 @@ _JOBS = word_set(
     "routine ticket assignment"
 )
 """A heading that ends so only says that something is to be done."""
+_CODE = r"[a-z]{1,12}(?:\.? ?(?:no\.? ?|number |#)?|-)\d[\w./-]*"
+_REFERENCE = Expression(
+    r"(?P<before>^\s*|[.!?;\n]\s+)"
+    r"(?P<said>(?P<by>(?:as )?per |according to |in accordance with )?"
+    rf"{_CODE}(?:,? {_CODE})*)\s*(?(by)[:,]|:)\s+(?=\w)",
+    re.IGNORECASE,
+)
+"""Which item of a document sentences are ("Item 4.1: …", "Per SOP-014, section 3.2, …")."""
+_CODED = _JOBS | word_set("item step as per according to in accordance with no number")
+"""Words of it that may begin a request as well; no others do."""
 _LASTING = word_set(
     "moment second seconds minute minutes hour hours day days week weeks while long later"
 )
@@ -105,7 +117,7 @@ def read_otherwise(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     Raises:
         ReferenceProblem: the rest is understood, but not what it is about.
     """
-    ways = (_from_start, _below_heading, _as_end_state, _beside_asides)
+    ways = (_below_references, _from_start, _below_heading, _as_end_state, _beside_asides)
     problem: ReferenceProblem | None = None
     for way in ways[-1:] if mark_in(normalized(instruction)) else ways:
         try:
@@ -120,6 +132,34 @@ def read_otherwise(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     finally:
         problem = None  # an error that its own frame holds is freed late, with all that holds it
     return None
+
+
+def _below_references(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What stands behind codes of orders, items and the like, which are noted; they are no things
+    of the scene, and told in their order.
+
+    Raises:
+        UnreadableError, ReferenceProblem: there are none, or the rest is not read.
+    """
+    said = [found["said"] for found in _REFERENCE.finditer(instruction)]
+    words = {word for code in said for word in re.findall(r"[a-z]+", code.casefold())}
+    codes = [[int(part) for part in re.findall(r"\d+", code)] for code in said]
+    asking = words & (opening_words() | _DEPENDING) - _CODED
+    things = any(
+        is_name(word, vocabulary) or is_category(word) or is_in_lexicon(word)
+        for word in words - _CODED
+    )
+    if not said or asking or things or codes != sorted(codes):
+        raise UnreadableError(instruction, "")
+    rest = _REFERENCE.sub(lambda found: found["before"], instruction)
+    try:
+        goal = read_plainly(normalized(rest), scene, vocabulary)
+    except UnreadableError:
+        if (found := read_otherwise(rest, scene, vocabulary)) is None:
+            raise
+        goal = found
+    notes = (f"{code!r} is a heading: what stands below it is done" for code in said)
+    return replace(goal, notes=(*notes, *goal.notes))
 
 
 def _from_start(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:

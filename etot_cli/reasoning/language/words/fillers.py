@@ -152,7 +152,8 @@ REMARKS = f"""
     (needs|need|has|have) to (stay|be kept|keep|remain) (warm|cold|cool|dry|fresh|clean|safe),
     (must|should) (stay|be kept|keep|remain) (warm|cold|cool|fresh),
     (need|needs) (washing|cleaning|a wash), (takes|take) up too much (space|room),
-    (is|are) (in|on|at) the wrong (one|place|spot|side),
+    (is|are|has been|have been) [kept|left|stored|standing|lying] (in|on|at) (the|a)
+    wrong (one|place|spot|side) [all along|all this time|again|{SO_LONG}],
     (has|have) been (used|washed|cleaned),
     (is|are) for [my|our|the] ({RELATIONS}|guests|kids|children|grandma|grandpa|mum|mom|dad),
     (is|are) (a mess|all over the place|everywhere|all over the (table|desk|floor|counter))

@@ -12,6 +12,7 @@ from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause, clauses_of
 from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES, PRONOUNS, IsName
+from etot_cli.reasoning.language.grammar.asides.circumstances import KIND, circumstances_apart
 from etot_cli.reasoning.language.grammar.asides.cutting import is_aside
 from etot_cli.reasoning.language.grammar.asides.displeasure import is_answered
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open, is_wondering
@@ -185,6 +186,7 @@ def _as_told(aside: Clause, part: _Parted) -> str:
     whole = (
         is_left_open(aside.whole)
         or aside.joint == "before"
+        or aside.kind == KIND
         or (aside.kind != "plain" and aside in part.after)
     )
     return spaced(f"{aside.joint if whole else ''} {aside.said}".split())
@@ -193,7 +195,8 @@ def _as_told(aside: Clause, part: _Parted) -> str:
 def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     """A sentence and its asides."""
     said = (word for word in words_in(sentence) if word != QUESTION)
-    clauses = clauses_of(" ".join(said).replace(COLON, COMMA))
+    told = clauses_of(" ".join(said).replace(COLON, COMMA))
+    clauses = list(circumstances_apart(told, is_name))
     if (QUESTION in sentence and is_wondering(sentence)) or (
         QUESTION not in sentence
         and is_talk(" ".join(clause.text for clause in clauses), is_name)
@@ -241,6 +244,8 @@ def _mistakable(parted: Sequence[_Parted], is_name: IsName) -> bool:
             return True
         told = not part.rest
         for item in part.before if part.rest else part.asides:
+            if item.kind == KIND:
+                continue  # it says of what was named what that is for
             if names_stranger(item.said, is_name) or wants_such_a_thing(item.said, is_name):
                 # "My teeth are in the cup, so do not touch it": the cup.
                 several = stranger_is_there(item.said, is_name) and " are " in item.said

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     asks_besides,
     is_doing,
 )
+from etot_cli.reasoning.language.grammar.asides.circumstances import KIND, OF_A_CASE
 from etot_cli.reasoning.language.grammar.asides.displeasure import dislikes
 from etot_cli.reasoning.language.grammar.asides.facts import tells_fact
 from etot_cli.reasoning.language.grammar.asides.going import goes_to_it
@@ -45,7 +46,11 @@ from etot_cli.reasoning.language.grammar.asides.telling import (
 from etot_cli.reasoning.language.grammar.asides.told_of_things import (
     told_of_thing,
 )
-from etot_cli.reasoning.language.grammar.asides.vague_wishes import lacks_room, wants_such_a_thing
+from etot_cli.reasoning.language.grammar.asides.vague_wishes import (
+    lacks_room,
+    still_needs_it,
+    wants_such_a_thing,
+)
 from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering
 from etot_cli.reasoning.language.words.expressions import Expression
 
@@ -132,6 +137,8 @@ def is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             return clause.comma and (
                 is_comment(clause.said, is_name) or tells_fact(_whole_of(clause), is_name)
             )
+        case kind, _ if kind == KIND:
+            return at > 0
         case "benefit", _:
             return _is_for_somebody(place)
         case "purpose", "before":
@@ -147,6 +154,8 @@ def is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
 def _gives_a_reason(place: _Place) -> bool:
     """Whether a clause behind "because", "as" or "while" says how things are."""
     said, is_name = place.said, place.is_name
+    if re.match("an? ", said) and any(is_name(it) or it in OF_A_CASE for it in said.split()):
+        return False  # "as a backup the banana"
     return (
         is_reason(said, is_name)
         or may_befall(said)
@@ -206,6 +215,7 @@ def _only_tells(place: _Place) -> bool:
         return _is_whole(clauses, at) and _only_tells(_Place(clauses, at, is_name))
     first, whole = at == 0, _is_whole(clauses, at)
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
+    for_somebody = any(item.kind == "benefit" for item in clauses[at + 1 : at + 2])
     wanted_for = so and (is_desk_wish(said) or is_plan(said, is_name))
     is_there = so and (goes_there(said, is_name) or stranger_is_there(said, is_name))
     on_the_way = at + 1 < len(clauses) and goes_to_it(said, place.behind, first=first)
@@ -225,6 +235,7 @@ def _only_tells(place: _Place) -> bool:
         or dislikes(said)
         or is_hindering(said)
         or wants_such_a_thing(said, is_name)
+        or still_needs_it(said, is_name, for_somebody=for_somebody)
         or is_remark(said, is_name)
         or bool(told_of_thing(said, is_name))
         or tells_fact(said, is_name)

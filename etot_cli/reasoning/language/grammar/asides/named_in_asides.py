@@ -29,9 +29,9 @@ from etot_cli.reasoning.language.words.lexicon import (
 _PARTS = frozenset(noun for nouns in JOINT_NOUNS.values() for noun in nouns)
 _LIKED = [["favourite"], ["favorite"], ["best"]]
 _IS_ONE = Expression(
-    r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like) an? "
+    r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like|as) an? "
 )
-"""Before what is no other thing ("the vase was a gift")."""
+"""Before what is no other thing ("the vase was a gift", "he used it as a hat")."""
 _WHICH_ONE = Expression(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
 _HELD = Expression(
     rf"(?:{PEOPLE}|they) (?:\w+ )??(?:has|have|had|took|uses?|needs?|wants?|reserved|got|keeps?)"

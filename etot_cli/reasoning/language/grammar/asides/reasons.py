@@ -20,9 +20,11 @@ from etot_cli.reasoning.language.grammar.asides.told_of_things import is_idle, t
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.fillers import TURNED
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import word_set
+from etot_cli.reasoning.language.words.lexicon import STATES, word_set
 
 _GONE_WRONG = Expression(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
+_A_PLACE = Expression(r"\b(the|our|my|this|that) place\b")
+"""Which is no verb here."""
 _THING = r"(?:the|my|our) (?:\w+ )?\w+"
 _SO_OF_ITSELF = Expression(
     rf"^{_THING} (?:(?:stays?|keeps?|remains?) (?:warm|cold|cool|dry|fresh|clean|safe)"
@@ -102,7 +104,7 @@ def is_reason(said: str, is_name: IsName) -> bool:
     """Whether this may stand behind "because" and asks for nothing itself."""
     if _IS_OPEN.fullmatch(said):
         return True
-    said = _GONE_WRONG.sub(" fails", said)
+    said = _A_PLACE.sub(r"\1 spot", _GONE_WRONG.sub(" fails", said))
     words = {*said.split()}
     asked = _YOU_DO.match(said)  # "even if you have to move it" asks for nothing
     if asked and asked[1] in VERB_WORDS - OTHER_VERBS - {"have"} and any(map(is_name, words)):
@@ -113,4 +115,4 @@ def is_reason(said: str, is_name: IsName) -> bool:
     if not (is_of_people(said) or (needed and verb_of_stranger(said, is_name, _NEEDED))):
         return not (ASKING | CHANGING - {"to", "by", "than"} | WORK) & words
     wanted = {"want", "wants", "like", "prefer", "need", "needs"} & words
-    return not (wanted and PLACED & words and any(map(is_name, words)))
+    return not (wanted and (PLACED | {*STATES}) & words and any(map(is_name, words)))

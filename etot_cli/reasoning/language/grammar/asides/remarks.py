@@ -40,6 +40,7 @@ _HAPPENED = Expression(
     r"|^(?:comes?|gets?) (?:back |home )+(?:late|early|soon|tired|hungry)\b"
     r"|^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
     r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?|will not (?:bend|let (?:me|us)))\b"
+    r"|^(?:insists?(?: on (?:it|that))?|demands? (?:it|that|so)|told me so)$"
     r"|^(?:am going to need|"
     r"would hate (?:it )?(?:for|if|to)|go to (?:sleep|bed|work|school)(?= |$))"
     rf"|^do not want (?:(?:anything|it|them|him|her|us|{PEOPLE}) )?(?=to (?:{_MISHAPS})\b)"

@@ -8,12 +8,14 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.language.grammar.asides.asking_words import (
     ASKING,
+    BEFORE_NAMES,
     PLACED,
     REFERRING,
     IsName,
 )
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -43,6 +45,25 @@ def wants_such_a_thing(said: str, is_name: IsName) -> bool:
     return bool(words) and not any(
         word in _TELLING or is_descriptive(word) or is_name(word) for word in words
     )
+
+
+_STILL_NEEDED = Expression(
+    rf"{PEOPLE} (?:(?P<later>still|soon|will) )?(?:also )?needs? (?:it|them)"
+    r"(?P<when> (?:later|tomorrow|tonight|soon|myself|again)(?: on)?)?(?: for (?P<what>[^~]+))?"
+)
+
+
+def still_needs_it(said: str, is_name: IsName, *, for_somebody: bool) -> bool:
+    """Whether somebody tells why care is taken of what was spoken of ("I still need it"); "I need
+    it" alone asks for that, unless it is said what for.
+    """
+    found = _STILL_NEEDED.fullmatch(said)
+    if found is None:
+        return False
+    what = [word for word in (found["what"] or "").split() if word not in (*BEFORE_NAMES, "'s")]
+    if any(word in all_words() or is_name(word) for word in what):
+        return False
+    return bool(what or for_somebody or found["later"] or found["when"])
 
 
 _ROOM = (

@@ -161,6 +161,13 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"\b({_IT}) (?:must|should|may|shall|is|are) not(?: to)? move{_ENDS}",
         r"\1 must not be moved",
     ),
+    # "Circuit board not to be touched"
+    (
+        r"(^|[.;:!] ?)((?:(?!(?:in|on|into|to|from|up|off|with|at|is|are|ought|that|which|if"
+        r"|open|close|shut|keep|leave|take|put|move|pick|everything|anything)\b)\w+ ){1,4})"
+        rf"not to be (?=(?:{'|'.join(_DONE_TO)}){_ENDS})",
+        r"\1\2must not be ",
+    ),
     (
         rf"\bwithout ({_IT}) (?:moving|budging|stirring|leaving (?:{_SPOT})){_ENDS}",
         r"without moving \1",
