@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.categories import CATEGORIES
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import LEVELS, SIZES, is_descriptive
@@ -118,9 +119,9 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "Stack the cups. The red one must not be on top"
     (
-        r"^((?:please )?(?:stack|pile)(?: up)? (?:(?:all|both)(?: of)? )?(?:the|these|my) "
+        rf"^({ASKED}(?:stack|pile)(?: up)? (?:(?:all|both)(?: of)? )?(?:the|these|my) "
         r"(?:\w+ ){0,2}?\w+s(?: up)?(?: on (?:the|my) (?:\w+ )?\w+)?)"
-        r"(?:[.;!] (?:but |and )?|,? and )((?:(?:do not|never) (?:put|place|have) )?"
+        r"(?:[.;!?] (?:but |and )?|,? and )((?:(?:do not|never) (?:put|place|have) )?"
         rf"the (?:\w+ ){{1,2}}one (?:(?:{_MUST}|goes|belongs)\b )?(?:not )?(?:(?:be|go) )?"
         r"(?:on|at) (?:the )?(?:very )?(?:top|bottom)(?=[.!]|$))",
         r"\1, but \2",
