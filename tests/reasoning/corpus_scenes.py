@@ -2027,3 +2027,16 @@ def den() -> SceneState:
         item("blue_block", "box", (0.40, 0.05), size=CUBE, label="block", color="blue",
              on="chessboard"),
     )  # fmt: skip
+
+
+def reel_table() -> SceneState:
+    """Two cotton reels, an elastic band, a push pin, a flannel shirt and a kidney dish."""
+    reel = (0.04, 0.04, 0.05)
+    return scene(
+        item("red_reel", "cylinder", (0.30, 0.05), size=reel, label="cotton reel", color="red"),
+        item("blue_reel", "cylinder", (0.30, -0.10), size=reel, label="cotton reel", color="blue"),
+        item("band", "box", (0.40, 0.20), size=(0.04, 0.04, 0.01), label="elastic band"),
+        item("push_pin", "box", (0.45, 0.05), size=(0.02, 0.02, 0.02), label="push pin"),
+        item("flannel_shirt", "box", (0.50, -0.15), size=(0.1, 0.1, 0.03), label="flannel shirt"),
+        item("kidney_dish", "bowl", (0.45, -0.35), size=(0.2, 0.2, 0.06), label="kidney dish"),
+    )

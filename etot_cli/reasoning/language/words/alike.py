@@ -78,6 +78,21 @@ TWINS: tuple[tuple[str, ...], ...] = (
     ("storage box", "storage bin", "storage container"),
     ("graduated cylinder", "measuring cylinder"), ("petri dish", "culture dish"),
     ("erlenmeyer flask", "conical flask"),
+    ("stirring rod", "stir rod"), ("weighing boat", "weigh boat"),
+    ("kidney dish", "kidney basin", "kidney bowl", "emesis basin"),
+    ("circuit board", "pcb"), ("spool", "reel"), ("spirit level", "bubble level"),
+    ("caliper", "calliper"), ("vise", "vice"), ("sandpaper", "emery paper"),
+    ("pruning shears", "secateurs"), ("rubber band", "elastic band"),
+    ("bulldog clip", "binder clip"), ("push pin", "thumbtack", "drawing pin"),
+    ("correction fluid", "tippex"), ("mouse pad", "mouse mat"),
+    ("business card", "visiting card"), ("ballpoint pen", "biro"),
+    ("washcloth", "face cloth", "face flannel"), ("shower gel", "body wash"),
+    ("hair tie", "hair bobble", "scrunchie"), ("hand sanitizer", "hand sanitiser"),
+    ("rubbing alcohol", "surgical spirit"), ("stroller", "pushchair"),
+    ("rubber boot", "wellington boot", "wellington"), ("lollipop", "lolly"),
+    ("cupcake", "fairy cake"), ("ketchup", "catsup"), ("cornstarch", "cornflour"),
+    ("rutabaga", "swede"), ("fava bean", "broad bean"),
+    ("icing sugar", "powdered sugar", "confectioners sugar"),
 )  # fmt: skip
 """Everyday names of one and the same thing, in whichever English."""
 SORTS: dict[str, str] = {

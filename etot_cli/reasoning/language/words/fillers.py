@@ -60,7 +60,7 @@ WITHOUT_MEANING = f"""
     (can|will) (take|hold|accommodate) (it|them), has [enough] (room|space) for (it|them),
     of your [own] (choice|choosing),
     (it does not|does not|no) matter {_WHICH},
-    [please and] thank you [(so|very) much], thanks [a lot|so much], cheers, that is all,
+    [please and] thank you [([ever] so|very) much], thanks [a lot|so much], cheers, that is all,
     (either|any|each|both) [one] [of (them|these|those|the two)] ({ANY_WILL_DO}),
     ~comma (any|either) [one] [of (them|these|those)],
     [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four) [it is]],
@@ -109,7 +109,7 @@ WITHOUT_MEANING = f"""
     (nice|well done|perfect|excellent|[very] good|good job|good work) [~comma],
     that would be (great|nice|lovely|perfect|all), (much|very much) appreciated,
     ~comma [my [dear|good]]
-    (dear|friend|love|darling|honey|sweetie|sweetheart|dearest|treasure|fellow|chap|man),
+    (dear|friend|love|darling|hon|honey|sweetie|sweetheart|dearest|treasure|fellow|chap|man),
     ~comma (dude|bro|sis|ma am|miss|mister|[good|dear|kind] (sir|madam)|folks|[you] guys|son|boss),
     ~comma [my] (young|good|old|dear|clever) (man|lady|friend|fellow|boy|girl|chap),
     ~comma [my] [little|good|dear|clever] (helper|robot),
