@@ -95,7 +95,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
     framed = r"(?i)(i |i'\w+ |since |can |could|would|the |my |there\b|some(one|body|thing) |"
     framed += r"(you )?see |"
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
-    framed += r"which |when i |end with |as for |with |now |on the |if |unless |is |are |"
+    framed += r"which |it is |when i |end with |as for |with |now |on the |if |unless |is |are |"
     framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |do not |"
     framed += r"\w+ (nothing|neither) |\w+ things, |"
     framed += r"no \w+ may |somewhere |\w+ (can|may) be |"
