@@ -52,7 +52,7 @@ class State(Message):
 
     joints: Joints
     targets: Joints
-    opening: Annotated[float, Field(ge=-0.1, le=1.0)]
+    opening: Annotated[float, Field(ge=-0.1, le=1.0, allow_inf_nan=False)]
     time_s: Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 
     @classmethod

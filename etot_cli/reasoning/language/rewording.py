@@ -35,7 +35,8 @@ Reads = Callable[[str, SceneState], bool]
 
 _OPENING, _CLOSING = words_of((verbs.OPEN,)) - {"up"}, words_of((verbs.CLOSE,)) - {"up"}
 _DENYING = Expression(
-    r"\b(?:not|never|neither|nor|no|non|none|nothing|without|except|but|instead|\w+n't|only|if"
+    r"\b(?:not|never|neither|nor|no|non|none|nothing|nowhere|hardly|without|except|but|instead"
+    r"|\w+n't|only|if"
     r"|unless|when|while|once|until|free|clear|empty|least|most|same|different|matching|other|respectively|colou?rs?|versa|twice|times|again)\b"
 )
 """Words that turn a meaning round or bound it: they stay, and no plain request says the same."""

@@ -33,6 +33,18 @@ _DONE_TO = {
     "lifted": "lift", "picked up": "pick up",
 }  # fmt: skip
 """What somebody may not want done to a thing, and the verb; "closed" and "left" are how it is."""
+_ASKED_TO_BE = (
+    *(one for one in _DONE_TO if one not in ("touched", "disturbed")),
+    "closed", "shut", "left", "kept", "stored", "transferred", "returned", "brought", "set", "laid",
+    "stacked", "emptied", "cleared", "swapped",
+)  # fmt: skip
+_NO_SUBJECT = (
+    r"(?:in|on|into|to|from|up|off|with|at|for|of|by|as|is|are|was|am|ought|that|which|what|who|if"
+    r"|open|close|shut|keep|leave|take|put|move|place|pick|make|let|see|ensure|get|everything"
+    r"|anything|nothing|i|we|you|they|he|she|want|wants|need|needs|like|wish|prefer|expect|has|have"
+    r"|had|going|ready|supposed|meant|due|about|first|next|last|only|thing|things|one|ones)\b"
+)
+"""Before "to be" these say something else than what is to be done with the thing that they name."""
 _TURN = {"opened": "open", "closed": "close", "shut": "close"}
 
 
@@ -161,12 +173,11 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"\b({_IT}) (?:must|should|may|shall|is|are) not(?: to)? move{_ENDS}",
         r"\1 must not be moved",
     ),
-    # "Circuit board not to be touched"
+    # "Circuit board not to be touched", "drawer to be shut afterwards": a verb is left out
     (
-        r"(^|[.;:!] ?)((?:(?!(?:in|on|into|to|from|up|off|with|at|is|are|ought|that|which|if"
-        r"|open|close|shut|keep|leave|take|put|move|pick|everything|anything)\b)\w+ ){1,4})"
-        rf"not to be (?=(?:{'|'.join(_DONE_TO)}){_ENDS})",
-        r"\1\2must not be ",
+        rf"(^|[.;:!] ?)((?:(?!{_NO_SUBJECT})\w+ ){{1,5}}?)(?:(not to)|to) be "
+        rf"(?(3)(?=(?:{'|'.join(_DONE_TO)}){_ENDS})|(?=(?:{'|'.join(_ASKED_TO_BE)})\b))",
+        lambda said: f"{said[1]}{said[2]}must {'not ' if said[3] else ''}be ",
     ),
     (
         rf"\bwithout ({_IT}) (?:moving|budging|stirring|leaving (?:{_SPOT})){_ENDS}",
