@@ -90,7 +90,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (_WISHED, _as_asked),
     (
         r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood"
-        r"|(?:would|will|could|can) you(?: (?:please|love|dear|darling|mate))?)(?:\?|(?=[.!]*$))",
+        r"|(?:would|will|could|can) you(?: (?:please|love|dear|darling|mate))?|pretty please)"
+        r"(?:\?|(?=[.!]*$))",
         ".",
     ),
     (
