@@ -128,7 +128,7 @@ FRAMES = f"""
     (all|what|the only thing) [that] (i|we) [really|just|only]
     (want|need|would like|ask [for|of you]) is (to|for you to|that you),
     (i|we) [only] (want|need|would like|d like) you to,
-    i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please to,
+    i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please [~comma] to,
     (find|work out|figure out|think of|come [up] with) (a|some|any) way (to|of),
     (work|figure|find) out how to,
     (find|make|devise|work out|think of|come [up] with) a [suitable|good] (plan|strategy) (to|for),
@@ -137,7 +137,7 @@ FRAMES = f"""
     us(e|ing) [only|just] {THE_ONE_HAND} to,
     (get|use|ask|tell|instruct|(i|we) (want|need|would like|d like)) ({THE_ROBOT}) to,
     [it is] ({THE_ROBOT}) 's (task|goal|job) [is] to, the (task|goal|job) of ({THE_ROBOT}) is to,
-    be sure to, remember to, (do not|don t) forget to,
+    be sure to, remember to, (do not|don t) forget [to],
     [would|do] you mind [terribly|awfully] [to], mind,
     (how|what) about [[if] you], why do not you,
     (let (me|us)|(i|we) (want|would (like|love)) to|(may|can|could) (i|we)) (see|watch) you,

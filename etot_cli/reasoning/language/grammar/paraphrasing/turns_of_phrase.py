@@ -10,6 +10,10 @@ from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 from etot_cli.world.colors import BASIC_COLORS
 
 _COLOR = "|".join(BASIC_COLORS)
+_PREPOSITIONS = "on|in|into|onto|to|next|beside|behind|from|at|near|under|between|with|inside|out"
+_COLORS = rf"(?:{_COLOR})(?:(?:,| or| and) (?:{_COLOR}))*"
+_NO_NOUN = rf"(?! (?!(?:{_PREPOSITIONS}|and|or|goes|go|belongs?|should|must|is|are)\b)\w)"
+"""What a colour is said of has been named before."""
 _END = r"(?=[.,;!?]|$)"
 _FINE = r"(?:fine|acceptable|ok|okay|all right|alright|no problem)"
 _KEPT = r"(?:(?:can |to )?(?:stays?|remains?|is|are|be)(?: (?:left|kept))?)"
@@ -27,9 +31,40 @@ _POSED = r"(?:still )?(?:lying|standing|sitting)"
 _TAKE = r"grasp|grab|grip|grab hold of|take|take hold of|seize|pick up|pick|lift up|lift|get|fetch"
 _LIFT_OR_PUT = r"lift|raise|hold|pick|put|place|set|move|bring|carry|drop|stow|insert|transfer"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
+_CONDITION = "(?:conditions?|states?|positions?|configurations?)"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"\bso long as\b", "as long as"),
+    (
+        rf"(?<!all right )(?<!fine )\bas long as (?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) "
+        rf"(?:is|are) (?:already |still |not )?{_IS_SO}{_END})",
+        "provided that ",
+    ),
+    # "The block of red colour", "the red colour block", "in red colour"
+    (
+        rf"\b(?:which|that) (is|are)( not)? (?:of|in) (?:a |the )?(?:colou?r )?({_COLORS})"
+        rf"(?: colou?rs?)?{_NO_NOUN}",
+        r"that \1\2 \3",
+    ),
+    (
+        rf"\b(?:of|in|with) (?:an? |the )?(?:colou?r (?P<behind>{_COLORS})"
+        rf"|(?P<before>{_COLORS}) colou?rs?){_NO_NOUN}",
+        lambda said: f"that is {said['behind'] or said['before']}",
+    ),
+    (rf"\b({_COLOR}) colou?r (?=(?!and\b|or\b)\w)", r"\1 "),
+    # "Keep the drawer in closed position", "bring it into an open position"
+    (
+        rf"\b(?:bring|get|move|set|put|return) ({NAMED} (?:\w+ ){{1,3}}?)"
+        rf"(?:back )?(?:in|into|to) (?:an? |the |its )?(?:fully |completely )?({_IS_SO})"
+        rf" {_CONDITION}\b",
+        r"make sure that \1is \2",
+    ),
+    (
+        rf"\b(?:in|into|to) (?:an? |the |its |their )?(?:fully |completely )?({_IS_SO})"
+        rf" {_CONDITION}\b",
+        r"\1",
+    ),
     # "Grasp and lift the cup", "take and put the cup on the tray": the second verb says it all
     (
         rf"\b(?:{_TAKE}) and (?:then )?(?=(?:{_LIFT_OR_PUT}) (?:up )?{NAMED})",

@@ -55,6 +55,8 @@ _MARK = Expression(
     rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{_PLACES}) )"
     rf")(?:[\s,]*\b(?:no|sorry|wait|actually|{_AGAIN})\b)*[\s,.!?;]*"
 )
+_MEANT = Expression(r",? i mean(?:t|t to say)?(?=[.!?;]*$)")
+"""At the very end it says again what an earlier word said ("no, in the box, I mean")."""
 _ALL_OF_IT = Expression(r"\b(?:never mind|forget|scratch that|on second thoughts?)\b")
 """What takes back a whole clause, whatever comes in its place."""
 _PRONOUNS = word_set("it them that this those these one there")
@@ -100,6 +102,7 @@ def _of_the_same(text: str, mark: re.Match[str]) -> bool:
 
 def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     """All ways to understand what is taken back; none where more than one thing is."""
+    text = _MEANT.sub("", text) if _MEANT.search(text, mark.end()) else text
     if _MARK.search(text, mark.end()) or mark.end() == len(text):
         return
     before, after = (
