@@ -14,7 +14,7 @@ from etot_cli.control.controller import run_motion
 from etot_cli.control.physics_world import PhysicsWorld
 from etot_cli.control.robot import Guards, RobotState
 from etot_cli.control.simulated_robot import SimulatedRobot
-from etot_cli.errors import WorldError
+from etot_cli.errors import ServiceError, WorldError
 from etot_cli.execution.observation import Mark, Observation
 from etot_cli.execution.world import away
 from etot_cli.skills.belief import Belief, build_twin
@@ -178,7 +178,9 @@ class BelievedTwin:
             if sighting.mark is Mark.LOST:
                 pose[:3] = away(rank)
         if missing:
-            raise WorldError(f"the look says nothing of {', '.join(missing)}")
+            raise ServiceError(
+                f"the first look says nothing of {', '.join(missing)}; expected every object"
+            )
         mujoco.mj_forward(world.model, data)
 
     def _place_fastened(self, observation: Observation) -> None:
