@@ -150,7 +150,7 @@ HELPING_NOUNS = word_set(
     lever tube pack set kit bundle roll dispenser machine clip case cover cap lid stopper plug hook
     peg hanger strap cord lace charger cable key ring bell end stop board mat rest shade stick stump
     brush knife fork spoon scoop ladle spatula whisk tongs scissors press mill grinder grater
-    opener peeler slicer cutter corer sharpener punch roller timer remover cleaner shaker
+    opener peeler slicer cutter corer sharpener punch roller timer remover cleaner shaker pad
     """
 )
 """What holds, covers, cleans, cuts or serves what stands before it ("paper clip")."""

@@ -59,7 +59,7 @@ what is called so from others, but names nothing where the noun is for it."""
 
 
 SHAPES = frozenset({"block", "cube", "ball", "sphere", "cylinder", "square", "triangle", "star"})
-PORTIONS = frozenset({"roll", "pack", "bundle", "stick", "bar", "sheet", "bag", "reel", "spool"})
+PORTIONS = frozenset({"roll", "pack", "bundle", "bar", "sheet", "bag", "reel", "spool"})
 """Nouns for so much of what stands before them, which is what the thing is."""
 PIECES = word_set(
     "piece slice loaf chunk lump wedge hunk block cube ball head bunch clove ear bulb deck"
