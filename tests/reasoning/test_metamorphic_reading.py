@@ -48,6 +48,21 @@ def meaning(text: str, scene: SceneState, vocabulary: Vocabulary | None = None) 
         return None
 
 
+def is_as_it_stands(
+    found: str | None, name: str, text: str, change: Callable[[str], str] = str
+) -> bool:
+    """Whether something is read as a sentence of the corpus, but for a change of the goal.
+
+    What that is read as is known from the corpus, which other tests hold the reader against; it is
+    read anew where that is not what was found, which may be because it is read only beside an aside
+    or without what is taken back: :func:`meaning` knows nothing of these.
+    """
+    if found == change(CORPUS[name]["read"][text].split(" | ")[0]):
+        return True
+    plain = meaning(text, SCENES[name])
+    return found == (plain and change(plain))
+
+
 def sample(step: int, start: int = 0) -> list[tuple[str, str]]:
     return READ[start::step]
 
@@ -63,7 +78,7 @@ def test_a_word_that_nobody_knows_is_never_read_over(name: str, text: str) -> No
     understood = meaning(strange, SCENES[name])
     if REMARK.match(strange):
         # Why something is wanted of it may be told in any words: it asks for nothing more.
-        assert understood in (None, meaning(text, SCENES[name]))
+        assert understood is None or is_as_it_stands(understood, name, text)
     else:
         assert understood is None
 
@@ -86,27 +101,27 @@ def test_a_denial_is_never_read_over(name: str, text: str, word: str) -> None:
         return  # "what is on the red, not book", "the trash, not can" are something else
     denied = " ".join([*words[:where], word, *words[where:]])
     understood = meaning(denied, SCENES[name])
-    assert understood is None or understood != meaning(text, SCENES[name])
+    assert understood is None or not is_as_it_stands(understood, name, text)
 
 
 @pytest.mark.parametrize(("name", "text"), sample(44))
 def test_politeness_changes_nothing(name: str, text: str) -> None:
-    plain = meaning(text, SCENES[name])
     framed = r"(?i)(i |i'\w+ |since |can |could|would|the |my |there\b|some(one|body|thing) |"
     framed += r"(you )?see |"
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
     framed += r"which |it is |when i |end with |as for |with |now |on the |if |unless |is |are |"
+    framed += r"should there |in the \w+ you |"
     framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |do not |"
     framed += r"\w+ (nothing|neither) |\w+ things, |"
     framed += r"no \w+ may |somewhere |\w+ (can|may) be |"
     framed += r"(\w+ ){0,4}\w+: |right, |\w+, \w+\. |for each |whatever |how about |.*\benough\b)"
     if re.match(framed, text):
         return  # it has a frame of its own
-    if meaning(f"Could you put {text[0].lower() + text[1:]}", SCENES[name]) == plain:
-        return  # it has no verb that could be asked for
     head = text[0].lower() + text[1:]
-    assert meaning(f"Please {head}", SCENES[name]) == plain
-    assert meaning(f"Could you {head}", SCENES[name]) == plain
+    if is_as_it_stands(meaning(f"Could you put {head}", SCENES[name]), name, text):
+        return  # it has no verb that could be asked for
+    for polite in (f"Please {head}", f"Could you {head}"):
+        assert is_as_it_stands(meaning(polite, SCENES[name]), name, text)
 
 
 # -- scenes that are changed -----------------------------------------------------------------------
@@ -184,27 +199,21 @@ def test_most_sentences_with_sides_are_read_as_they_stand() -> None:
 
 @pytest.mark.parametrize(("name", "text"), SIDED)
 def test_mirroring_the_scene_exchanges_left_and_right(name: str, text: str) -> None:
-    plain = meaning(text, SCENES[name])
-    if plain is None:
-        return  # only beside an aside, or where something is taken back
     mirrored = stretched(SCENES[name], lambda x, y: (x, -y))
-    assert meaning(exchanged(text), mirrored) == exchanged(plain)
+    assert is_as_it_stands(meaning(exchanged(text), mirrored), name, text, exchanged)
 
 
 @pytest.mark.parametrize(("name", "text"), SIDED)
 def test_the_other_way_round_everything_is_seen_the_other_way_round(name: str, text: str) -> None:
     """Turning the viewer and all things with it by half a turn changes nothing."""
     scene = SCENES[name]
-    plain = meaning(text, scene)
-    if plain is None:
-        return  # only beside an aside, or where something is taken back
     turned = stretched(scene, lambda x, y: (-x, -y))
     turned = replace(turned, forward=(-scene.forward[0], -scene.forward[1]))
-    assert meaning(text, turned) == plain
+    assert is_as_it_stands(meaning(text, turned), name, text)
     # Turning the viewer alone exchanges left and right, as long as front and back do not matter.
     if not re.search(r"(?i)front|back|behind|middle", text):
         behind = replace(scene, forward=turned.forward)
-        assert meaning(exchanged(text), behind) == exchanged(plain)
+        assert is_as_it_stands(meaning(exchanged(text), behind), name, text, exchanged)
 
 
 @pytest.mark.parametrize(("name", "text"), sample(24))
@@ -223,8 +232,9 @@ def test_a_thing_that_fits_no_word_changes_nothing(name: str, text: str) -> None
         states={**scene.states, info.name: state},
     )
     # A place that is to be left alone is closed to the new thing, too.
-    barred = re.sub(r"(never (?:on|in) [^;|]*), quagga\b", r"\1", meaning(text, wider) or "")
-    assert barred == (meaning(text, scene) or "")
+    found = meaning(text, wider)
+    barred = found and re.sub(r"(never (?:on|in) [^;|]*), quagga\b", r"\1", found)
+    assert is_as_it_stands(barred, name, text)
 
 
 @pytest.mark.parametrize(("name", "text"), sample(24, 2))
@@ -237,14 +247,13 @@ def test_the_order_of_things_in_the_scene_file_changes_nothing(name: str, text: 
         states={item: scene.states[item] for item in names},
     )
 
-    def parts(said: str | None) -> list[str]:
-        return sorted(re.findall(r"[\w.]+", said or ""))
+    def parts(said: str) -> str:
+        return " ".join(sorted({*re.findall(r"[\w.]+", said)}))
 
     if re.search(r"(?i)stack|tower|pile|each other|side by side", text):
         return  # of equals the first in the file is the lowest, or the one that moves
     found = meaning(text, turned)
-    assert (found is None) == (meaning(text, scene) is None)
-    assert sorted(set(parts(found))) == sorted(set(parts(meaning(text, scene))))
+    assert is_as_it_stands(found and parts(found), name, text, parts)
 
 
 @pytest.mark.parametrize(

@@ -37,9 +37,11 @@ _STAYS = {"it": "it stays", "them": "they stay"}
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\bso long as\b", "as long as"),
     (
-        rf"(?<!all right )(?<!fine )\bas long as (?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) "
-        rf"(?:is|are) (?:already |still |not )?{_IS_SO}{_END})",
-        "provided that ",
+        rf"(\b(?:any|an?|some|one|either|whichever)\b[^.;!?]*)?"
+        rf"(?<=[\w,] )(?<!all right )(?<!fine )\bas long as "
+        rf"(?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) (?:is|are) (?:already |still |not )?"
+        rf"{_IS_SO}{_END})",
+        lambda said: said[0] if said[1] else "provided that ",  # else it tells which of them
     ),
     # "The block of red colour", "the red colour block", "in red colour"
     (
@@ -61,7 +63,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"make sure that \1is \2",
     ),
     (
-        rf"\b(?:in|into|to) (?:an? |the |its |their )?(?:fully |completely )?({_IS_SO})"
+        rf"(?<!state )(?<!position )\b(?:in|into|to) (?:an? |the |its |their )?"
+        rf"(?:fully |completely )?({_IS_SO})"
         rf" {_CONDITION}\b",
         r"\1",
     ),

@@ -299,7 +299,9 @@ def _match_in(
     if len(exactly) == 1 and len(called) > 1:
         every = tuple(entry for entry, _ in sifted.graded)
         named = tuple((word, every) for word in adjectives if is_selecting(word))
-        return Match((exactly[0][0],), named=named, whole=True)
+        (entry, _), said = exactly[0], " ".join(called)
+        notes = () if entry.is_called(called) else (f"read {said!r} as {names_of([entry])}",)
+        return Match((entry,), named=named, whole=True, notes=notes)
     if number is not None:
         sifted.graded = [item for item in sifted.graded if number in item[0].numbers]
     if not any(word in COMPOUNDS.get(singular(head), ()) for word in adjectives):
