@@ -8,7 +8,7 @@ WORKERS ?= 2
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
-.PHONY: demo test test-fast lint format docs figures schemas bench bench-paper bench-random calibrate check-tasks check-random check-execute check-reconstruct soak clean
+.PHONY: demo test test-fast lint format docs figures schemas bench bench-paper bench-random calibrate check-tasks check-random check-reading check-execute check-reconstruct soak clean
 
 demo: $(VENV)/.run  ## plan a task and show the plan
 	$(BIN)/etot plan tasks/task5.yaml
@@ -55,6 +55,9 @@ calibrate: $(VENV)/.dev  ## compare the odds that --worlds tells with what then 
 
 check-random: $(VENV)/.dev  ## simulate and plan 160 random problems
 	$(BIN)/python -m tests.measure.check_random
+
+check-reading: $(VENV)/.dev  ## read every sentence of the corpus; the tests read one in two
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal --whole-corpus tests/reasoning
 
 check-execute: $(VENV)/.dev  ## carry all tasks out in closed loop, 20 times each
 	$(BIN)/python -m tests.measure.check_execute

@@ -40,6 +40,11 @@ settings.load_profile("shared machine")
 import_mujoco()
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """What takes longer than a run of all tests may."""
+    parser.addoption("--whole-corpus", action="store_true", help="read all sentences of the corpus")
+
+
 @pytest.hookimpl(trylast=True)
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Where there is little time, the first case of a test stands for all of them.

@@ -27,7 +27,7 @@ from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.world.state import SceneState
 from tests.reasoning import corpus_scenes, scenes
 from tests.reasoning.reading_time import is_in_time
-from tests.reasoning.test_corpus import CORPUS, told
+from tests.reasoning.test_corpus import CORPUS, sampled, told
 
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
 READ = [(name, text) for name, found in CORPUS.items() for text in found["read"]]
@@ -63,8 +63,8 @@ def is_as_it_stands(
     return found == (plain and change(plain))
 
 
-def sample(step: int, start: int = 0) -> list[tuple[str, str]]:
-    return READ[start::step]
+def sample(one_in: int, at: int = 0) -> list[tuple[str, str]]:
+    return [(name, text) for name, text in READ if sampled(text, one_in, at)]
 
 
 # -- words that are added --------------------------------------------------------------------------
