@@ -16,9 +16,7 @@ from tests.reconstruction.random_scenes import SHOWN, random_scene
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize(
-    ("seed", "noisy"), [(0, False), (3, False), (5, False), (1, True), (6, True)]
-)
+@pytest.mark.parametrize(("seed", "noisy"), [(0, False), (1, True), (6, True)])
 def test_every_thing_of_a_random_desk(seed: int, noisy: bool, tmp_path: Path) -> None:
     what = random_scene(seed)
     picture = render(what)
