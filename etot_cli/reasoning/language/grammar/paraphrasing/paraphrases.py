@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.grammar.paraphrasing.forbidding import FORBIDDI
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.paraphrasing.names_and_signs import NAMES_AND_SIGNS
 from etot_cli.reasoning.language.grammar.paraphrasing.obstacles import OBSTACLES
+from etot_cli.reasoning.language.grammar.paraphrasing.other_tongues import OTHER_TONGUES
 from etot_cli.reasoning.language.grammar.paraphrasing.placements import PLACEMENTS
 from etot_cli.reasoning.language.grammar.paraphrasing.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.paraphrasing.said_again import SAID_AGAIN
@@ -75,6 +76,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1put ",
     ),
     *CONTRACTIONS,
+    *OTHER_TONGUES,
     *YOU_DO,
     *FORBIDDING,
     *CONTRASTS,

@@ -55,7 +55,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     (
         rf"(?<!all right )(?<!fine )\bas long as (?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) "
-        rf"(?:is|are) (?:already |still |not )?{_IS_SO}{_END})",
+        rf"(?:is|are) (?:already |still |not )?{_IS_SO}{_END}"
+        r"(?!, (?:please )?(?:leave|keep|hold|wait|do not)\b))",
         "provided that ",
     ),
     # "The block of red colour", "the red colour block", "in red colour"
@@ -78,8 +79,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"make sure that \1is \2",
     ),
     (
-        rf"\b(?:in|into|to) (?:an? |the |its |their )?(?:fully |completely )?({_IS_SO})"
-        rf" {_CONDITION}\b",
+        rf"(?<!position )(?<!state )\b(?:in|into|to) (?:an? |the |its |their )?"
+        rf"(?:fully |completely )?({_IS_SO}) {_CONDITION}\b",
         r"\1",
     ),
     # "Grasp and lift the cup", "take and put the cup on the tray": the second verb says it all

@@ -1,0 +1,121 @@
+"""What is asked for in the words and the word order of other tongues ("put me the cup there", "the
+left one you let where it is", "the door from the box"), where that can mean but one thing.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.grammar.paraphrasing.you_do import DO_OR_DID
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.small_words import NAMED
+
+_NOUN = r"(?!(?:you|i|we|it|that|which|is|are|in|on|from|to|of|and|or|where|as)\b)\w+"
+_THING = rf"(?:(?:{NAMED} )?{_NOUN}(?: {_NOUN}){{0,3}}?)"
+_END = r"(?=[.,;:!?]|$| (?:and|but)\b)"
+_MUST = r"(?:must|should|shall|has to|needs to|have to|need to|is to|are to)"
+_PUT = "put|place|set|lay|store|stow|keep|bring|insert|drop|transfer"
+_DONE = r"(?:that|this) (?:is|has been) (?:done|finished|completed?)"
+
+
+def _stay(said: re.Match[str]) -> str:
+    """What is let stand where it is by now."""
+    several = said["what"] == "them" or said["what"].endswith("s")
+    return f"leave {said['what']} where {'they are' if several else 'it is'}"
+
+
+OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    (rf"\b(put|place|set|lay|stand|open|close|shut) me (?={NAMED})", r"\1 "),
+    (r"\b(i|we) (?:am|are) (want|need)ing (?=\w)", r"\1 \2 "),
+    (r"(^|[.;!] )you please (?=\w)", r"\1please "),
+    (r"\b(if you )will (?=(?:please )?\w+ (?:the|my|it|them|both|all)\b)", r"\1would "),
+    (
+        rf"(^|[.;!] )((?:the|my) {_NOUN}(?: {_NOUN})?),? it (?={_MUST}\b|goes\b|belongs\b)"
+        rf"(?![^.,;:!?]*\b(?:in|into|on|onto|from|to|beside) (?:is|are|was|has|goes|{_MUST})\b)",
+        r"\1\2 ",
+    ),
+    (rf"\b({_MUST}(?: not)?) to (?=be\b)", r"\1 "),
+    (r"\bmake (?:it )?so,? that\b", "make sure that"),
+    (
+        rf"\b(make (?:sure )?that {_THING} )(open|close)s?{_END}",
+        lambda said: f"{said[1]}is {said[2].replace('close', 'closed')}",
+    ),
+    (r"(^|[.;!] )(?:(?:please|kindly|to),? )*do the needful(?:,? and\b|[:,.;]) ?(?=\w)", r"\1"),
+    (r"\bexcept of\b", "except"),
+    (r"\bapart of (?=the\b)", "apart from "),
+    (r"\bthe both\b(?= \w)", "both"),
+    (rf"\bmore (?:near|close)(?: to)? (?={NAMED})", "closer to "),
+    (rf"\bthere where (?={NAMED}|it\b)", "where "),
+    (rf"\bin(?:to)? the table{_END}", "on the table"),
+    # "In the lens tray only": there and nowhere else, which is what is asked for anyway
+    (
+        rf"((?:^|[.;!,:] |\b(?:and|then) )(?:(?:please|kindly),? )*(?:(?:{_PUT})\b|(?:i|we) (?:want"
+        rf"|need|would like)\b|{NAMED} [^.,;:!?]*\b(?:goes|go|belongs?|{_MUST})\b|both\b|all\b)"
+        r"(?:(?!\b(?:not|no|never|only|an?|any|one|two|three|or|either|when|if)\b)[^.,;:!?])*"
+        rf"\b(?:in|on|into|onto|inside|to)(?: of)? (?!it\b|them\b){_THING}) only(?=[.;!]|$)",
+        r"\1",
+    ),
+    # "It must stay on its place"; "in its place" may be in place of it
+    (
+        r"\b((?:(?:stays?|remains?)\b[^.,;:!?]*? (?:(?:on|at) its|(?:on|at|in) their)"
+        rf"|(?:leave|let)\b[^.,;:!?]*? (?:on|at) (?:its|their))) places?{_END}",
+        lambda said: (
+            f"{said[1].rsplit(' ', 2)[0]} where {'it is' if 'its' in said[1] else 'they are'}"
+        ),
+    ),
+    # "The models you let stand", "let the models stand"
+    (r"\byou let (?=(?:where|as) (?:it|they)\b|alone\b|untouched\b)", "you leave "),
+    (rf"\b(?P<what>{NAMED} {_THING}) you let (?:stand|lie|be){_END}", _stay),
+    (rf"\blet (?P<what>it|them|{NAMED} {_THING}) (?:stand|lie){_END}", _stay),
+    # "The two filters of the right side", "the drawer of the middle"
+    (
+        r"(?<!\btop )(?<!edge )(?<!corner )(?<!end )(?<!middle )(?<!half )(?<!part )(?<!front )"
+        r"\bof the (left|right) side(?! of\b)",
+        r"on the \1",
+    ),
+    (
+        r"\bthe (drawers?|boards?|shelf|compartment) of the (middle|top|bottom)(?! \w+ of\b)"
+        rf"{_END[:-1]}|(?= (?:is|are|in|on|{_MUST})\b))",
+        r"the \2 \1",
+    ),
+    (
+        r"\b((?:open|close|shut)(?: please)? the (?:\w+ )?(?:door|drawer)s? )from (?=(?:the|my) "
+        r"(?!left|right|top|bottom|front|back|side|inside|outside|above|middle|other)\w)",
+        r"\1of ",
+    ),
+    # "Where already is the tube"
+    (
+        rf"(?<=[\w,]) where (?:(?:already|now) (?:is|are|lies?|stands?)|(is|are|lies?|stands?)"
+        rf"(?: already| now)?) ((?:the|my) {_THING})(?=[.,;!]|$)",
+        r" where \2 is",
+    ),
+    # "Put there also the cup"
+    (
+        rf"\b(?:(?<=\bso )you )?({_PUT}) (there|inside|in it|on it|in there) also "
+        rf"({NAMED} {_THING})(?=[.,;!]|$)",
+        r"\1 \3 \2 too",
+    ),
+    # "From the two models, the white one you put it in the drawer"
+    (r"(^|[.;!] )from (?=(?:(?:all|both) )?(?:the|these|those) (?:\w+ ){1,3}?\w+s, )", r"\1of "),
+    (
+        rf"(^|[.;!,] |\band )({NAMED} {_THING}),? you (?:{_MUST} )?({DO_OR_DID}) (?:it|them) "
+        r"(?=[^.,;:!?]*(?:[.!]|$|, (?:where|and|but|then)\b))",
+        r"\1\3 \2 ",
+    ),
+    (
+        rf"(^|[.;!,] |\b(?:and|but) )({NAMED} {_THING}),? please (?:do )?not (?:to )?"
+        r"(move|touch|open|close|shut)(?=[.;!]|$)",
+        r"\1do not \3 \2",
+    ),
+    (r"\bcomes? (together (?:in|on|into|onto) )", r"go \1"),
+    # "Only when that is done may the cup be put in it"; "do not touch it during this"
+    (rf"\bonly (?:when|once|if|after) {_DONE},?", "only then"),
+    (
+        r"\b((?:do not|never|must not|may not|should not)\b[^.;:!?]*?),? (?:during this|in the "
+        r"meantime|meanwhile|thereby)(?=[.,;!]|$)",
+        r"\1 while doing this",
+    ),
+    (r"((?:[.;!]|\b(?:and|but)) )(?:meanwhile|in the meantime|during this),? (?=do not )", r"\1"),
+)
+"""In order."""
