@@ -30,6 +30,7 @@ WITHOUT_MEANING = f"""
     [pretty] please, kindly, ta,
     ~comma there is a ((good|dear|clever) (boy|girl|lad|lass|chap|robot)|dear|love|darling),
     [very|really] (carefully|gently|safely|cautiously),
+    as (carefully|gently|safely|cautiously|neatly) as (you can|possible),
     while you are (at|about) it,
     also, too, as well, just, simply, now, though, of course, obviously, naturally, evidently,
     needless to say, somehow [or other], in some way [or other], one way or another,

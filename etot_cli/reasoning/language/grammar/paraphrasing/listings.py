@@ -197,9 +197,10 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
     ),
     # "I need the pens sorted as follows: …", "sort the pens as follows: …"
     (
-        rf"(^|[.;!] )({ASKED})(?:(?:i|we) (?:want|need|would like)(?: to have)? ({NAMED} [^.,;:]*?)"
-        rf" (?:to be )?{_SORTED}|{_SORT} ({NAMED} [^.,;:]*?)|({NAMED} [^.,;:]*?) (?:are|is|must|should"
-        rf"|have|has)(?: to)?(?: be)? {_SORTED}),? {_LIKE_THIS}[:,] ",
+        rf"(^|[.;!] )({ASKED})(?:(?:i|we) (?:want|need|would like)(?: to have)? "
+        rf"({NAMED} [^.,;:]*?)"
+        rf" (?:to be )?{_SORTED}|{_SORT} ({NAMED} [^.,;:]*?)|({NAMED} [^.,;:]*?) (?:are|is|must"
+        rf"|should|have|has)(?: to)?(?: be)? {_SORTED}),? {_LIKE_THIS}[:,] ",
         lambda said: f"{said[1]}{said[2]}sort {said[3] or said[4] or said[5]}: ",
     ),
     (_ROWS, _row_by_row),

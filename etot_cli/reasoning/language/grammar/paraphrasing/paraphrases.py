@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.paraphrasing.other_tongues import OTHER
 from etot_cli.reasoning.language.grammar.paraphrasing.placements import PLACEMENTS
 from etot_cli.reasoning.language.grammar.paraphrasing.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.paraphrasing.said_again import SAID_AGAIN
+from etot_cli.reasoning.language.grammar.paraphrasing.told_by_others import TOLD_BY_OTHERS
 from etot_cli.reasoning.language.grammar.paraphrasing.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.grammar.paraphrasing.you_do import YOU_DO
 from etot_cli.reasoning.language.grammar.text.contractions import CONTRACTIONS
@@ -89,6 +90,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     *PLACEMENTS,
     *GOING,
     *SAID_AGAIN,
+    *TOLD_BY_OTHERS,
     (_WISHED, _as_asked),
     (
         r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood"
