@@ -16,6 +16,12 @@ _THING = rf"(?:(?:{NAMED} )?{_NOUN}(?: {_NOUN}){{0,3}}?)"
 _END = r"(?=[.,;:!?]|$| (?:and|but)\b)"
 _MUST = r"(?:must|should|shall|has to|needs to|have to|need to|is to|are to)"
 _PUT = "put|place|set|lay|store|stow|keep|bring|insert|drop|transfer"
+_MOST = {
+    "big": "biggest", "large": "biggest", "small": "smallest", "little": "smallest",
+    "tall": "tallest", "short": "shortest", "long": "longest", "wide": "widest", "low": "lowest",
+    "high": "highest", "near": "nearest", "close": "nearest", "far": "farthest",
+    "heavy": "heaviest",
+}  # fmt: skip
 _DONE = r"(?:that|this) (?:is|has been) (?:done|finished|completed?)"
 
 
@@ -23,6 +29,19 @@ def _stay(said: re.Match[str]) -> str:
     """What is let stand where it is by now."""
     several = said["what"] == "them" or said["what"].endswith("s")
     return f"leave {said['what']} where {'they are' if several else 'it is'}"
+
+
+def _to_be_done(said: re.Match[str]) -> str:
+    """What is "to put" somewhere is to be put there, unless it is the robot that puts."""
+    done = {"place": "placed", "store": "stored", "keep": "kept"}.get(said[3], said[3])
+    robot = re.search(r"\b(?:robot|arm|gripper|hand)\b", said[2])
+    return said[0] if robot else f"{said[1]}{said[2]} be {done} "
+
+
+def _please(said: re.Match[str]) -> str:
+    """What is asked for, or not, by the last word."""
+    verb = said[0].split()[-1]
+    return f"{said[1]}{'do not ' if said[3] else ''}{verb} {said[2]}"
 
 
 OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
@@ -35,7 +54,44 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         rf"(?![^.,;:!?]*\b(?:in|into|on|onto|from|to|beside) (?:is|are|was|has|goes|{_MUST})\b)",
         r"\1\2 ",
     ),
-    (rf"\b({_MUST}(?: not)?) to (?=be\b)", r"\1 "),
+    (rf"\b({_MUST}(?: not)?) to (?=(?:be|go|come|stand|stay|lie)\b)", r"\1 "),
+    # "The red tube is to put in the rack", "it must be closed the drawer"
+    (
+        rf"(^|[.;!,] |\band )((?:{NAMED} )?{_THING} (?:{_MUST})) (put|place|store|keep) "
+        r"(?=(?:in|on|into|onto|inside|next|beside|behind)\b)",
+        _to_be_done,
+    ),
+    (
+        rf"(^|[.;!] )it ({_MUST}) be (closed|shut|opened|put|placed|moved) "
+        rf"({NAMED} (?:(?!time\b|while\b|day\b|way\b|moment\b){_NOUN} ?\b){{1,3}}?)"
+        r"((?: (?:in|on|into|onto|inside) [^.,;:!?]*)?)(?=[.,;!]|$)",
+        r"\1\4 \2 be \3\5",
+    ),
+    # "The big one, not the more small", "today itself", "may kindly be put", "…, isn't it?"
+    (rf"\bthe (?:more|most) ({'|'.join(_MOST)})\b", lambda said: f"the {_MOST[said[1]]}"),
+    (r"\b(?:today|now) itself\b", "now"),
+    (r"\b(may|should|must|shall|to) kindly (?=\w)", r"\1 "),
+    (r",? (?:is it not|is not it|no|na)(?= ?\?$)", ""),
+    # "Take it and put the same there", "close it and after open the other", "in the inside of it"
+    (
+        rf"\b((?:and|then) (?:(?:then|please|kindly) )*{DO_OR_DID}) the same"
+        r"(?= (?:in|on|into|onto|inside|next|beside)\b|[.,;!]|$)",
+        r"\1 it",
+    ),
+    (rf"\b(and|then) after,? (?={DO_OR_DID} (?:{NAMED}|it\b|them\b))", r"\1 then "),
+    (rf"(?<!access )\b(?:in|into|to) the (?:inside|interior) of (?={NAMED})", "inside "),
+    (
+        rf"\b(take|get|bring|pull|fetch) (out|away|off|down) (?:of|from|from out of) "
+        rf"({NAMED} {_THING}) ({NAMED} {_THING})(?=[.,;!]|$)",
+        r"\1 \2 \4 from \3",
+    ),
+    (
+        rf"\bmake (?:(open|closed|shut) ({NAMED} {_THING})|({NAMED} {_THING}) (open|close|shut))"
+        r"(?=[.,;!]|$)",
+        lambda said: (
+            f"make sure that {said[2]} is {said[1]}" if said[1] else f"{said[4]} {said[3]}"
+        ),
+    ),
     (r"\bmake (?:it )?so,? that\b", "make sure that"),
     (
         rf"\b(make (?:sure )?that {_THING} )(open|close)s?{_END}",
@@ -104,9 +160,9 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         r"\1\3 \2 ",
     ),
     (
-        rf"(^|[.;!,] |\b(?:and|but) )({NAMED} {_THING}),? please (?:do )?not (?:to )?"
-        r"(move|touch|open|close|shut)(?=[.;!]|$)",
-        r"\1do not \3 \2",
+        rf"(^|[.;!,] |\b(?:and|but) )({NAMED} {_THING}),? please (?:do )?(?:(not )|to )?"
+        r"(?(3)(?:to )?(?:move|touch|open|close|shut)|(?:open|close|shut))(?=[.;!]|$)",
+        _please,
     ),
     (r"\bcomes? (together (?:in|on|into|onto) )", r"go \1"),
     # "Only when that is done may the cup be put in it"; "do not touch it during this"
