@@ -54,8 +54,9 @@ _TABLE_SET = Expression(
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last end then do t "
-    "forbidden prohibited banned unwanted undesired avoid wrong bad current currently initial original "
-    "initially starting present previous old so far example optional maybe perhaps alternatively "
+    "forbidden prohibited banned unwanted undesired avoid wrong bad current currently "
+    "initial original initially starting present previous old so far example "
+    "optional maybe perhaps alternatively "
     "go goes belong belongs stay stays remain remains reverse reversed cancel cancelled canceled "
     "undo void rejected completed finished done"
 )
@@ -184,10 +185,12 @@ def _from_start(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> 
             if told.is_condition:
                 raise ReferenceProblem(sentence, "that is not so, and may be what all hangs on", 4)
             notes.append(f"not so at the start: {sentence}")
+        elif told.is_condition:
+            notes.append(f"{sentence!r}: that is so")
     try:
         goal = read_plainly(normalized(told.asked), scene, vocabulary)
     except ReferenceProblem:
-        if notes:
+        if notes and not told.is_condition:
             raise
         # "Start: the pen is in the top drawer. Goal: it is in the lower one, both drawers closed"
         goal = read_plainly(". ".join((*start, normalized(told.asked))), scene, vocabulary)

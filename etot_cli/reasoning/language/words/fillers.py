@@ -142,7 +142,7 @@ SO_LONG = """
 REMARKS = f"""
     (has|have) been (in|out|up|down|on|over|) (here|there) ({SO_LONG}),
     (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
-    (dirty|clean|expired|damaged|defective|contaminated|faulty|outdated|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
+    (dirty|clean|expired|damaged|defective|faulty|outdated|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
     (is|are) not (needed|wanted|used) [anymore|any more|any longer],
     (is|are|stands|lies) in (my|the) way [here|there], (is|are) [still] put away,
     (has|have|needs|need) to (move|go),

@@ -305,7 +305,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     # "In either bowl as long as it is empty": in one that is
     (
         r"\b((?:either|any|one)(?: of (?:the|my|those|these))?(?: \w+){0,2}? (\w+?)s?),? "
-        r"(?:as|so) long as (?:(?:(?:the|that) \2|it|that one) is (?:still )?(?:empty|free)"
+        r"(?:(?:as|so) long as|provided that) "
+        r"(?:(?:(?:the|that) \2|it|that one) is (?:still )?(?:empty|free)"
         r"|(?:there is )?nothing (?:else )?(?:is )?(?:already )?in (?:it|there)(?: yet| already)?)"
         r"(?=[.,;!?]|$)",
         r"\1 that is empty",
