@@ -45,6 +45,7 @@ from etot_cli.world.state import SceneState
 
 _HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
 _POLITE = Expression(rf"^(?:kindly )?{ASKED}(?:kindly )?")
+_AS_FOLLOWS = Expression(r",? as follows\s*$", re.IGNORECASE)
 _TABLE_SET = Expression(
     r"((?:please )?(?:set|lay) the table(?: for [^,.:;!?\n]+)?)[,.]\s+(\S.*)",
     re.IGNORECASE | re.DOTALL,
@@ -53,8 +54,9 @@ _TABLE_SET = Expression(
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last end then do t "
-    "forbidden prohibited banned unwanted undesired avoid wrong bad current currently initial "
-    "initially starting present previous old so far example optional maybe perhaps alternatively "
+    "forbidden prohibited banned unwanted undesired avoid wrong bad current currently "
+    "initial original initially starting present previous old so far example "
+    "optional maybe perhaps alternatively "
     "go goes belong belongs stay stays remain remains reverse reversed cancel cancelled canceled "
     "undo void rejected completed finished done"
 )
@@ -75,7 +77,7 @@ _CODE = r"[a-z]{1,12}(?:\.? ?(?:no\.? ?|number |#)?|-)\d[\w./-]*"
 _REFERENCE = Expression(
     r"(?P<before>^\s*|[.!?;\n]\s+)"
     r"(?P<said>(?P<by>(?:as )?per |according to |in accordance with )?"
-    rf"{_CODE}(?:,? {_CODE})*)\s*(?(by)[:,]|:)\s+(?=\w)",
+    rf"{_CODE}(?:,? {_CODE})*)\s*(?(by)[:,]|(?::|,(?=[^,.;:!?\n]+:)))\s+(?=\w)",
     re.IGNORECASE,
 )
 """Which item of a document sentences are ("Item 4.1: …", "Per SOP-014, section 3.2, …")."""
@@ -173,13 +175,25 @@ def _from_start(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> 
     if told is None:
         raise UnreadableError(instruction, "")
     notes: list[str] = []
-    for sentence in sentences_of(normalized(told.start)):
+    start = [*sentences_of(normalized(told.start))]
+    for sentence in start:
         first, *more = sentence.split()
         asks = first in VERB_WORDS | OTHER_VERBS | _ALSO_VERBS
         if asks or {"not", "no", "never", "without"} & {first, *more}:
             raise UnreadableError(sentence, "")  # it asks for, or forbids, something
-        notes += [] if _holds(sentence, scene, vocabulary) else [f"not so at the start: {sentence}"]
-    goal = read_plainly(normalized(told.asked), scene, vocabulary)
+        if not _holds(sentence, scene, vocabulary):
+            if told.is_condition:
+                raise ReferenceProblem(sentence, "that is not so, and may be what all hangs on", 4)
+            notes.append(f"not so at the start: {sentence}")
+        elif told.is_condition:
+            notes.append(f"{sentence!r}: that is so")
+    try:
+        goal = read_plainly(normalized(told.asked), scene, vocabulary)
+    except ReferenceProblem:
+        if notes and not told.is_condition:
+            raise
+        # "Start: the pen is in the top drawer. Goal: it is in the lower one, both drawers closed"
+        goal = read_plainly(". ".join((*start, normalized(told.asked))), scene, vocabulary)
     return replace(goal, notes=(*notes, *goal.notes))
 
 
@@ -206,7 +220,7 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
     """
     said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
-    words = words_in(_POLITE.sub("", normalized(said[1]))) if said else ()
+    words = words_in(_POLITE.sub("", normalized(_AS_FOLLOWS.sub("", said[1])))) if said else ()
     # "A stack of three: …", "the tower on the tray: …", "make a pile: …"
     counted = {*spellings(STACK)} & {*words} and (_BUILT | {*NUMBERS}) & {*words}
     if said is None or not words or counted or _DEPENDING & {*words} or ":" in said[2]:

@@ -10,8 +10,8 @@ from etot_cli.reasoning.language.words.expressions import Expression
 
 _STATE = "(?:state|configuration|situation|set-?up|scene|conditions?|arrangement|layout)"
 _GOAL = (
-    r"(?:the )?(?:[a-z]+ )?(?:goal|desired|target|final|end|task|required|wanted|intended)"
-    rf"(?: {_STATE})?(?: is)?\s*:"
+    r"(?:the )?(?:[a-z]+ )?(?:goal|desired|target|final|end|task|required|wanted|intended|expected"
+    rf"|results?|outcome)(?: (?:{_STATE}|results?|outcome))?(?: is)?\s*:"
 )
 _START = Expression(
     r"(?P<before>^|[.;!\n]\s*)(?:the )?"
@@ -28,6 +28,8 @@ class StartTold(Struct, frozen=True):
 
     start: str
     asked: str
+    is_condition: bool
+    """Whether it may be what all else hangs on ("initial condition: …")."""
 
 
 def without_start(instruction: str) -> StartTold | None:
@@ -40,4 +42,5 @@ def without_start(instruction: str) -> StartTold | None:
     before = instruction[: found.start()] + found["before"]
     if found["goal"] is None and _GOAL_BEFORE.search(before) is None:
         return None
-    return StartTold(found["told"].strip(), before + instruction[found.end() :])
+    asked = before + instruction[found.end() :]
+    return StartTold(found["told"].strip(), asked, "condition" in found[0].casefold())

@@ -30,6 +30,7 @@ WITHOUT_MEANING = f"""
     [pretty] please, kindly, ta,
     ~comma there is a ((good|dear|clever) (boy|girl|lad|lass|chap|robot)|dear|love|darling),
     [very|really] (carefully|gently|safely|cautiously),
+    as (carefully|gently|safely|cautiously|neatly) as (you can|possible),
     while you are (at|about) it,
     also, too, as well, just, simply, now, though, of course, obviously, naturally, evidently,
     needless to say, somehow [or other], in some way [or other], one way or another,
@@ -141,7 +142,7 @@ SO_LONG = """
 REMARKS = f"""
     (has|have) been (in|out|up|down|on|over|) (here|there) ({SO_LONG}),
     (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
-    (dirty|clean|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
+    (dirty|clean|expired|damaged|defective|faulty|outdated|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
     (is|are) not (needed|wanted|used) [anymore|any more|any longer],
     (is|are|stands|lies) in (my|the) way [here|there], (is|are) [still] put away,
     (has|have|needs|need) to (move|go),

@@ -156,6 +156,9 @@ def _gives_a_reason(place: _Place) -> bool:
     said, is_name = place.said, place.is_name
     if re.match("an? ", said) and any(is_name(it) or it in OF_A_CASE for it in said.split()):
         return False  # "as a backup the banana"
+    of_people = is_of_people(said) and not said.startswith("you ")
+    if place.clause.joint == "in case" and any(map(is_name, said.split())) and not of_people:
+        return False  # "in case the box is full, put it on the tray" is a condition
     return (
         is_reason(said, is_name)
         or may_befall(said)

@@ -9,8 +9,10 @@ from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import (
     KIND_NOUNS,
+    LEVELS,
     OPEN_VESSELS,
     THING_NOUNS,
+    is_descriptive,
     singular,
 )
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
@@ -39,7 +41,7 @@ _FROM_STATE = (
 _COMPARED = (
     r"(?:bigger|larger|smaller|taller|shorter|longer|wider|narrower"
     r"|(?:further|farther|more) to the (?:left|right|front|back)"
-    rf"|(?:closer|nearer) to {_ONE})"
+    rf"|(?:closer|nearer) to {_ONE}|(?:still )?(?:empty|free|open|closed|shut))"
 )
 _WISH = Expression(
     r"(?:(?<=^)|(?<=[.;!?,:] )|(?<=\b(?:and|but) ))(?:i|we) (?P<no>do not |would not )?"
@@ -82,6 +84,17 @@ def _as_verb(said: re.Match[str]) -> str:
     wish = said["who"] and f"{said['who']} want you to"
     when = said["when"] and f"{said['when']} you"
     return f"{said['ahead'] or ''}{wish or when or (said['is'] and 'is to') or ''} {verb} ".lstrip()
+
+
+def _whichever(said: re.Match[str]) -> str:
+    """One of two things, told by how it is, each with the noun that may stand with one of them."""
+    one, other, where, so = said.groups()
+    noun, behind = one.split()[-1], other.split()[-1]
+    if behind == "one":
+        other = f"{other.removesuffix('one')}{noun}"
+    elif len(one.split()) == 2 and (is_descriptive(noun) or noun in LEVELS):
+        one = f"{one} {behind}"
+    return f"the one of {one} and {other} that is {so}{where or ''}"
 
 
 def _stays(wish: re.Match[str]) -> str:
@@ -172,7 +185,7 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     (
         rf"(?<!, )\b(?:either )?({_ONE}) or ({_ONE})( (?:in|into|on|onto|inside|to) {_ONE})?, "
         rf"whichever(?: one)? is (?:the )?({_COMPARED})(?:,|(?=[.;!?]|$))",
-        lambda said: f"the one of {said[1]} and {said[2]} that is {said[4]}{said[3] or ''}",
+        _whichever,
     ),
     # A question whose answer is what something is done with
     (

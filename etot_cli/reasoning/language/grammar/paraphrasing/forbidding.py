@@ -175,7 +175,8 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "Circuit board not to be touched", "drawer to be shut afterwards": a verb is left out
     (
-        rf"(^|[.;:!] ?)((?:(?!{_NO_SUBJECT})\w+ ){{1,5}}?)(?:(not to)|to) be "
+        r"(^|[.;:!] ?|(?:^|[.;] )(?:if|once|when|after|before|unless|should)\b[^.,;:!?]*, )"
+        rf"((?:(?!{_NO_SUBJECT})\w+ ){{1,5}}?)(?:(not to)|to) be "
         rf"(?(3)(?=(?:{'|'.join(_DONE_TO)}){_ENDS})|(?=(?:{'|'.join(_ASKED_TO_BE)})\b))",
         lambda said: f"{said[1]}{said[2]}must {'not ' if said[3] else ''}be ",
     ),

@@ -108,8 +108,15 @@ def _left_for_last(said: re.Match[str]) -> str:
     return f"{begun}{rest}, {what} last"
 
 
-_SORTED = r"(?:sort|arrang|distribut|organi[sz]|plac)ed"
-_SORT = r"(?:sort|arrange|distribute|organi[sz]e|place)"
+_LABEL = (
+    rf"(?!(?:{'|'.join(VERB_WORDS)})\b)(?:{NAMED} )?"
+    r"(?:(?!(?:is|are|in|on|to|if|and)\b)[\w-]+)(?: (?!(?:is|are|in|on|to|if|and)\b)[\w-]+){0,3}?"
+)
+"""What something is called that is told on a label."""
+_DASH = "[-\N{EN DASH}\N{EM DASH}]"
+_SPOILT = "(?:expired|damaged|defective|contaminated|broken|faulty|outdated)"
+_SORTED = r"(?:sort|arrang|distribut|organi[sz]|plac|handl|treat|stor)ed"
+_SORT = r"(?:sort|arrange|distribute|organi[sz]e|place|handle|treat|store)"
 _LIKE_THIS = r"(?:as follows|like this|like so|this way|in (?:this|the following) way|as listed)"
 _PART = r"(?:top|upper|middle|lower|bottom) (?:board|shelf|drawer|level|compartment)"
 _ROW = rf"(?:the )?({_PART})(?: ?:| is| ->)? (?:the )?(\w+)(?=[.,;]|$)[.,;]?"
@@ -170,11 +177,31 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"\1make sure that \2. ",
     ),
     (r"\bpost[ -]condition(?=s?:)", "postcondition"),
+    # "White bottle: store in the drawer", "brown vial expired - discard in the bin"
+    (
+        rf"(^|[.;!\n] ?)({_LABEL}) ({_SPOILT})(?=(?: ?[:,;]| {_DASH}) )",
+        r"\1\2 is \3",
+    ),
+    (
+        rf"((?:^|[.;,!\n] ?){_LABEL}(?: is {_SPOILT})?(?: ?[:;]| {_DASH}) ?)"
+        r"(?:store|stow|keep|transfer|move|discard) (?=(?:in|into|on|onto|to|inside|next to) "
+        r"(?!it\b|them\b|there\b))",
+        r"\1put ",
+    ),
+    # "Do the following: open it, close it"
+    (
+        rf"(^|[.;!\n] )({ASKED})(?:do|perform|carry out|execute|proceed|act) (?:(?:exactly )?"
+        r"(?:the following|these)(?: (?:steps|actions|things|operations))?|as follows)"
+        r"(?: in (?:this|the given) order)?[:.] ?(?=\w)",
+        r"\1\2",
+    ),
     # "I need the pens sorted as follows: …", "sort the pens as follows: …"
     (
-        rf"(^|[.;!] )({ASKED})(?:(?:i|we) (?:want|need|would like)(?: to have)? ({NAMED} [^.,;:]*?)"
-        rf" (?:to be )?{_SORTED}|{_SORT} ({NAMED} [^.,;:]*?)),? {_LIKE_THIS}[:,] ",
-        lambda said: f"{said[1]}{said[2]}sort {said[3] or said[4]}: ",
+        rf"(^|[.;!] )({ASKED})(?:(?:i|we) (?:want|need|would like)(?: to have)? "
+        rf"({NAMED} [^.,;:]*?)"
+        rf" (?:to be )?{_SORTED}|{_SORT} ({NAMED} [^.,;:]*?)|({NAMED} [^.,;:]*?) (?:are|is|must"
+        rf"|should|have|has)(?: to)?(?: be)? {_SORTED}),? {_LIKE_THIS}[:,] ",
+        lambda said: f"{said[1]}{said[2]}sort {said[3] or said[4] or said[5]}: ",
     ),
     (_ROWS, _row_by_row),
     (_LAYERS, _layer_by_layer),

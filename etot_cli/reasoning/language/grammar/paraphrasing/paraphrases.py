@@ -15,9 +15,11 @@ from etot_cli.reasoning.language.grammar.paraphrasing.forbidding import FORBIDDI
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED, LISTINGS
 from etot_cli.reasoning.language.grammar.paraphrasing.names_and_signs import NAMES_AND_SIGNS
 from etot_cli.reasoning.language.grammar.paraphrasing.obstacles import OBSTACLES
+from etot_cli.reasoning.language.grammar.paraphrasing.other_tongues import OTHER_TONGUES
 from etot_cli.reasoning.language.grammar.paraphrasing.placements import PLACEMENTS
 from etot_cli.reasoning.language.grammar.paraphrasing.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.paraphrasing.said_again import SAID_AGAIN
+from etot_cli.reasoning.language.grammar.paraphrasing.told_by_others import TOLD_BY_OTHERS
 from etot_cli.reasoning.language.grammar.paraphrasing.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.grammar.paraphrasing.you_do import YOU_DO
 from etot_cli.reasoning.language.grammar.text.contractions import CONTRACTIONS
@@ -75,6 +77,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1put ",
     ),
     *CONTRACTIONS,
+    *OTHER_TONGUES,
     *YOU_DO,
     *FORBIDDING,
     *CONTRASTS,
@@ -87,6 +90,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     *PLACEMENTS,
     *GOING,
     *SAID_AGAIN,
+    *TOLD_BY_OTHERS,
     (_WISHED, _as_asked),
     (
         r"(?<! is)(?<! are)(?<! be),? (?:ok|okay|alright|all right|yeah|deal|understood"
@@ -301,7 +305,8 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     # "In either bowl as long as it is empty": in one that is
     (
         r"\b((?:either|any|one)(?: of (?:the|my|those|these))?(?: \w+){0,2}? (\w+?)s?),? "
-        r"(?:as|so) long as (?:(?:(?:the|that) \2|it|that one) is (?:still )?(?:empty|free)"
+        r"(?:(?:as|so) long as|provided that) "
+        r"(?:(?:(?:the|that) \2|it|that one) is (?:still )?(?:empty|free)"
         r"|(?:there is )?nothing (?:else )?(?:is )?(?:already )?in (?:it|there)(?: yet| already)?)"
         r"(?=[.,;!?]|$)",
         r"\1 that is empty",

@@ -32,15 +32,32 @@ _TAKE = r"grasp|grab|grip|grab hold of|take|take hold of|seize|pick up|pick|lift
 _LIFT_OR_PUT = r"lift|raise|hold|pick|put|place|set|move|bring|carry|drop|stow|insert|transfer"
 _IS_SO = r"(?:(?:wide )?open|closed|shut|empty|ajar)"
 _CONDITION = "(?:conditions?|states?|positions?|configurations?)"
+_CASE = r"(?:in (?:the )?(?:case|event)|(?:on|under) (?:the )?condition)"
 _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\bso long as\b", "as long as"),
+    # "In case that it is open", "if, and only if, it is open"; "that box" may be told by "that"
+    (rf"\b{_CASE} that (?={NAMED}|(?:it|they|there|no|one|neither|nothing|any\w*)\b)", "if "),
+    (rf"\b{_CASE} (?=that \w)", "if "),
+    (r"\b(?:supposing(?: that)?|if,? and only if\b,?|if it is (?:so|true|the case) that) ", "if "),
+    (
+        rf"\bin (?:the )?(?:case|event) of ({NAMED} (?:\w+ ){{1,3}}?)(not )?being (not )?",
+        r"if \1is \2\3",
+    ),
+    # "If the box would be open, …", "if box open, …", as in other tongues
+    (rf"(^|[.;!] )if ([^.,;:]*?) would be (?=(?:\w+ )?{_IS_SO},)", r"\1if \2 is "),
+    (
+        r"(^|[.;!] |\b(?:and|but) )if ((?:the )?(?!(?:the|it|they|that|there|not|already|still|is"
+        r"|possible|needed|necessary|you|i)\b)\w+(?: (?!(?:is|are|not|was|were)\b)\w+)?) "
+        rf"(?={_IS_SO}(?:,| then\b))",
+        r"\1if \2 is ",
+    ),
     (
         rf"(\b(?:any|an?|some|one|either|whichever)\b[^.;!?]*)?"
         rf"(?<=[\w,] )(?<!all right )(?<!fine )\bas long as "
         rf"(?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) (?:is|are) (?:already |still |not )?"
-        rf"{_IS_SO}{_END})",
+        rf"{_IS_SO}{_END}(?!, (?:please )?(?:leave|keep|hold|wait|do not)\b))",
         lambda said: said[0] if said[1] else "provided that ",  # else it tells which of them
     ),
     # "The block of red colour", "the red colour block", "in red colour"
@@ -64,8 +81,7 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     (
         rf"(?<!state )(?<!position )\b(?:in|into|to) (?:an? |the |its |their )?"
-        rf"(?:fully |completely )?({_IS_SO})"
-        rf" {_CONDITION}\b",
+        rf"(?:fully |completely )?({_IS_SO}) {_CONDITION}\b",
         r"\1",
     ),
     # "Grasp and lift the cup", "take and put the cup on the tray": the second verb says it all

@@ -15,7 +15,7 @@ from etot_cli.reasoning.language.words.small_words import NAMED
 from etot_cli.reasoning.language.words.verbs import PAST
 
 _DO = "|".join(sorted({verb.split()[0] for verb in PAST.values()}))
-_DO_OR_DID = rf"(?:{_DO}|put|set|shut|touch)"
+DO_OR_DID = rf"(?:{_DO}|put|set|shut|touch)"
 _PLEASE = "(?:please|pleas|pls|plz|kindly)"
 _TELLS = (
     r"\b(?:goes|go|belongs?|should|must|has|have|had|is|are|was|were|needs?|want|stays?|comes?|did"
@@ -66,9 +66,9 @@ def _asked(said: re.Match[str]) -> str:
 YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "Move please the cup", "take the pen please out of it"
     (
-        rf"(\b(?:{_DO_OR_DID}|empty|belongs?|goes|go|in|into|on|onto)"
+        rf"(\b(?:{DO_OR_DID}|empty|belongs?|goes|go|in|into|on|onto)"
         rf"(?: (?:up|out|down|away|back))?)(?: {_PLEASE}|, {_PLEASE},) (?=\w)"
-        rf"(?!(?:{_DO_OR_DID}|and|but|then|do)\b)",
+        rf"(?!(?:{DO_OR_DID}|and|but|then|do)\b)",
         r"\1 ",
     ),
     (rf"\bdo not {_PLEASE} ", "do not "),
@@ -84,16 +84,16 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
         r"(?=(?:moved|touched|opened|closed|disturbed|lifted|shifted)\b)",
         r"without \1 being ",
     ),
-    (rf"\bfor to (?={_DO_OR_DID}\b)", "to "),
-    (rf"\b(do not|must|should|could|you can) to (?={_DO_OR_DID}\b)", r"\1 "),
-    (rf"\b(before|after) to (?={_DO_OR_DID}\b)", r"\1 you "),
+    (rf"\bfor to (?={DO_OR_DID}\b)", "to "),
+    (rf"\b(do not|must|should|could|you can) to (?={DO_OR_DID}\b)", r"\1 "),
+    (rf"\b(before|after) to (?={DO_OR_DID}\b)", r"\1 you "),
     (
-        rf"(^|[.;!] |\bbut )(?:please )?not (?:to )?(?={_DO_OR_DID} (?:{NAMED}|it\b|them\b))",
+        rf"(^|[.;!] |\bbut )(?:please )?not (?:to )?(?={DO_OR_DID} (?:{NAMED}|it\b|them\b))",
         r"\1do not ",
     ),
     # "To put the pen in the box", and nothing that it is done for
     (
-        rf"(^|[.;!] )to ((?:{_DO_OR_DID})\b[^.,;:!?]*(?:, (?:and |then )+to [^.,;:!?]*)*)"
+        rf"(^|[.;!] )to ((?:{DO_OR_DID})\b[^.,;:!?]*(?:, (?:and |then )+to [^.,;:!?]*)*)"
         r"(?=[.;!]|$)",
         lambda said: said[1] + re.sub(r"\b(and|then) to (?=\w)", r"\1 ", said[2]),
     ),
@@ -115,21 +115,21 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
     ),
     # "I need that you put the pen in", "it is necessary to close it"
     (rf"{_WISH} that you (?:do|must|should) not ", r"\1do not "),
-    (rf"({_WISH} that [^.;:!?]*?) and that you (?=(?:{_DO_OR_DID})\b)", r"\1 and "),
+    (rf"({_WISH} that [^.;:!?]*?) and that you (?=(?:{DO_OR_DID})\b)", r"\1 and "),
     (
-        rf"{_WISH} that (first )?you (first )?(?=(?:{_DO_OR_DID})\b)",
+        rf"{_WISH} that (first )?you (first )?(?=(?:{DO_OR_DID})\b)",
         lambda said: f"{said[1]}i want you to {said[2] or said[3] or ''}",
     ),
     (
         r"\b(?:i|we) (?:do not want|would not like) (?:that you|you to) "
-        rf"(?=(?:{_DO_OR_DID})\b)",
+        rf"(?=(?:{DO_OR_DID})\b)",
         "do not ",
     ),
-    (rf"\b(?:i|we) do not need (?:that you|you to) (?=(?:{_DO_OR_DID})\b)", "you need not "),
+    (rf"\b(?:i|we) do not need (?:that you|you to) (?=(?:{DO_OR_DID})\b)", "you need not "),
     (
         r"(^|[.;!] |, (?:so|and|but) )it (?:is|would be) (?:really |very |absolutely )?"
         r"(?:necessary|needed|required|important|essential|vital) (?:(?:for you )?to|that you) "
-        rf"(?=(?:first |then )?(?:{_DO_OR_DID})\b)",
+        rf"(?=(?:first |then )?(?:{DO_OR_DID})\b)",
         r"\1you must ",
     ),
     (
@@ -148,25 +148,25 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
     ),
     (
         r"\b(it is not (?:necessary|needed|required)) (?:that you|for you to) "
-        rf"(?=(?:{_DO_OR_DID})\b)",
+        rf"(?=(?:{DO_OR_DID})\b)",
         r"\1 to ",
     ),
     # "The small cup you put on the tray"
     (
         rf"{_AHEAD}({_THING}) you (?:(?:{_ASKED} )+|(can|could|(?:do|must|should|shall) not) )?"
-        rf"({_DO_OR_DID})\b(?! it\b| them\b)({_REST}){_END}",
+        rf"({DO_OR_DID})\b(?! it\b| them\b)({_REST}){_END}",
         _asked,
     ),
     # "In the box you put the pen"
     (
         rf"{_AHEAD}((?:in|on|into|onto|inside|beside|behind|next to) {_THING}),? you "
-        rf"(?:{_ASKED} )*({_DO_OR_DID}) (?={NAMED}{_REST}{_END})",
+        rf"(?:{_ASKED} )*({DO_OR_DID}) (?={NAMED}{_REST}{_END})",
         r"\1\2\3 \4 ",
     ),
     # "When the lid is off, you put the pen in", "before you open it, you take it out"
     (
         rf"(\b(?:when|once|after|before|if|as soon as) (?:{_THING} (?:is|are|has been|have been) "
-        rf"[^.;,:!?]*?|you (?:{_DO})\b[^.;,:!?]*)),? you (?=(?:{_DO_OR_DID})\b)",
+        rf"[^.;,:!?]*?|you (?:{_DO})\b[^.;,:!?]*)),? you (?=(?:{DO_OR_DID})\b)",
         r"\1, ",
     ),
     (
@@ -176,11 +176,11 @@ YOU_DO: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...
     ),
     # "First you put it there, now take it off" tells what was done.
     (
-        rf"((?!first\b[^!?]*[,.;] (?:and |but )?now\b){_NOW})you (?={_DO_OR_DID}\b)",
+        rf"((?!first\b[^!?]*[,.;] (?:and |but )?now\b){_NOW})you (?={DO_OR_DID}\b)",
         r"\1",
     ),
     (rf"{_LED}you (?=(?:{_DO})\b(?! (?:at|in|on|by|for|from|to)\b))", r"\1"),
     (rf"^(you )(?=(?:put|set|shut) {_REST}(?:, (?:and|then) {_REST})*[.!]?$)", ""),
-    (rf"^({_THING}), you (?=(?:{_DO_OR_DID}) (?:it|them) {_REST}{_END})", r"\1, "),
+    (rf"^({_THING}), you (?=(?:{DO_OR_DID}) (?:it|them) {_REST}{_END})", r"\1, "),
 )
 """In order."""

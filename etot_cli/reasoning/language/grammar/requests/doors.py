@@ -83,18 +83,30 @@ SET_TO_STATE = quiet(
 
 
 def _each(kind: NounPhrase, items: tuple[tuple[NounPhrase, str], ...]) -> EnsureClause | None:
-    """How each of several things of a kind is to be, most of them told by a word for which."""
+    """How each of several things of a kind is to be, most of them told by a word for which; a
+    heading that is none of theirs ("initial conditions: …") is read elsewhere.
+    """
     several = singular(kind.head) != kind.head
+    named = all(_tells_which(np) or singular(kind.head) in np.words for np, _ in items)
+    if not (named or kind.words in _OF_ANY_KIND):
+        return None
     states = tuple(State((_of(kind, np),), word=word) for np, word in items)
     return EnsureClause(states) if several and not kind.determiner and not kind.modifiers else None
 
 
 _WHICH = {*LEVELS, *SIDES}
+_OF_ANY_KIND = (("doors",), ("drawers",))
+"""What may be called otherwise each by itself ("doors: microwave open, oven closed")."""
+
+
+def _tells_which(np: NounPhrase) -> bool:
+    """Whether only what tells a thing from its like is said of it."""
+    return bool(np.words) and all(w in _WHICH or is_descriptive(w) for w in np.words)
 
 
 def _of(kind: NounPhrase, np: NounPhrase) -> NounPhrase:
     """A thing of a kind where only what tells it from the others is said ("top" of "drawers")."""
-    told = np.words and all(w in _WHICH or is_descriptive(w) for w in np.words)
+    told = _tells_which(np)
     words = (*np.words, *kind.words[:-1], singular(kind.head)) if told else np.words
     return _the(replace(np, words=words, text=" ".join(words) if told else np.text))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
+    NOTHING,
     Parser,
     either,
     optional,
@@ -37,7 +38,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import forbidden, small_words
+from etot_cli.reasoning.language.words import forbidden, small_words, verbs
 from etot_cli.world.spatial import Nearby
 
 
@@ -192,10 +193,21 @@ ALL_LATER = sequence(
 """Likewise, where the rest comes behind it ("before you open it and put the pen in, …")."""
 
 
+_DO = frozenset(verb.split()[0] for verb in verbs.PAST.values()) | {"put", "set", "shut"}
+_NO_ORDER = Parser(
+    lambda given, at: (
+        []
+        if at > 1 and given.words[at - 1] == "after" and given.ahead[at] in _DO
+        else [(at, NOTHING)]
+    )
+)
+"""Nothing; behind a request "after put the cup there" may be meant for what comes then."""
+
+
 def _earlier(between: Parser | str) -> Parser:
     return valued(
         either(
-            sequence(small_words.AFTER, either(LED_CLAUSE, plain(HAVING_DONE))),
+            sequence(small_words.AFTER, _NO_ORDER, either(LED_CLAUSE, plain(HAVING_DONE))),
             sequence(
                 # "… have taken the pen off it and stood it in the cup"
                 small_words.AFTER,

@@ -52,9 +52,15 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import fillers, places, small_words, verbs
-from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, is_descriptive, matches_any
+from etot_cli.reasoning.language.words.lexicon import (
+    JOINT_NOUNS,
+    OF_TWO,
+    is_descriptive,
+    matches_any,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
+_FORMER = tuple((word,) for word in OF_TWO)
 _LEAVING_OUT = (Prep.EXCEPT, Prep.CONTRAST)
 
 
@@ -131,7 +137,7 @@ def _one_of_them(topic: Reading, rest: Reading) -> Reading | None:
 def _is_one_of_them(np: NounPhrase) -> bool:
     """Whether a phrase takes up a noun that was said before, or speaks of another one."""
     adjectives = np.words and all(map(is_descriptive, np.words))
-    if np.determiner in ("the", "only the") and adjectives:
+    if np.determiner in ("the", "only the") and (adjectives or np.words[:1] in _FORMER):
         return True
     noun_left_out = np.is_elliptic or not (np.words or np.pronoun)
     return noun_left_out or "other" in np.determiner.split()

@@ -293,8 +293,8 @@ def themes(clause: Clause) -> tuple[NounPhrase, ...]:
     match clause:
         case PutClause(groups=(PutGroup(things=things),)):
             return things.phrases
-        case PickClause(things=things) | MoveClause(things=things):
-            return things.phrases
+        case PickClause() | MoveClause() | RemoveClause() | SwapClause():
+            return clause.things.phrases
         case EnsureClause(states=(state,)) if state.going:
             return state.subjects
     return ()
@@ -307,6 +307,8 @@ def named(clause: Clause) -> tuple[NounPhrase, ...]:
             pass
         case EnsureClause(states=(state,)):
             where = state.destinations
+        case RemoveClause(source=NounPhrase() as source):
+            return (*themes(clause), source)
         case _:
             where = ()
     return (*themes(clause), *(np for item in where for np in item.targets))
