@@ -269,9 +269,13 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """
     text = normalized(instruction)
     named = partial(is_name, vocabulary=vocabulary)
+    if mark := mark_in(text):
+        if not only_tells(text[: mark.start()], named):
+            raise UnreadableError(instruction, "")
+        if "never mind" in mark[0]:  # of what was but told
+            text = f"{text[: mark.start()]}. {text[mark.end() :]}"
     plain = without_asides(text, named, partial(_is_sentence, vocabulary=vocabulary))
-    mark = mark_in(text)
-    if plain is None or (mark and not only_tells(text[: mark.start()], named)):
+    if plain is None:
         raise UnreadableError(instruction, "")
     for aside in plain.asides:
         if re.search(rf"{_IF}[^.,:;!?]*? (?:and|or) {re.escape(aside)}", normalized(instruction)):

@@ -128,7 +128,8 @@ FRAMES = f"""
     (all|what|the only thing) [that] (i|we) [really|just|only]
     (want|need|would like|ask [for|of you]) is (to|for you to|that you),
     (i|we) [only] (want|need|would like|d like) you to,
-    i would like [that you], i want, i would (rather|prefer) you [to], let us, try to, please [~comma] to,
+    i would like [that you], i want, i would (rather|prefer) you [to], let us, try to,
+    please [~comma] to,
     (find|work out|figure out|think of|come [up] with) (a|some|any) way (to|of),
     (work|figure|find) out how to,
     (find|make|devise|work out|think of|come [up] with) a [suitable|good] (plan|strategy) (to|for),

@@ -33,6 +33,16 @@ def _all_but_those(said: re.Match[str]) -> str:
 
 
 CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "To the left of the cup, not to the right like it is now", which has to be so
+    (
+        rf"({_DO} ({_SOME}) to the (?:left|right) of ({_SOME})),? (?:and )?"
+        rf"(not to the (left|right))(?: of it)?,? (?:like|as|where) it is (?:right )?now{_ENDS}",
+        r"\1, \4 of it. \2 is to the \5 of \3 now",
+    ),
+    (
+        rf"(\bnot {_IN} {_SOME}),? (?:like|as) (it is|they are) (?:right )?now{_ENDS}",
+        r"\1 where \2 now",
+    ),
     (r"(?<!do )\bnot (?:just|only) (the [^.,;:!?]+?),? but (?:also )?(?=the )", r"both \1 and "),
     # "Do not just put the cup in the box; put the pen in as well" asks for both
     (

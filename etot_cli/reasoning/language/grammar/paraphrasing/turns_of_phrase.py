@@ -36,6 +36,12 @@ _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\bso long as\b", "as long as"),
+    # "That row of candles looks crooked" is said of the candles
+    (
+        r"(^|[.;!?] )(?:the|that|this|my|our) (?:row|line|bunch|lot|set|collection) of (\w+s) "
+        r"(look|seem|feel)s ",
+        r"\1the \2 \3 ",
+    ),
     (
         rf"(?<!all right )(?<!fine )\bas long as (?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) "
         rf"(?:is|are) (?:already |still |not )?{_IS_SO}{_END})",
@@ -61,7 +67,9 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"make sure that \1is \2",
     ),
     (
-        rf"\b(?:in|into|to) (?:an? |the |its |their )?(?:fully |completely )?({_IS_SO})"
+        # But for "from its closed state into the open state"
+        r"(?<!state )(?<!position )\b(?:in|into|to) (?:an? |the |its |their )?"
+        rf"(?:fully |completely )?({_IS_SO})"
         rf" {_CONDITION}\b",
         r"\1",
     ),

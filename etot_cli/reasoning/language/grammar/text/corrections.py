@@ -40,25 +40,45 @@ _SEQUEL = word_set("first before then after afterwards last finally also too as"
 _JOINTS = word_set("and or then ,")
 _NEXT = "|".join(sorted(_BEFORE_THINGS))
 _PLACES = "|".join(sorted(_BEFORE_PLACES))
-_AGAIN = f"i mean|i meant|scratch that|make (?:that|it)(?= (?:{_NEXT}|{_PLACES}) )"
-_ALONE = "no|wait|oops|correction|my mistake|(?:never mind|forget)(?: that| it)?"
+_SCRATCH = "(?:scratch|scrap|strike) that"
+_AGAIN = f"i mean|i meant|{_SCRATCH}|make (?:that|it)(?= (?:{_NEXT}|{_PLACES}) )"
+_ALONE = (
+    "no|oops|correction|my mistake|(?:never mind|forget)(?: that| it)?|"
+    "(?:wait|hold on|hang on)(?: a (?:second|sec|moment|minute))?"
+)
 _OH = "(?:oh|ah|actually|well|hm+),? "
 _MARK = Expression(
     r"[\s,.!?;]{0,4}(?:\b(?:uh+m?|um+|erm*|hm+)\b[\s,.]+)?(?:"
     rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
-    r"|\b(?:i mean|i meant|or rather|or better|or no|scratch that|on second thoughts?)\b"
+    rf"|\b(?:i mean|i meant|or rather|or better|or no|{_SCRATCH}|on second thoughts?)\b"
     rf"|(?<=[,.!?;\n] )(?:{_OH})?(?:{_ALONE})(?=\s*[,.!?;\n])"
     r"|(?<=, )no(?= (?:the|my|your|in|on|into|onto|to) )"
     rf"|(?<=, )(?:sorry|actually|{_AGAIN})\b"
     rf"|(?<=[.!?;\n] )actually(?=,? (?:{'|'.join(sorted(_VERBS))}|the other way)\b)"
     # "Sorry, could you …" is but polite.
     rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{_PLACES}) )"
+    rf"|(?<=[.!?;\n] )not(?= (?:the|that|those) [^,.:;!?]+, (?:{_NEXT}|{_PLACES}) )"
     rf")(?:[\s,]*\b(?:no|sorry|wait|actually|{_AGAIN})\b)*[\s,.!?;]*"
 )
+_NO_REASON = "|".join(sorted(_BEFORE_THINGS | _BEFORE_PLACES | _VERBS - {"'s", "not"}))
+_REASON = Expression(
+    r"(?P<so>(?:that|this|it|those|these|they)(?: ones?)? (?:is|are|was|were|'s)"
+    rf"(?: the wrong ones?|(?: (?!(?:{_NO_REASON}) |(?:{_NO_REASON}),)[^\s,.!?;]+)+)),"
+    rf" (?:(?:{_AGAIN}|sorry),? )*"
+)
+"""Why something is taken back ("the big bell, no, that one is broken, I mean the small one")."""
+_NEARLY = Expression(
+    r"^(?P<nearly>i (?:was|am) (?:just )?(?:going|about) to (?:say|suggest|ask (?:you )?for)"
+    r"(?: ?:)? [^.:;!?]*?),? but(?: (?:actually|no|instead))?,? "
+)
+"""What was nearly asked for, and what is asked for instead stands behind it."""
 _MEANT = Expression(r",? i mean(?:t|t to say)?(?=[.!?;]*$)")
 """At the very end it says again what an earlier word said ("no, in the box, I mean")."""
-_ALL_OF_IT = Expression(r"\b(?:never mind|forget|scratch that|on second thoughts?)\b")
+_ALL_OF_IT = Expression(rf"\b(?:never mind|forget|{_SCRATCH}|on second thoughts?)\b")
 """What takes back a whole clause, whatever comes in its place."""
+_TAKING = word_set("take use choose")
+"""With "instead" behind what was to be put somewhere this asks for the same of another thing."""
+_POINTING = {"that": "it", "this": "it", "those": "them", "these": "them"}
 _PRONOUNS = word_set("it them that this those these one there")
 _LEFT = frozenset({"leave", "keep"})
 _AS_IT_IS = ("where it is", "where they are", "as it is", "as they are", "alone", "be")
@@ -86,6 +106,8 @@ class TakenBack(Struct, frozen=True):
 
 def mark_in(text: str) -> re.Match[str] | None:
     """The first words of a normalized text that take something back."""
+    if nearly := _NEARLY.match(text):
+        return nearly
     found = _MARK.search(text, 1)
     while found and _of_the_same(text, found):
         found = _MARK.search(text, found.end())
@@ -102,18 +124,41 @@ def _of_the_same(text: str, mark: re.Match[str]) -> bool:
 
 def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     """All ways to understand what is taken back; none where more than one thing is."""
-    text = _MEANT.sub("", text) if _MEANT.search(text, mark.end()) else text
-    if _MARK.search(text, mark.end()) or mark.end() == len(text):
+    if nearly := mark.groupdict().get("nearly"):
+        instead = text[mark.end() :]
+        yield TakenBack(nearly, instead.rstrip(".!"), instead)
         return
-    before, after = (
-        tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[mark.end() :])
-    )
-    if after[:1] == ("not",) and "," in after and {*after[1 : after.index(",")]} <= {*before}:
-        after = after[after.index(",") + 1 :]  # "the car, no wait, not the car, the ball"
+    text = _MEANT.sub("", text) if _MEANT.search(text, mark.end()) else text
+    why = _REASON.match(text[mark.end() :])
+    begin = mark.end() + (why.end() if why else 0)
+    if _MARK.search(text, begin) or begin == len(text):
+        return
+    before, after = (tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[begin:]))
+    if mark[0].endswith("not "):
+        after = ("not", *after)
+    denied = frozenset[str]()
+    if (
+        after[:1] == ("not",)
+        and "," in after
+        and {*after[1 : after.index(",")]} <= {*before, "one", "ones"}
+    ):
+        # "The car, no wait, not the car, the ball"
+        denied = frozenset(after[1 : after.index(",")]) - _BEFORE_THINGS - {"one", "ones"}
+        after = after[after.index(",") + 1 :]
+    while after[:1] in (("just",), ("please",), ("rather",), ("instead",)):
+        after = after[1:]
     start = max((at + 1 for at, token in enumerate(before) if token in _ENDS), default=0)
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
     end = after.index(",") if "," in after[:stop] else stop
     tail, said, rest = before[start:], after[:end], after[end:]
+    if not said:
+        return
+    if said[0] in _LEFT and {*said[1:2]} & {*_POINTING}:
+        more = said[3:] if said[2:3] in (("one",), ("ones",)) else said[2:]
+        left = " ".join(more).startswith(_AS_IT_IS)
+        said = (said[0], _POINTING[said[1]], *more) if left else said
+    if said[0] == "use":
+        said = ("take", *said[1:])
     if (
         said[1:2] in (("it",), ("them",))
         and {*said[:1]} & _SETTING
@@ -136,7 +181,11 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             text = _joined(*before[:start], *fewer, *rest)
             yield TakenBack(" ".join(said[1:]), " ".join(said), text)
         return
-    spans = list(_spans(tail, said, sentence, everything=everything, whole=whole))
+    spans = [
+        span
+        for span in _spans(tail, said, sentence, everything=everything, whole=whole)
+        if denied <= {*tail[slice(*span)]}
+    ]
     if said[-1] in ("one", "ones") and said[1:-1] not in ((), ("other",)):
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
         plain = not any(
@@ -159,7 +208,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
         new = (*said[:-1], *_also_told(taken, said), *_called(taken, said)) if noun else said
-        new = new[:-1] if new[-1] == "instead" else new
+        new = _in_its_stead(taken, new[:-1]) if new[-1] == "instead" else new
         mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
         if new[-1] == "it" and _is_place(new):  # "on the tray, no, next to it"
             new = (*new[:-1], *taken[mark_at:])
@@ -169,7 +218,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
             words = _joined(*before[:start], *tail[:first], *new, *kept, *more)
             same = said[0] in _BEFORE_THINGS and _noun_of(taken) == said[-1]
-            yield TakenBack(" ".join(taken), " ".join(new), words, same)
+            gone = _joined(*taken, *(f", {why['so']}".split() if why else ()))
+            yield TakenBack(gone, " ".join(new), words, same)
 
 
 def _is_place(said: Sequence[str]) -> bool:
@@ -188,14 +238,16 @@ def _exchanged(tail: Sequence[str]) -> Iterator[tuple[str, ...]]:
     """
     joints = [at for at, word in enumerate(tail) if word in _JOINTS]
     begin = next((at for at, word in enumerate(tail) if word in _BEFORE_THINGS), len(tail))
+    begin = begin if {*tail[:begin]} & _VERBS else 0  # "red car on the blue one"
     where = [at for at, word in enumerate(tail) if at > begin and word in _BEFORE_PLACES]
-    if len(where) == 1 and begin and not joints:
+    if len(where) == 1 and not joints:
         (at,) = where
-        one, other = tail[begin:at], tail[at + 1 :]
+        goes = next((it for it, word in enumerate(tail[:at]) if it and word in _GOES), at)
+        one, other = tail[begin:goes], tail[at + 1 :]
         noun = _noun_of(one)
         # No two things: a cup that goes on a plate "the other way round" may be upside down.
         if other[:1] and other[0] in _BEFORE_THINGS and other[-1] in ("one", noun):
-            yield (*tail[:begin], *other[:-1], noun, tail[at], *one)
+            yield (*tail[:begin], *other[:-1], noun, *tail[goes : at + 1], *one)
         return
     if len(joints) != 1 or len(where) != 2 or tail[joints[0]] != "and":
         return
@@ -250,6 +302,18 @@ def _other_than(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
     if tuple(said[-3:-1]) != ("the", "other") or said[-1] != _noun_of(taken):
         return (*said,)
     return (*said[:-2], said[-1], "other", "than", *taken)
+
+
+def _in_its_stead(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
+    """What is said instead, "take the green one" as put where the other one was to go."""
+    at = max((at for at, word in enumerate(said) if word in _TAKING), default=len(said))
+    thing, other = _object_of(taken), said[at + 1 :]
+    begin = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), 0)
+    behind = taken[begin + len(thing) :]
+    alone = not {*other} & (_BEFORE_PLACES | _JOINTS) and (at == 0 or said[at - 1] in _JOINTS)
+    if not (thing and other and behind and alone and taken[0] in _SETTING):
+        return (*said,)
+    return (*said[:at], *taken[:begin], *other, *behind)
 
 
 def _object_of(clause: Sequence[str]) -> tuple[str, ...]:
@@ -311,7 +375,8 @@ def _spans(
             # "Put the cup on the tray and the jar on the mat. No, put …": either of them, or both?
             one = everything or not _JOINTS & {*tail[at:]}
             alike = tail[at : at + 1] == (begin,) and "instead" not in sentence
-            if one and (alike or (whole and _VERBS & {*tail[at : at + 1]})):
+            other = whole and (everything or not joints) and _VERBS & {*tail[at : at + 1]}
+            if one and (alike or other):
                 yield (at, size)
     elif _is_place(said):
         yield from (
