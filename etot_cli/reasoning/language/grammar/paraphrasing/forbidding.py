@@ -71,7 +71,7 @@ def _rather_there(said: re.Match[str]) -> str:
     """Where something goes that is not wanted beside another thing, where "it" is no such one."""
     several = said["what"].endswith("s") or said["what"] == "them"
     clear = several or said["once"] or said["more"] or said["instead"]
-    if several is (said["it"] == "it") or not clear:
+    if several is (said["it"] == "it") or not clear or said["mark"] in said["where"]:
         return said[0]
     return f"{said['put']} {said['what']} {said['where']}, not {said['beside']}{said['why'] or ''}"
 
@@ -106,10 +106,10 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "I do not want the cup by the tray any more. Put it on the shelf instead"
     (
         rf"\b(?:i|we) (?:do not (?:want|like)|(?P<once>no longer) want) (?P<what>{_IT}) "
-        rf"(?P<beside>(?:by|near|next to|beside|close to) {_IT})(?P<more> any ?more| any longer)?"
-        rf"(?P<why>, [^.;!?]*)?[.;,] (?:so )?(?P<put>{ASKED}"
+        rf"(?P<beside>(?:by|near|next to|beside|close to) (?P<mark>{_IT}))"
+        rf"(?P<more> any ?more| any longer)?(?P<why>, [^.;!?]*)?[.;,] (?:so )?(?P<put>{ASKED}"
         r"(?:put|place|move|set|stand|bring)) (?P<it>it|them) "
-        rf"(?P<where>[^.,;!?]*?)(?P<instead> instead)?{_ENDS}",
+        r"(?P<where>(?:(?!and\b|then\b)[^.,;!?])*?)(?P<instead> instead)?(?=[.;!?]|$)",
         _rather_there,
     ),
     # "I do not want anything put on the tray", "I want nothing moved"

@@ -126,10 +126,12 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     # "The pen was supposed to be in the cup, so put it there"
     (
-        rf"(^|[.;!] )({NAMED} (?:\w+ ){{0,2}}?\w+) (?:(?:was|were) (?:supposed|meant) to be"
-        rf"|(?:should|ought to) have (?:been|gone)) (?={WHERE})([^.;!?,]*)[.,;!]? (?:so )?"
-        rf"{ASKED}(?:put|place|move|bring|take) (?:it|them) (?:in |over |back )?there{_END}",
-        r"\1\2 should be \3",
+        rf"(^|[.;!] )({NAMED} (?:\w+ ){{0,2}}?\w+(?: and {NAMED} (?:\w+ )??\w+)?)"
+        r" (?:(?:was|were) (?:supposed|meant) to be|(?:should|ought to) have (?:been|gone))"
+        rf" (?={WHERE})([^.;!?,]*)[.,;!]? (?:so )?{ASKED}(?:put|place|move|bring|take) (?:it|them)"
+        r" (?:in |over |back )?there"
+        rf"(?:{_END}|(?P<more>,? and )(?=(?:then )?(?:close|shut|open)\b))",
+        lambda said: f"{said[1]}{said[2]} should be {said[3]}{'. ' if said['more'] else ''}",
     ),
     (
         r"\b(nothing (?:should|must) be left) (in|on) ([^.,;]*?) or (in|on) ",
