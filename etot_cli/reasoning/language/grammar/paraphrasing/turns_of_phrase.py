@@ -51,7 +51,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     (
         rf"(?<!all right )(?<!fine )\bas long as (?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) "
-        rf"(?:is|are) (?:already |still |not )?{_IS_SO}{_END})",
+        r"(?:is|are) (?:already |still |not )?(?:(?:wide )?open|closed|shut|ajar)"
+        rf"{_END}(?!, (?:leave|keep|hold|wait)\b))",
         "provided that ",
     ),
     # "The block of red colour", "the red colour block", "in red colour"
