@@ -44,7 +44,7 @@ from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import SceneState
 
 _HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
-_POLITE = Expression(rf"^(?:kindly )?{ASKED}(?:kindly )?")
+_POLITE = Expression(rf"^(?:so,? )?{ASKED}")
 _AS_FOLLOWS = Expression(r",? as follows\s*$", re.IGNORECASE)
 _TABLE_SET = Expression(
     r"((?:please )?(?:set|lay) the table(?: for [^,.:;!?\n]+)?)[,.]\s+(\S.*)",
@@ -73,6 +73,12 @@ _JOBS = word_set(
     "routine ticket assignment"
 )
 """A heading that ends so only says that something is to be done."""
+_PLAN = Expression(
+    r"^(?:(?:so|ok|okay|right|now|well|then),? )*(?:(?:here|this|that) (?:is|'s) )?"
+    r"(?:the|my|our|today 's|tonight 's) (?:\w+ )?(?:plan|arrangement|set ?up|layout|line ?up"
+    r"|list|programme|program|agenda|scheme)(?P<purpose> for [^,]+)?$"
+)
+"""Likewise, whatever that is for."""
 _CODE = r"[a-z]{1,12}(?:\.? ?(?:no\.? ?|number |#)?|-)\d[\w./-]*"
 _REFERENCE = Expression(
     r"(?P<before>^\s*|[.!?;\n]\s+)"
@@ -231,6 +237,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     named = any(is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
     heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()
     job = words[-1] in _JOBS and not {"by", "with", *_WITHIN} & {*words}
+    planned = _PLAN.match(normalized(said[1])) if not named else None
+    heading |= planned is not None and _is_purpose(words_in(planned["purpose"] or ""))
     heading |= job or (words[0] == "for" and not named and _is_purpose(words))
     below = {*words_in(_OF_ITS_OWN.sub("", normalized(said[2])))}
     if any(is_name(word, vocabulary) for word in {*words} & {*below, *map(_several, below)}):
@@ -283,9 +291,13 @@ def _beside_asides(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     """
     text = normalized(instruction)
     named = partial(is_name, vocabulary=vocabulary)
+    if mark := mark_in(text):
+        if not only_tells(text[: mark.start()], named):
+            raise UnreadableError(instruction, "")
+        if "never mind" in mark[0]:  # of what was but told
+            text = f"{text[: mark.start()]}. {text[mark.end() :]}"
     plain = without_asides(text, named, partial(_is_sentence, vocabulary=vocabulary))
-    mark = mark_in(text)
-    if plain is None or (mark and not only_tells(text[: mark.start()], named)):
+    if plain is None:
         raise UnreadableError(instruction, "")
     for aside in plain.asides:
         if re.search(rf"{_IF}[^.,:;!?]*? (?:and|or) {re.escape(aside)}", normalized(instruction)):

@@ -1,4 +1,4 @@
-"""Whose things are by the names of people, of whom a scene knows nothing ("Emma's cup")."""
+"""Whose things are, by people of whom a scene knows nothing ("Emma's cup", "my son's cup")."""
 
 from __future__ import annotations
 
@@ -10,9 +10,12 @@ from etot_cli.reasoning.language.words.known import all_words
 from etot_cli.reasoning.language.words.lexicon import is_descriptive, singular, word_set
 from etot_cli.reasoning.language.words.nouns import STACK
 from etot_cli.reasoning.language.words.patterns import spellings
+from etot_cli.reasoning.language.words.predicates import RELATIONS
 
+_KIN = "|".join(spellings(RELATIONS.replace("|", ",")))
 _OWNED = Expression(
-    r"(?<=[\w,] )(?P<who>[A-Z][a-z]+)['\N{RIGHT SINGLE QUOTATION MARK}]s"
+    rf"(?:(?<=[\w,] )(?P<who>[A-Z][a-z]+)|\b(?:[Mm]y|[Oo]ur|[Hh]is|[Hh]er) (?P<kin>{_KIN}))"
+    "['\N{RIGHT SINGLE QUOTATION MARK}]s"
     r"(?= (?P<first>\w+)(?: (?P<second>\w+))?)"
 )
 """Within a sentence; what it begins with has a capital anyway."""
@@ -41,10 +44,13 @@ def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
         return not (known or who in _NO_NAMES)
 
     def told(found: re.Match[str]) -> str:
-        who, first, second = ((found[part] or "").casefold() for part in ("who", "first", "second"))
+        who, kin, first, second = (
+            (found[part] or "").casefold() for part in ("who", "kin", "first", "second")
+        )
         noun = second if is_descriptive(first) else first
         known = is_name(noun) or singular(noun) in spellings(STACK)
-        return "my" if known and is_stranger(who) else found[0]
+        owned = not is_name(kin) if kin else is_stranger(who)
+        return "my" if known and owned else found[0]
 
     def wanting(found: re.Match[str]) -> str:
         who = (found["who"] or found["job"]).casefold()

@@ -61,8 +61,12 @@ def without_corrections(
     if any(unread) and not alike:
         found.clear()  # "the red block by the tray. No, the blue block" does not mean the tray
     if len(found) != 1:
-        ways = " or ".join(goal.notes[0].partition(" is taken")[0] for goal in found.values())
+        told = [goal.notes[0].partition(" is taken back: ") for goal in found.values()]
+        ways = " or ".join(words for words, *_ in told)
         why = f"it may take back {ways}" if ways else "it is unclear what that takes back"
+        if told[1:] and len({words for words, *_ in told}) == 1:
+            ways = " or ".join(instead.removesuffix(" is said instead") for *_, instead in told)
+            why = f"it may mean {ways}"
         raise UnreadableError(mark[0].strip(" ,.!?;\n"), "", f"{why}; say it anew")
     return next(iter(found.values()))
 

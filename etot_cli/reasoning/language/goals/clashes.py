@@ -97,6 +97,34 @@ def check_also(
 _IT_ALSO = Expression(r"\b(?:it|them)\b[^,.;:~]* (as well|too|also)\b")
 
 
+def check_not_layer(context: Context, group: PutGroup, themes: Sequence[int]) -> None:
+    """Whether a layer of the stack that was asked for is to be elsewhere; what lies at the bottom
+    of one whose order was told takes that along.
+
+    Raises:
+        ReferenceProblem: it is, and no word says that it goes there after that.
+    """
+    discourse = context.discourse
+    moved = {*discourse.things(*themes)}
+    whole = any(
+        np.pronoun or context.phrases.resolver.names_stack(np) for np in group.things.phrases
+    )
+    if not discourse.stacks or whole or len(moved) != 1 or _IN_TURN.search(context.sentence):
+        return
+    foot, top = ({*discourse.things(at)} for at in discourse.stacks[max(discourse.stacks)])
+    layers = {*top}
+    while below := {it for on in layers for it in discourse.put_upon.get(on, ())} - layers - foot:
+        layers |= below
+    if any(note.startswith("stack from the bottom up") for note in discourse.notes):
+        layers |= foot
+    if moved <= layers:
+        why = "it is in the stack that was asked for; say 'then' where it goes there after that"
+        raise ReferenceProblem(group.things.text, why, 4)
+
+
+_IN_TURN = Expression(r"\b(?:then|after|afterwards|now|later|next|finally|again|back|once|when)\b")
+
+
 def check_not_open(context: Context, index: int, text: str) -> None:
     """Whether what comes "before opening" something comes behind what is put into that.
 

@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.goals.choosing import (
 from etot_cli.reasoning.language.goals.clashes import (
     check_also,
     check_contrasted,
+    check_not_layer,
     check_not_there,
     check_poured,
     check_swept,
@@ -239,6 +240,7 @@ def _put_there(
         avoid(context, AvoidClause(Avoid.MOVE, group.things, left=True))
         return
     check_also(context, group, themes, places)
+    check_not_layer(context, group, themes)
     just_put = (s for s in context.done if said.stays and isinstance(s, Put))
     if any(s.what == tuple(themes) and s.places == places for s in just_put):
         return  # "move the cup to the tray and leave it there"

@@ -23,6 +23,7 @@ from etot_cli.reasoning.language.grammar.asides.named_in_asides import (
     names_stranger,
     of_which,
     refers_back,
+    words_of,
 )
 from etot_cli.reasoning.language.grammar.asides.people import HEARSAY, is_of_people
 from etot_cli.reasoning.language.grammar.asides.talk import is_talk
@@ -125,6 +126,11 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     topics = [told_of_thing(said, is_name) for said in told]
     if not are_spoken_of(topics, rest):
         return None
+    if any(topic[-1:] == ("one",) for topic in topics) and PRONOUNS & words_of(rest):
+        # "The red one is for me and the blue one is for my sister, so put it there"
+        after = (told_of_thing(item.said, is_name) for part in parted for item in part.after)
+        if sum(map(bool, topics)) > 1 or any(topic[-1:] == ("one",) for topic in after):
+            return None
     if not all(is_answered(item.said, rest) for item in asides):
         return None
     if any(

@@ -32,6 +32,8 @@ _IS_ONE = Expression(
     r" (?:is|are|was|were|weighs?|costs?|needs?|makes?|(?:smells?|looks?) like|as) an? "
 )
 """Before what is no other thing ("the vase was a gift", "he used it as a hat")."""
+_ONE_IS_FOR = Expression(r"one (?:(?:is|was)(?: meant| reserved)?(?: for\b|$)|belongs to\b)")
+"""Behind "the little", which may be a child otherwise."""
 _WHICH_ONE = Expression(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
 _HELD = Expression(
     rf"(?:{PEOPLE}|they) (?:\w+ )??(?:has|have|had|took|uses?|needs?|wants?|reserved|got|keeps?)"
@@ -95,8 +97,10 @@ def named_in(asides: Iterable[str], is_name: IsName, rest: Sequence[str] = ()) -
     for words in told:
         aside = " ".join(words)
         found = [in_state(aside, phrase) for phrase in _phrases(words, is_name)]
-        alone += found[:1] if is_misplaced(aside) else []
-        phrases += found[1:] if is_misplaced(aside) else found
+        ones = [phrase for phrase in found if phrase.endswith(" one")]  # of what was named before
+        apart = found[:1] if is_misplaced(aside) else ones
+        alone += apart
+        phrases += [phrase for phrase in found if phrase not in apart]
     remarks = (" and ".join(dict.fromkeys(named)) for named in (phrases, alone))
     return ". ".join(f"{named} {ASIDE}" for named in remarks if named)
 
@@ -132,6 +136,9 @@ def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
                 last = end if is_name(words[end - 1]) else last
             if at + 1 < last == end < len(words) and words[end] in _PARTS:
                 last += 1  # "the bottom drawer"
+            if at + 1 < end and _ONE_IS_FOR.match(" ".join(words[end:])):
+                yield " ".join((word, *words[at + 1 : end], "one"))
+                continue
             if last > at + 1:
                 owner = "the" if word in ("his", "her", "their") else word
                 if re.match(rf"{PEOPLE}\b", " ".join(words[at:])):

@@ -96,6 +96,8 @@ _UNFIT_THERE = Expression(
     rf"^(?P<what>it|they|(?:(?:the|my|our) )?(?:\w+ )?\w+) {_NOT_STAYING}"
     r"(?: (?:(?:up|down|over|out) )?(?:here|there))?$"
 )
+_ONE_IS = Expression(r"(?:the|that) (?P<how>(?:\w+ ){1,2})one (?:is|was)(?: meant| reserved)?")
+"""Ahead of whom that is for, where several things were spoken of."""
 _TURNING = Expression(
     rf"(?: (?:(?:is|are) (?:getting|going|turning)|(?:has|have) gone) (?:{TURNED})$"
     r"|(?:must|should|(?:needs?|has|have) to) "
@@ -129,6 +131,9 @@ def told_of_thing(said: str, is_name: IsName) -> tuple[str, ...]:
         what = [word for word in unfit["what"].split() if word not in BEFORE_NAMES]
         named = what and (is_name(what[-1]) or what[-1] in ("it", "they"))  # not "that"
         return tuple(what) if named else ()
+    if (one := _ONE_IS.fullmatch(said)) is not None:
+        how = one["how"].split()
+        return (*how, "one") if all(is_told_apart_by(word, is_name) for word in how) else ()
     words = _YONDER.sub("", _WHENEVER.sub("", said)).split() or [""]
     end = _named_until(words, is_name)
     while words[end : end + 1] == ["and"] and words[end + 1 : end + 2] == ["the"]:

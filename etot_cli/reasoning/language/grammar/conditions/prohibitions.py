@@ -67,11 +67,20 @@ from etot_cli.reasoning.language.words import (
     verbs,
 )
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
+from etot_cli.reasoning.language.words.places import Prep
+
+_BESIDE = {Prep.NEAR, Prep.NEXT_TO, Prep.LEFT, Prep.RIGHT, Prep.BEHIND, Prep.FRONT, Prep.BETWEEN}
 
 
 def _not_wanted(things: Things) -> AvoidClause | None:
-    """What is to be left alone; "any cups on the tray" are not to be there."""
-    told = any(np.determiner in ("any", "a", "an", "") and np.modifiers for np in things.phrases)
+    """What is to be left alone; "any cups on the tray" are not to be there, "the cup by the tray"
+    may be to go away.
+    """
+    told = any(
+        (np.determiner in ("any", "a", "an", "") and np.modifiers)
+        or any(it.prep in _BESIDE for it in np.modifiers)
+        for np in things.phrases
+    )
     return None if told else AvoidClause(Avoid.MOVE, things, negated=True)
 
 

@@ -148,7 +148,7 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     # "Behind the bin there is room for the bear, put it there"
     (
         r"(\bthere is (?:still |enough |some )?(?:room|space) [^.,;!?]*)[.,;!] "
-        r"(?=(?:please )?(?:put|place|set|stand) (?:it|them) there\b)",
+        rf"(?={ASKED}(?:put|place|set|stand) (?:it|them) there\b)",
         r"\1, so ",
     ),
     # "First comes the pot on the stove, then the spoon in the pot"
@@ -195,7 +195,7 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     ),
     # "Have the cup hold the pen"
     (
-        r"(^|[.;!?] |, |\band )((?:please |(?:could|can|would|will) you )*)"
+        rf"(^|[.;!?] |, |\band )({ASKED})"
         rf"(?:let|have|make) ({_ANY}) "
         rf"(hold|contain|receive|house|take|bear|carry|support) (?={NAMED})",
         lambda said: f"{said[1]}{said[3]} should {_HOLD.get(said[4], said[4])} ",

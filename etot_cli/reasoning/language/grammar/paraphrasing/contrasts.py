@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
@@ -33,6 +34,16 @@ def _all_but_those(said: re.Match[str]) -> str:
 
 
 CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "To the left of the cup, not to the right like it is now", which has to be so
+    (
+        rf"({_DO} ({_SOME}) to the (?:left|right) of ({_SOME})),? (?:and )?"
+        rf"(not to the (left|right))(?: of it)?,? (?:like|as|where) it is (?:right )?now{_ENDS}",
+        r"\1, \4 of it. \2 is to the \5 of \3 now",
+    ),
+    (
+        rf"(\bnot {_IN} {_SOME}),? (?:like|as) (it is|they are) (?:right )?now{_ENDS}",
+        r"\1 where \2 now",
+    ),
     (r"(?<!do )\bnot (?:just|only) (the [^.,;:!?]+?),? but (?:also )?(?=the )", r"both \1 and "),
     # "Do not just put the cup in the box; put the pen in as well" asks for both
     (
@@ -53,7 +64,7 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
     # "Instead of dropping the cup in the box, put it on the plate"
     (
         rf"{_BEGINS}(?:instead of|rather than) (?:just )?(?:{_PUTTING}) ({_SOME}) "
-        rf"((?:in|into|on|onto|inside) {_SOME}), (?:please )?({_PUT}) (it|them) ([^.,;!?]*)",
+        rf"((?:in|into|on|onto|inside) {_SOME}), {ASKED}({_PUT}) (it|them) ([^.,;!?]*)",
         r"\1\4 \2 \6 instead of \3",
     ),
     # "Take nothing off the plate except the roll, which goes …", as "do not take anything …"
@@ -69,7 +80,7 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
     (
         rf"{_BEGINS}({_SOME}) (?:is|are) (?:(?:only|just|exclusively|reserved|meant) )*for "
         rf"(?:(?:only|just) )?(\w+(?: (?!only\b)\w+){{0,3}}?)(?: only| exclusively)?"
-        rf"[.,;:!]+ (?:so )?((?:please )?(?:take|get|clear|remove|move|bring)) (?:{_ELSE})"
+        rf"[.,;:!]+ (?:so )?({ASKED}(?:take|get|clear|remove|move|bring)) (?:{_ELSE})"
         rf"(?: (out|off)| from)?(?: of)?(?: it| them| there)?{_ENDS}",
         _all_but_those,
     ),
@@ -83,7 +94,7 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
     (
         rf"^(?:please,? )?(?:the|one|(two|three)) ((?:\w+ )??(?!that\b|which\b)\w+) (is|are) "
         rf"(?:still )?not(?: yet)? ((in|on) {_SOME})(?: yet)?[.,;] "
-        rf"(?:so )?(?:please )?({_PUT}) (?:it|them) "
+        rf"(?:so )?{ASKED}({_PUT}) (?:it|them) "
         rf"(?:\5 there|there|\5 it|\5)(?= with\b| too\b| as well\b|{_ENDS})",
         lambda said: (
             f"{said[6]} the {said[1] or ''} {said[2]} that {said[3]} not {said[4]} {said[4]}"
@@ -140,13 +151,13 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
     # "Do not stack the plates; put them side by side on the tray"
     (
         rf"{_BEGINS}do not (?:stack|pile)(?: up)? ({_SOME}(?: and {_SOME})?)[.,;:!]+ (?:but )?"
-        rf"(?:please )?({_PUT}) (?:them|both(?: of them)?) (?=side by side |next to each other )",
+        rf"{ASKED}({_PUT}) (?:them|both(?: of them)?) (?=side by side |next to each other )",
         r"\1\3 \2 ",
     ),
     # "Put neither cup in the box; put them on the plate instead"
     (
         rf"{_BEGINS}(?:put|place) neither (\w+(?: \w+)?) ((?:in|into|on|onto) {_SOME})[.,;:!]+ "
-        rf"(?:but )?(?:please )?({_PUT}) (?:them|both(?: of them)?) ([^.,;!?]*?) instead"
+        rf"(?:but )?{ASKED}({_PUT}) (?:them|both(?: of them)?) ([^.,;!?]*?) instead"
         r"(?=[.;!]|$)",
         r"\1\4 both \2s \5 instead of \3",
     ),

@@ -208,7 +208,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "Only socks go in the basket. Put both of them in": these, rather than a rule for such things
     (
         r"(^|[.;!] )(?:only|nothing (?:but|except)) (?!the\b)(\w+[^s\W]s) (go|belong)(?:e?s)? "
-        r"(?=(?:in|on|into|onto)\b[^.;!]*[.;!] (?:please )?(?:put|place) (?:both|all) of them\b)",
+        rf"(?=(?:in|on|into|onto)\b[^.;!]*[.;!] {ASKED}(?:put|place) (?:both|all) of them\b)",
         r"\1only the \2 \3 ",
     ),
     # "Make room on the lower shelf by moving the cup to the upper"
@@ -322,7 +322,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     (
         rf"\bfor (?:each|every one|either|both) of ({_SOME}(?:(?:,|,? and) {_SOME})*), "
-        r"(?:please )?(?:choose|pick|select|decide on) "
+        rf"{ASKED}(?:choose|pick|select|decide on) "
         rf"((?:either )?(?:{NAMED} )?\w+(?: \w+)? or (?:{NAMED} )?\w+(?: \w+)?|an? \w+(?: \w+)?),?"
         r" and (?:put|place|set) (?:it|each|that one|the thing) (?:there|in it|into it|inside)\b",
         r"put \1 in \2",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.small_words import NAMED
 from etot_cli.world.colors import BASIC_COLORS
@@ -66,6 +67,15 @@ def _any_of(none: re.Match[str]) -> str:
     return {"nothing": "anything", "no ": "any ", "none ": "any "}[none[0]]
 
 
+def _rather_there(said: re.Match[str]) -> str:
+    """Where something goes that is not wanted beside another thing, where "it" is no such one."""
+    several = said["what"].endswith("s") or said["what"] == "them"
+    clear = several or said["once"] or said["more"] or said["instead"]
+    if several is (said["it"] == "it") or not clear or said["mark"] in said["where"]:
+        return said[0]
+    return f"{said['put']} {said['what']} {said['where']}, not {said['beside']}{said['why'] or ''}"
+
+
 FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (
         r"(?<=\w),? (?:but|(?:but|and) (?:please )?do (?:it|this|that|so)) without (?=\w+ing\b)",
@@ -93,6 +103,15 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r", not one \1 the other",
     ),
     (_FROM_THERE, r"\1"),
+    # "I do not want the cup by the tray any more. Put it on the shelf instead"
+    (
+        rf"\b(?:i|we) (?:do not (?:want|like)|(?P<once>no longer) want) (?P<what>{_IT}) "
+        rf"(?P<beside>(?:by|near|next to|beside|close to) (?P<mark>{_IT}))"
+        rf"(?P<more> any ?more| any longer)?(?P<why>, [^.;!?]*)?[.;,] (?:so )?(?P<put>{ASKED}"
+        r"(?:put|place|move|set|stand|bring)) (?P<it>it|them) "
+        r"(?P<where>(?:(?!and\b|then\b)[^.,;!?])*?)(?P<instead> instead)?(?=[.;!?]|$)",
+        _rather_there,
+    ),
     # "I do not want anything put on the tray", "I want nothing moved"
     (
         rf"\b(?:i|we) (?:(?:do not want|would not like|will not have) (?:to (?:see|have) )?"

@@ -12,7 +12,10 @@ from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
 _NAMES = r"(?:(?:the|my|our) )?\w+(?: \w+){0,3}"
-ASKED = r"(?:(?:please|(?:could|can|would|will) you|let us|now) )*"
+ASKED = (
+    r"(?:(?:please|kindly|just|(?:could|can|would|will) you(?! mind\b)"
+    r"|(?:i|we) (?:want|need|would like) you to|let us|now) )*"
+)
 """Before what somebody is asked for."""
 _ALL_NAMED = Expression(
     r"(^|[.;\n]\s*)([^:.;\n]+): (?P<do>(?:(?:please|just) )*(?:put|place|move|store|pack) )?"

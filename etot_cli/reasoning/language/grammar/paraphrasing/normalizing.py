@@ -32,6 +32,13 @@ _UH = Expression(
     r"(?P<before>\w+)(?P<comma>,?)\s+(?:uh+m?|um+|erm*|hm+)(?:,|\.\.+)?\s+(?P<after>\w+)",
     re.IGNORECASE,
 )
+_BEGUN = Expression(
+    r"\b(in|on|into|onto|to|by|at|under|behind|beside|between|near|next|from|with|the|an?"
+    r"|my)\b(?: (?:the|an?|my)\b)?(?:,?\s+(?:uh+m?|um+|erm*|hm+)\b(?:,|\.\.+)?|(?<=the)(?:,|\.\.+))"
+    r"\s+(?=\1\b)",
+    re.IGNORECASE,
+)
+"""What is broken off and begun again ("on the, erm, on the right side")."""
 _I_MEAN = Expression(
     r"(?<!\bit)(?<!\bthem)\s*[,(]\s*(?:(?:uh+m?|um+|erm*|hm+),?\s+)?((?:the|an?|my)\s+(?!one\b)"
     r"(?:(?!what\b|which\b|that\b|is\b)[\w-]+\s+){1,4}?)(i meant?)(?=\s*(?:[,.!?;)\n]|$))"
@@ -84,7 +91,7 @@ _REMEMBERED = 64
 @lru_cache(maxsize=_REMEMBERED)
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
-    text = _UH.sub(_without_uh, text)
+    text = _UH.sub(_without_uh, _BEGUN.sub("", text))
     line = _NEW_LINE if _ARTICLE.search(text) else _TERSE_LINE
     text = _listed(line.sub("\n ", text).casefold().strip())
     text = _WELL.sub(r"\1", _RIGHT.sub(r"\1", text))

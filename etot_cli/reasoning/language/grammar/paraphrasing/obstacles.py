@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 
 _WHAT = r"(?:the|my|our) (?:\w+ ){0,3}?\w+"
 _AWAY = r"(?:out of the way(?! of\b)|aside|away(?! from\b))"
@@ -32,7 +33,7 @@ _FIX = (
     r"(?:(?:fix|solve|resolve|sort out|take care of|deal with|do something about|see to)"
     r" (?:it|this|that|the problem))"
 )
-_TAKE = r"((?:please |just |first )*(?:remove|take away|take out|get rid of) )"
+_TAKE = rf"((?:first )?{ASKED}(?:first )?(?:remove|take away|take out|get rid of) )"
 _WHATEVER = r"(?:whatever|what|anything that|everything that|the (?:thing|object) that)"
 _KEEPS = r"(?:is |are )?(?:keep|prevent|stop|hinder)(?:s|ing)"
 _FROM_CLOSING = r"(?:from )?(?:(?:clos|shutt)ing|being (?:closed|shut))"
@@ -43,7 +44,7 @@ _THERE = r"(?:is |stands )?(?:standing |sitting |lying )?(?:in front of it|in th
 OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         # Where to is not said
-        rf"({_HINDERS}[^.;!?]*(?:[.;!?]+|,) (?:so |and |then |please )*(?:move|shift) (?:it|them))"
+        rf"({_HINDERS}[^.;!?]*(?:[.;!?]+|,) (?:so |and |then )*{ASKED}(?:move|shift) (?:it|them))"
         r"(?=(?: first| beforehand| before\b[^.;!?]*)?(?:[.;!?,]| (?:and|then)\b|$))",
         r"\1 out of the way",
     ),
@@ -64,7 +65,7 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     # What is asked for next says how
     (
-        rf"({_HINDERS}[^.;!?]*)(?:[.;!?]+|,) (?:so |and |please )*{_FIX}"
+        rf"({_HINDERS}[^.;!?]*)(?:[.;!?]+|,) (?:so |and )*{ASKED}{_FIX}"
         rf"(?: and(?: then)?|[.;:!,](?: then| and)*) (?=\w)",
         r"\1. ",
     ),
@@ -73,7 +74,7 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf" because {_SOMETHING} {_THERE}"
         rf"|(?:i|we|you) can not open ({_WHAT}) because {_SOMETHING} {_THERE}"
         rf"|{_SOMETHING} {_BLOCKS} ({_WHAT}))"
-        rf"[.;,](?: so)?(?: please)? (move|put|take|bring|place) "
+        rf"[.;,](?: so)? {ASKED}(move|put|take|bring|place) "
         rf"(?:(?:that|the)(?: thing| object)|that|it) "
         rf"(?=(?:on|in|onto|into|to|next|beside|near|behind|out)\b)",
         lambda said: (
@@ -114,7 +115,7 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"move everything that is blocking \1 out of the way of \1",
     ),
     (
-        rf", but ({_WHAT}) (?:is|are) in the way(?: of it)?[,;.]? (?:so )?(?:please )?"
+        rf", but ({_WHAT}) (?:is|are) in the way(?: of it)?[,;.]? (?:so )?{ASKED}"
         rf"(move|put|take|bring|place) (?:it|them) ",
         r", but \2 \1 ",
     ),

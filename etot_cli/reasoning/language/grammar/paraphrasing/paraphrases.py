@@ -26,13 +26,18 @@ from etot_cli.reasoning.language.grammar.text.contractions import CONTRACTIONS
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
-from etot_cli.reasoning.language.words.verbs import PAST
+from etot_cli.reasoning.language.words.verbs import DOING_OF, PAST
 
 _MAY_GO = Expression(
     r"(^|[.!?;]\s*)(?:could|can|may|might) ((?:the|my|your|our|both|all)\b[^.!?;,:]*?)"
     r"(?: please)? (go|come|move|return|end up|wind up|live)\b"
 )
 """A request in the words of a question."""
+_MINDED = Expression(
+    r"\b(?:would|do) you mind (?:terribly |awfully )?(\w+ing) "
+    r"(?![^.;!?]*(?:,|\b(?:and|then)) \w+ing\b)"
+)
+"""One thing that somebody would not mind doing is what he is asked to do."""
 _ALL_DONE = Expression(
     r"(?<=\w[.,;!? ])((?: |\b)(?:once|when|after|as soon as)) (?:everything|all)"
     r" (is|are|has been|have been) ((?:put |all )?(?:in|on|inside|into)\b)"
@@ -77,6 +82,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\1put ",
     ),
     *CONTRACTIONS,
+    (_MINDED, lambda said: f"could you {DOING_OF[said[1]]} " if said[1] in DOING_OF else said[0]),
     *OTHER_TONGUES,
     *YOU_DO,
     *FORBIDDING,

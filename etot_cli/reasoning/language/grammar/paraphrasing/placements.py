@@ -80,6 +80,11 @@ def _swapped(said: re.Match[str]) -> str:
     return f"{begun}swap {said[2] or said[4]} {where} and {said[3] or said[5]} {where}"
 
 
+def _all_of(what: str) -> str:
+    """What comes along with a thing."""
+    return what if what.startswith("the ") else "everything"
+
+
 PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "The smaller one underneath, on the bottom board" beside one on the board above that
     *(
@@ -95,7 +100,7 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     ),
     # "Start with the cup: into the box", "… the cup, which goes into the box"
     (
-        r"(^|[.;!] )((?:(?:please|let us) )?(?:start|begin) with ((?:the|my) [^.,;:]*?))"
+        rf"(^|[.;!] )({ASKED}(?:start|begin) with ((?:the|my) [^.,;:]*?))"
         rf"(?::|, which {_GOES}) (?=(?:{_AT}) )",
         lambda said: (
             said[0]
@@ -129,6 +134,19 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?=(?:and |then |and then )(?:put|return|place|set) )",
         r"\1, ",
     ),
+    # "The cup and the pen on the tray one beside the other"
+    (
+        r"(?<!the ),? one (?:next to|beside|alongside) the other(?= (?:on|in) |[.;!?]|$)",
+        " next to each other",
+    ),
+    # "Take the box together with the pen in it and put it …", which goes along in any case
+    (
+        r"\b((?:take|lift|pick up|get|move|grab) (?:the|my) (?:\w+ ){0,2}?\w+),? "
+        r"(?:together|along|complete) with (?P<what>everything|all|what is|whatever is"
+        r"|the (?:\w+ ){0,2}?\w+) (?P<at>(?:in|on|inside) it)"
+        r"(?=,? and (?:then )?(?:put|set|place|move|bring|stand) it\b)",
+        lambda said: f"{said[1]} with {_all_of(said['what'])} {said['at']}",
+    ),
     # "Put away the cup and the pen, the one in the cupboard and the other in the drawer"
     (
         r"\bput away ((?:the|my) [^.,;:]*? and [^.,;:]*?)"
@@ -145,7 +163,7 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "Empty the box and the bag; their contents go in the bin"
     (
         rf"\b((?:empty|unload) (?:(?!\band (?!{NAMED}))[^.;,:])*?)[.;,:] "
-        rf"(?:and )?(?:(?:please |then )*{_PUT} )?(?:all )?"
+        rf"(?:and )?(?:(?:then )?{ASKED}{_PUT} )?(?:all )?"
         rf"(?:(?:the|its|their) )?contents (?:(?:{_GO} ))?(?=(?:in|into|on|onto|to) {NAMED})",
         r"\1 ",
     ),
@@ -313,7 +331,7 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"(^|[.;!] )({NAMED} [^.,:;]*?) "
         r"(?:(?:will |would |should |can )?fits?|is (?:small|narrow) enough to fit) "
-        rf"(in|into|inside|on|onto) ({NAMED} [^.,:;]*?)[.,;](?: so)?(?: please)? "
+        rf"(in|into|inside|on|onto) ({NAMED} [^.,:;]*?)[.,;](?: so)? {ASKED}"
         r"(put|place|set|drop) it "
         r"(?:(?:in |inside |on )?(?:there|it)|in|inside)(?=[.,;!?]| and\b|$)",
         r"\1\5 \2 \3 \4",
@@ -322,7 +340,7 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # Of several of which any will do "one" is what is spoken of.
     (
         r"\b((?:either|any)(?: one)? of the [^.,;]*? (?:will do|would do|works|"
-        rf"{_FINE})[.,;] (?:so |just |please )*(?:put|place|take|pick up|bring|drop)) one\b"
+        rf"{_FINE})[.,;] (?:so )?{ASKED}(?:put|place|take|pick up|bring|drop)) one\b"
         r"(?! of\b)",
         r"\1 it",
     ),

@@ -159,7 +159,7 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "No vial other than the red one is allowed there, so put that one there"
     (
         r"\b(no (\w+) (?:other than|but|except(?: for)?) (the \w+) one (?:is|may be) [^.,;]*, "
-        r"so (?:please )?(?:put|place|set|stand)) (?:that one|that|it) (?=there|in\b|on\b)",
+        rf"so {ASKED}(?:put|place|set|stand)) (?:that one|that|it) (?=there|in\b|on\b)",
         r"\1 \3 \2 ",
     ),
     # "Neither of the cups on the tray may be moved; the third goes …"
@@ -174,7 +174,7 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "Staples are kept in the top drawer, so open that one"
     (
         rf"(^|[.;] )(?:(?:the|my|our) )?\w+(?: \w+)? (?:is|are) (?:usually |always |normally )?"
-        rf"(?:kept|stored) in ({_NOUN}),? so,? ((?:please |just )*(?:open|close|shut)) "
+        rf"(?:kept|stored) in ({_NOUN}),? so,? ({ASKED}(?:open|close|shut)) "
         rf"(?:that one|that|it|this one){_END}",
         r"\1\3 \2",
     ),
@@ -182,7 +182,7 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     (
         rf"(^|[.;!?] ){_SOMETHING} (?:from|out of|in|inside)(?: (?:inside|within))? "
         rf"({_NOUN}(?: of {_NOUN})?)(?:[,.;!]| and)*(?: so)?,? "
-        r"((?:please |just |(?:can|could|would|will) you )*)"
+        rf"({ASKED})"
         rf"(?:(?:open(?: up)?|unlock) {_THAT}|(?:pull|swing|slide) {_THAT} open)\b",
         r"\1\3open \2",
     ),

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 from etot_cli.world.colors import BASIC_COLORS
 
@@ -37,6 +38,18 @@ _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\bso long as\b", "as long as"),
+    # "Somebody left the cup on the tray again, so …": what happened before, nobody does again
+    (
+        rf"(^|[.;!?,] |\band )(?:({PEOPLE}) (?:(?:has|have) )?)?left ({NAMED} (?:\w+ ){{1,3}}?"
+        rf"(?:in|on) {NAMED} (?:\w+ )??\w+) (?:once )?again(?=,? so\b)",
+        lambda said: f"{said[1]}{said[2] or 'somebody'} left {said[3]}",
+    ),
+    # "That row of candles looks crooked" is said of the candles
+    (
+        r"(^|[.;!?] )(?:the|that|this|my|our) (?:row|line|bunch|lot|set|collection) of (\w+s) "
+        r"(look|seem|feel)s ",
+        r"\1the \2 \3 ",
+    ),
     # "In case that it is open", "if, and only if, it is open"; "that box" may be told by "that"
     (rf"\b{_CASE} that (?={NAMED}|(?:it|they|there|no|one|neither|nothing|any\w*)\b)", "if "),
     (rf"\b{_CASE} (?=that \w)", "if "),
@@ -185,7 +198,7 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     # Of the two that were named it is said which is to be on which
     (
-        r"(\bthere (?:is|are) an? [^.;,]*? on (?:top of )?an? [^.;,]*[.;,] )((?:so |please )*)"
+        r"(\bthere (?:is|are) an? [^.;,]*? on (?:top of )?an? [^.;,]*[.;,] )((?:so )?(?:please )*)"
         r"(?:turn|swap|switch|reverse|flip|change) (?:the|their|this) (?:order|stack) "
         r"(?:around |round |over )?(?=so (?:that )?)so (?:that )?",
         r"\1\2make sure that ",
@@ -198,14 +211,14 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"\1 ",
     ),
     (
-        r"(^|[.;!] )((?:please |just )*)(?:sort|tidy up|tidy|put away) (?:these|this|the following)"
+        rf"(^|[.;!] )({ASKED})(?:sort|tidy up|tidy|put away) (?:these|this|the following)"
         rf"(?: away| up)?: (?=[^.:;]* (?:to|in|into|on|onto) {NAMED})",
         r"\1\2",
     ),
     # Where somebody will eat it from, and "there" behind that
     (
         rf"\b((?:i|we) (?:want|would like|need) to (?:eat|drink|serve|cut) {NAMED} (?:\w+ )??\w+) "
-        rf"(?:from|off|on|in|out of) ({NAMED} (?:\w+ )??\w+),? so ((?:please )?)"
+        rf"(?:from|off|on|in|out of) ({NAMED} (?:\w+ )??\w+),? so ({ASKED})"
         rf"(?:put|lay|place|set|bring) (it|them) there{_END}",
         r"\1, so \3bring \4 to \2",
     ),
@@ -248,10 +261,10 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     # What is not somewhere yet and is to go there
     (
-        r"(^|[.;!,] )((?:please |now |then )*)(?:whatever|whichever) (\w+) (?:is|are) not"
+        rf"(^|[.;!,] )((?:then )?{ASKED})(?:whatever|whichever) (\w+) (?:is|are) not"
         rf"(?: already| yet)? ((?:in|on) {NAMED} \w+(?: (?!already\b|yet\b)\w+)?)"
         r"(?: already| yet)?, "
-        rf"(?:please )?(put|place|bring|move) (?:it|them) there{_END}",
+        rf"{ASKED}(put|place|bring|move) (?:it|them) there{_END}",
         r"\1\2\5 all the \3 that is not \4 \4",
     ),
     (
@@ -298,11 +311,11 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     ),
     # What was opened is closed
     (
-        r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)(?:close|shut) up "
+        rf"(^|[.;!,] |\b(?:and|then) )((?:then )?{ASKED})(?:close|shut) up "
         rf"(?=(?:again|after|afterwards|when|once|in the end)\b|{_END})",
         r"\1\2close it ",
     ),
-    (r"(^|[.;!,] |\b(?:and|then) )((?:please |then )*)close up" + _END, r"\1\2close it"),
+    (rf"(^|[.;!,] |\b(?:and|then) )((?:then )?{ASKED})close up" + _END, r"\1\2close it"),
     # Nothing else is to be done; "only want the cup on the tray" may be: nothing else there
     (
         rf"\b(i|we) only (want|need) (?=you to\b|{NAMED} (?:\w+ )?\w+ (?:closed|shut|open)\b)",
@@ -337,7 +350,7 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"\1",
     ),
     # Which of several things comes first, in a sentence of its own
-    (rf"[.;] (?:and )?(?:please )?(?:start|begin) with (the (?:\w+ )?\w+){_END}", r", \1 first"),
+    (rf"[.;] (?:and )?{ASKED}(?:start|begin) with (the (?:\w+ )?\w+){_END}", r", \1 first"),
     # What is said of two places goes for both ways
     (
         rf"\b(everything (in|on) ({NAMED}(?: \w+){{1,3}}?)) (belongs|goes|should go|must go) "

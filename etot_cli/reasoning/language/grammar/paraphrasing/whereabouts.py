@@ -19,7 +19,7 @@ _NO_MORE_SAID = (
 _TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
 _ROOM = r"there is (?:still |enough |some |plenty of )?(?:room|space)"
 _AT = rf"(?:on|in|next to|beside|behind|in front of|to the (?:left|right) of) {NAMED}"
-_SO_PUT_IT = r"so (?:please )?(put|place|set|lay|stand) (?:it|them) (?:in )?there\b"
+_SO_PUT_IT = rf"so {ASKED}(put|place|set|lay|stand) (?:it|them) (?:in )?there\b"
 
 _END = r"(?=[.,;!?]|$)"
 _STACK = r"(?:pile|stack|tower)"
@@ -121,8 +121,17 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\b{_ROOM} for ({NAMED} [^.,;]*? {_AT} [^.,;]*), {_SO_PUT_IT}", r"\2 \1"),
     (
         rf"\b{_ROOM} (on|in) "
-        rf"({NAMED} [^.,;]*), so (?:please )?(put|place|set|lay|stand) ([^.,;]*?) (?:in )?there\b",
+        rf"({NAMED} [^.,;]*), so {ASKED}(put|place|set|lay|stand) ([^.,;]*?) (?:in )?there\b",
         r"\3 \4 \1 \2",
+    ),
+    # "The pen was supposed to be in the cup, so put it there"
+    (
+        rf"(^|[.;!] )({NAMED} (?:\w+ ){{0,2}}?\w+(?: and {NAMED} (?:\w+ )??\w+)?)"
+        r" (?:(?:was|were) (?:supposed|meant) to be|(?:should|ought to) have (?:been|gone))"
+        rf" (?={WHERE})([^.;!?,]*)[.,;!]? (?:so )?{ASKED}(?:put|place|move|bring|take) (?:it|them)"
+        r" (?:in |over |back )?there"
+        rf"(?:{_END}|(?P<more>,? and )(?=(?:then )?(?:close|shut|open)\b))",
+        lambda said: f"{said[1]}{said[2]} should be {said[3]}{'. ' if said['more'] else ''}",
     ),
     (
         r"\b(nothing (?:should|must) be left) (in|on) ([^.,;]*?) or (in|on) ",
@@ -156,7 +165,7 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     # What is on what is emptied goes to several places
     (
-        rf"(^|[.;!] )((?:please |now |then |just )*)(?:clear|empty) ({NAMED} (?:\w+ )??\w+?)"
+        rf"(^|[.;!] )((?:then )?{ASKED})(?:clear|empty) ({NAMED} (?:\w+ )??\w+?)"
         rf"(?: off| out| completely| entirely)*[:;,.] ({NAMED} [^.;:!?,]*?,? and )"
         rf"{_ALL_ELSE_THERE} (?=(?:goes|go|belongs|should|must|has to|needs to|in|into|on|onto)\b)",
         r"\1\2\4everything else from \3 ",

@@ -11,54 +11,70 @@ from collections.abc import Iterator, Sequence
 
 from msgspec import Struct
 
-from etot_cli.reasoning.language.words import places, verbs
+from etot_cli.reasoning.language.grammar.text.said_instead import (
+    BEFORE_PLACES,
+    BEFORE_THINGS,
+    JOINTS,
+    SETTING,
+    also_told,
+    called,
+    in_its_stead,
+    noun_of,
+    object_of,
+    other_than,
+)
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
-    LEVELS,
-    NUMBERS,
     SIDES,
-    SIZES,
-    basic_color,
     is_descriptive,
     word_set,
 )
-from etot_cli.reasoning.language.words.patterns import openings_of, words_of
 
-_BEFORE_THINGS = word_set(
-    "the a an my your its their our this that these those both all every each another"
-).union(NUMBERS)
-_BEFORE_PLACES = openings_of(
-    (places.INTO, places.ONTO, places.TO, places.SOURCE, "between", *places.NEARBY.values())
-) - {"left", "right"}
-_SETTING = words_of((verbs.SET_DOWN,))
 _VERBS = VERB_WORDS - {"to"} | {"open", "shut", "empty"}
 _GOES = word_set("go goes belong belongs should must has have needs need lives live")
 """Behind what is to be somewhere."""
 _SEQUEL = word_set("first before then after afterwards last finally also too as")
 """With such a word a whole sentence takes back none."""
-_JOINTS = word_set("and or then ,")
-_NEXT = "|".join(sorted(_BEFORE_THINGS))
-_PLACES = "|".join(sorted(_BEFORE_PLACES))
-_AGAIN = f"i mean|i meant|scratch that|make (?:that|it)(?= (?:{_NEXT}|{_PLACES}) )"
-_ALONE = "no|wait|oops|correction|my mistake|(?:never mind|forget)(?: that| it)?"
+_NEXT = "|".join(sorted(BEFORE_THINGS))
+_PLACES = "|".join(sorted(BEFORE_PLACES))
+_SCRATCH = "(?:scratch|scrap|strike) that"
+_AGAIN = f"i mean|i meant|{_SCRATCH}|make (?:that|it)(?= (?:{_NEXT}|{_PLACES}) )"
+_ALONE = (
+    "no|oops|correction|my mistake|(?:never mind|forget)(?: that| it)?|"
+    "(?:wait|hold on|hang on)(?: a (?:second|sec|moment|minute))?"
+)
 _OH = "(?:oh|ah|actually|well|hm+),? "
 _MARK = Expression(
     r"[\s,.!?;]{0,4}(?:\b(?:uh+m?|um+|erm*|hm+)\b[\s,.]+)?(?:"
     rf"\b(?:oh,? )?(?:no|sorry|wait),? (?:no|sorry|wait|{_AGAIN})\b"
-    r"|\b(?:i mean|i meant|or rather|or better|or no|scratch that|on second thoughts?)\b"
+    rf"|\b(?:i mean|i meant|or rather|or better|or no|{_SCRATCH}|on second thoughts?)\b"
     rf"|(?<=[,.!?;\n] )(?:{_OH})?(?:{_ALONE})(?=\s*[,.!?;\n])"
     r"|(?<=, )no(?= (?:the|my|your|in|on|into|onto|to) )"
     rf"|(?<=, )(?:sorry|actually|{_AGAIN})\b"
     rf"|(?<=[.!?;\n] )actually(?=,? (?:{'|'.join(sorted(_VERBS))}|the other way)\b)"
     # "Sorry, could you …" is but polite.
     rf"|(?<=[.!?;\n] )sorry(?=,? (?:{_NEXT}|{_PLACES}) )"
+    rf"|(?<=[.!?;\n] )not(?= (?:the|that|those) [^,.:;!?]+, (?:{_NEXT}|{_PLACES}) )"
     rf")(?:[\s,]*\b(?:no|sorry|wait|actually|{_AGAIN})\b)*[\s,.!?;]*"
 )
+_NO_REASON = "|".join(sorted(BEFORE_THINGS | BEFORE_PLACES | _VERBS - {"'s", "not"}))
+_REASON = Expression(
+    r"(?P<so>(?:that|this|it|those|these|they)(?: ones?)? (?:is|are|was|were|'s)"
+    rf"(?: the wrong ones?|(?: (?!(?:{_NO_REASON}) |(?:{_NO_REASON}),)[^\s,.!?;]+)+)),"
+    rf" (?:(?:{_AGAIN}|sorry),? )*"
+)
+"""Why something is taken back ("the big bell, no, that one is broken, I mean the small one")."""
+_NEARLY = Expression(
+    r"^(?P<nearly>i (?:was|am) (?:just )?(?:going|about) to (?:say|suggest|ask (?:you )?for)"
+    r"(?: ?:)? [^.:;!?]*?),? but(?: (?:actually|no|instead))?,? "
+)
+"""What was nearly asked for, and what is asked for instead stands behind it."""
 _MEANT = Expression(r",? i mean(?:t|t to say)?(?=[.!?;]*$)")
 """At the very end it says again what an earlier word said ("no, in the box, I mean")."""
-_ALL_OF_IT = Expression(r"\b(?:never mind|forget|scratch that|on second thoughts?)\b")
+_ALL_OF_IT = Expression(rf"\b(?:never mind|forget|{_SCRATCH}|on second thoughts?)\b")
 """What takes back a whole clause, whatever comes in its place."""
+_POINTING = {"that": "it", "this": "it", "those": "them", "these": "them"}
 _PRONOUNS = word_set("it them that this those these one there")
 _LEFT = frozenset({"leave", "keep"})
 _AS_IT_IS = ("where it is", "where they are", "as it is", "as they are", "alone", "be")
@@ -86,6 +102,8 @@ class TakenBack(Struct, frozen=True):
 
 def mark_in(text: str) -> re.Match[str] | None:
     """The first words of a normalized text that take something back."""
+    if nearly := _NEARLY.match(text):
+        return nearly
     found = _MARK.search(text, 1)
     while found and _of_the_same(text, found):
         found = _MARK.search(text, found.end())
@@ -102,23 +120,42 @@ def _of_the_same(text: str, mark: re.Match[str]) -> bool:
 
 def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     """All ways to understand what is taken back; none where more than one thing is."""
-    text = _MEANT.sub("", text) if _MEANT.search(text, mark.end()) else text
-    if _MARK.search(text, mark.end()) or mark.end() == len(text):
+    if nearly := mark.groupdict().get("nearly"):
+        asked = text[mark.end() :]
+        yield TakenBack(nearly, asked.rstrip(".!"), asked)
         return
-    before, after = (
-        tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[mark.end() :])
-    )
-    if after[:1] == ("not",) and "," in after and {*after[1 : after.index(",")]} <= {*before}:
-        after = after[after.index(",") + 1 :]  # "the car, no wait, not the car, the ball"
+    text = _MEANT.sub("", text) if _MEANT.search(text, mark.end()) else text
+    why = _REASON.match(text[mark.end() :])
+    begin = mark.end() + (why.end() if why else 0)
+    if _MARK.search(text, begin) or begin == len(text):
+        return
+    before, after = (tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[begin:]))
+    if mark[0].endswith("not "):
+        after = ("not", *after)
+    denied = frozenset[str]()
+    if (
+        after[:1] == ("not",)
+        and "," in after
+        and {*after[1 : after.index(",")]} <= {*before, "one", "ones"}
+    ):
+        # "The car, no wait, not the car, the ball"
+        denied = frozenset(after[1 : after.index(",")]) - BEFORE_THINGS - {"one", "ones"}
+        after = after[after.index(",") + 1 :]
+    while after[:1] in (("just",), ("please",), ("rather",), ("instead",)):
+        after = after[1:]
     start = max((at + 1 for at, token in enumerate(before) if token in _ENDS), default=0)
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
     end = after.index(",") if "," in after[:stop] else stop
     tail, said, rest = before[start:], after[:end], after[end:]
-    if (
-        said[1:2] in (("it",), ("them",))
-        and {*said[:1]} & _SETTING
-        and {*said[2:3]} & _BEFORE_PLACES
-    ):
+    if not said:
+        return
+    if said[0] in _LEFT and {*said[1:2]} & {*_POINTING}:
+        more = said[3:] if said[2:3] in (("one",), ("ones",)) else said[2:]
+        left = " ".join(more).startswith(_AS_IT_IS)
+        said = (said[0], _POINTING[said[1]], *more) if left else said
+    if said[0] == "use":
+        said = ("take", *said[1:])
+    if said[1:2] in (("it",), ("them",)) and {*said[:1]} & SETTING and {*said[2:3]} & BEFORE_PLACES:
         said = said[2:]  # "on the tray. Actually, put it in the box"
     if {*said} <= {*SIDES} and not {*tail} & {*SIDES}:
         return  # "on the plate, no, left": of it, or of the desk?
@@ -136,19 +173,23 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             text = _joined(*before[:start], *fewer, *rest)
             yield TakenBack(" ".join(said[1:]), " ".join(said), text)
         return
-    spans = list(_spans(tail, said, sentence, everything=everything, whole=whole))
+    spans = [
+        span
+        for span in _spans(tail, said, sentence, everything=everything, whole=whole)
+        if denied <= {*tail[slice(*span)]}
+    ]
     if said[-1] in ("one", "ones") and said[1:-1] not in ((), ("other",)):
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
         plain = not any(
             map(is_descriptive, said)
         )  # "the steel ball in the box, no, the rubber one"
         phrases = [(span, tail[slice(*span)]) for span in spans]
-        told = [span for span, np in phrases if plain and len({*np} - _BEFORE_THINGS) > 1]
+        told = [span for span, np in phrases if plain and len({*np} - BEFORE_THINGS) > 1]
         told += [span for span, np in phrases if not plain and any(map(is_descriptive, np))]
         spans = told or spans
-    if said[0] in _BEFORE_THINGS:
+    if said[0] in BEFORE_THINGS:
         # "The cake on the white plate, no, the other plate"
-        alike = [s for s in spans if said[-1] in ("one", _noun_of(tail[s[0] : s[1]]))]
+        alike = [s for s in spans if said[-1] in ("one", noun_of(tail[s[0] : s[1]]))]
         # "On the upper board of the shelf, no, the lower board"
         whose = [s for s in spans if tail[s[0] - 1] == "of" and any(a[0] < s[0] for a in alike)]
         spans = alike if "other" in said else [s for s in spans if s not in whose]
@@ -158,23 +199,31 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         if kept and rest[:1] == (",",) and not further:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
-        new = (*said[:-1], *_also_told(taken, said), *_called(taken, said)) if noun else said
-        new = new[:-1] if new[-1] == "instead" else new
-        mark_at = next((at for at, word in enumerate(taken) if word in _BEFORE_THINGS), len(taken))
-        if new[-1] == "it" and _is_place(new):  # "on the tray, no, next to it"
-            new = (*new[:-1], *taken[mark_at:])
-        new = _other_than(taken[mark_at:], new)
-        if new[0] in _LEFT and new[1:2] in (("it",), ("them",)):
-            new = (new[0], *(_object_of(taken) or new[1:2]), *new[2:])
-        for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
-            words = _joined(*before[:start], *tail[:first], *new, *kept, *more)
-            same = said[0] in _BEFORE_THINGS and _noun_of(taken) == said[-1]
-            yield TakenBack(" ".join(taken), " ".join(new), words, same)
+        new = (*said[:-1], *also_told(taken, said), *called(taken, said)) if noun else said
+        news = in_its_stead(taken, new[:-1]) if new[-1] == "instead" else iter((new,))
+        for new in news:
+            instead = _settled(taken, new)
+            for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
+                words = _joined(*before[:start], *tail[:first], *instead, *kept, *more)
+                same = said[0] in BEFORE_THINGS and noun_of(taken) == said[-1]
+                gone = _joined(*taken, *(f", {why['so']}".split() if why else ()))
+                yield TakenBack(gone, " ".join(instead), words, same)
+
+
+def _settled(taken: Sequence[str], new: tuple[str, ...]) -> tuple[str, ...]:
+    """What is said instead, without pronouns for what is taken back."""
+    mark_at = next((at for at, word in enumerate(taken) if word in BEFORE_THINGS), len(taken))
+    if new[-1] == "it" and _is_place(new):  # "on the tray, no, next to it"
+        new = (*new[:-1], *taken[mark_at:])
+    new = other_than(taken[mark_at:], new)
+    if new[0] in _LEFT and new[1:2] in (("it",), ("them",)):
+        new = (new[0], *(object_of(taken) or new[1:2]), *new[2:])
+    return new
 
 
 def _is_place(said: Sequence[str]) -> bool:
     """Whether words say where something goes; "left" and "right" do by what they are of."""
-    return said[0] in _BEFORE_PLACES or (said[0] in ("left", "right") and said[1:2] == ("of",))
+    return said[0] in BEFORE_PLACES or (said[0] in ("left", "right") and said[1:2] == ("of",))
 
 
 def _joined(*words: str) -> str:
@@ -186,21 +235,23 @@ def _exchanged(tail: Sequence[str]) -> Iterator[tuple[str, ...]]:
     """A request for two things that go to two places, each to the other one's place; for one of two
     things alike that goes to the other one, the other one to it.
     """
-    joints = [at for at, word in enumerate(tail) if word in _JOINTS]
-    begin = next((at for at, word in enumerate(tail) if word in _BEFORE_THINGS), len(tail))
-    where = [at for at, word in enumerate(tail) if at > begin and word in _BEFORE_PLACES]
-    if len(where) == 1 and begin and not joints:
+    joints = [at for at, word in enumerate(tail) if word in JOINTS]
+    begin = next((at for at, word in enumerate(tail) if word in BEFORE_THINGS), len(tail))
+    begin = begin if {*tail[:begin]} & _VERBS else 0  # "red car on the blue one"
+    where = [at for at, word in enumerate(tail) if at > begin and word in BEFORE_PLACES]
+    if len(where) == 1 and not joints:
         (at,) = where
-        one, other = tail[begin:at], tail[at + 1 :]
-        noun = _noun_of(one)
+        goes = next((it for it, word in enumerate(tail[:at]) if it and word in _GOES), at)
+        one, other = tail[begin:goes], tail[at + 1 :]
+        noun = noun_of(one)
         # No two things: a cup that goes on a plate "the other way round" may be upside down.
-        if other[:1] and other[0] in _BEFORE_THINGS and other[-1] in ("one", noun):
-            yield (*tail[:begin], *other[:-1], noun, tail[at], *one)
+        if other[:1] and other[0] in BEFORE_THINGS and other[-1] in ("one", noun):
+            yield (*tail[:begin], *other[:-1], noun, *tail[goes : at + 1], *one)
         return
     if len(joints) != 1 or len(where) != 2 or tail[joints[0]] != "and":
         return
     (joint,), (first, second) = joints, where
-    if begin and first < joint < second and tail[joint + 1] in _BEFORE_THINGS:
+    if begin and first < joint < second and tail[joint + 1] in BEFORE_THINGS:
         one, other = tail[begin:first], tail[joint + 1 : second]
         yield (*tail[:begin], *other, *tail[first : joint + 1], *one, *tail[second:])
 
@@ -209,64 +260,17 @@ def _without(tail: Sequence[str], named: Sequence[str]) -> Iterator[tuple[str, .
     """A request without one of several things, and with where that goes, if that is its own."""
     size = len(named)
     at = [n for n in range(len(tail)) if tuple(tail[n : n + size]) == tuple(named)]
-    if len(at) != 1 or (named[:1] and named[0] not in _BEFORE_THINGS):
+    if len(at) != 1 or (named[:1] and named[0] not in BEFORE_THINGS):
         return
     (begin,), end = at, at[0] + size
     if tail[begin - 1] in ("and", ","):
-        if any(word in _BEFORE_PLACES for word in tail[1:begin]):
+        if any(word in BEFORE_PLACES for word in tail[1:begin]):
             # "The cup in the box and the jar too", "… and the jar on the tray"
-            end = next((n for n in range(end, len(tail)) if tail[n] in _JOINTS), len(tail))
+            end = next((n for n in range(end, len(tail)) if tail[n] in JOINTS), len(tail))
         begin -= 2 if tail[begin - 2 : begin] == (",", "and") else 1
         yield (*tail[:begin], *tail[end:])
-    elif {*tail[end : end + 1]} & {"and", ","} and {*tail[end + 1 : end + 2]} & _BEFORE_THINGS:
+    elif {*tail[end : end + 1]} & {"and", ","} and {*tail[end + 1 : end + 2]} & BEFORE_THINGS:
         yield (*tail[:begin], *tail[end + 1 :])
-
-
-def _noun_of(phrase: Sequence[str]) -> str:
-    """What a thing is called: "board" of "the upper board of the shelf"."""
-    end = phrase.index("of") if "of" in phrase[1:] else len(phrase)
-    return phrase[end - 1] if phrase else ""
-
-
-def _called(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
-    """What "the white one" takes over of "the blue pill box": all that it is called; "the steel
-    one" may be no pill box.
-    """
-    end = taken.index("of") if "of" in taken[1:] else len(taken)
-    begin = end - 1
-    while begin > 0 and not (_tells(taken[begin - 1]) or taken[begin - 1] in _BEFORE_THINGS):
-        begin -= 1
-    whole = begin > 0 and all(map(_tells, (word for word in said[:-1] if word != said[0])))
-    return (*taken[begin:end],) if whole and said[1:-1] else (_noun_of(taken),)
-
-
-def _tells(word: str) -> bool:
-    """Whether a word tells things of one sort apart, whatever they are."""
-    return is_descriptive(word) or any(word in sort for sort in (SIZES, SIDES, LEVELS))
-
-
-def _other_than(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
-    """What is said instead, "the other board" as one that is not the board that is taken back."""
-    if tuple(said[-3:-1]) != ("the", "other") or said[-1] != _noun_of(taken):
-        return (*said,)
-    return (*said[:-2], said[-1], "other", "than", *taken)
-
-
-def _object_of(clause: Sequence[str]) -> tuple[str, ...]:
-    """What something is done with."""
-    begin = next((at for at, word in enumerate(clause) if word in _BEFORE_THINGS), len(clause))
-    ends = (at for at, word in enumerate(clause) if at > begin and word in _BEFORE_PLACES | _JOINTS)
-    return tuple(clause[begin : next(ends, len(clause))])
-
-
-def _also_told(taken: Sequence[str], said: Sequence[str]) -> tuple[str, ...]:
-    """What told the thing besides, behind "the red cube, I mean the little one": of another sort
-    than what is said instead.
-    """
-    sorts = (SIZES.__contains__, SIDES.__contains__, LEVELS.__contains__, basic_color)
-    new = [sort for sort in sorts if any(map(sort, said))]
-    told = [word for word in taken[:-1] if any(sort(word) for sort in sorts)]
-    return tuple(word for word in told if new and not any(sort(word) for sort in new))
 
 
 def _spans(
@@ -287,15 +291,15 @@ def _spans(
         whole: that may have another verb than what is said instead.
     """
     size = len(tail)
-    joints = [at for at, word in enumerate(tail) if word in _JOINTS]
-    where = [at for at, word in enumerate(tail) if at and word in _BEFORE_PLACES]
+    joints = [at for at, word in enumerate(tail) if word in JOINTS]
+    where = [at for at, word in enumerate(tail) if at and word in BEFORE_PLACES]
     things = [
         at
         for at, word in enumerate(tail)
-        if word in _BEFORE_THINGS and tail[at + 1 : at + 3] != ("robot", "'s")
+        if word in BEFORE_THINGS and tail[at + 1 : at + 3] != ("robot", "'s")
     ]
     goes = [at for at, word in enumerate(tail) if at and word in _GOES]
-    bare = where[:1] and not {*tail[: where[0]]} & (_VERBS | _JOINTS | _BEFORE_THINGS)
+    bare = where[:1] and not {*tail[: where[0]]} & (_VERBS | JOINTS | BEFORE_THINGS)
     if tail and (is_descriptive(tail[0]) or bare or (goes[:1] == [1] and 0 not in things)):
         things.insert(0, 0)  # "black pen in the tray", "tools go in the tray", "pen in the tray"
     begin = said[0]
@@ -303,29 +307,30 @@ def _spans(
         clauses = (0, *(at + 1 for at in joints))
         how = " ".join(said[2:]) if begin in _LEFT and said[1:2] in (("it",), ("them",)) else ""
         undone = any(f"{how} ".startswith(f"{so} ") for so in _AS_IT_IS) and not joints
-        alone = {*said[3:4]} <= _JOINTS
+        alone = {*said[3:4]} <= JOINTS
         if undone or (how and alone and said[2] in _OPPOSITES.get(tail[clauses[-1]], ())):
             yield (clauses[-1], size)
             return
         for at in () if _SEQUEL & {*sentence} else clauses:
             # "Put the cup on the tray and the jar on the mat. No, put …": either of them, or both?
-            one = everything or not _JOINTS & {*tail[at:]}
+            one = everything or not JOINTS & {*tail[at:]}
             alike = tail[at : at + 1] == (begin,) and "instead" not in sentence
-            if one and (alike or (whole and _VERBS & {*tail[at : at + 1]})):
+            other = whole and (everything or not joints) and _VERBS & {*tail[at : at + 1]}
+            if one and (alike or other):
                 yield (at, size)
     elif _is_place(said):
         yield from (
             (at, size)
             for at in where
-            if tail[at - 1] not in _BEFORE_PLACES and at > max(joints, default=0)
+            if tail[at - 1] not in BEFORE_PLACES and at > max(joints, default=0)
         )
-    elif begin in _BEFORE_THINGS and _BEFORE_PLACES & {*said}:
-        named = said[: min(at for at, word in enumerate(said) if word in _BEFORE_PLACES)]
+    elif begin in BEFORE_THINGS and BEFORE_PLACES & {*said}:
+        named = said[: min(at for at, word in enumerate(said) if word in BEFORE_PLACES)]
         again = [at for at in things if tail[at : at + len(named)] == named]
         for at in again if joints else things:
             # "The pen in the cup and the nut in the box, or rather, the nut in the tray"
             yield (at, min((end for end in joints if end > at), default=size))
-    elif begin in _BEFORE_THINGS:
+    elif begin in BEFORE_THINGS:
         for at in things:
             yield (at, min((end for end in (*where, *joints, *goes) if end > at), default=size))
     elif is_descriptive(begin) or things[-1:] != [size - 1]:
