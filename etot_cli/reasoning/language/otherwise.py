@@ -43,7 +43,7 @@ from etot_cli.reasoning.language.words.patterns import spellings, words_of
 from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import SceneState
 
-_HEADING = re.compile(r"([^.:;!?\n]+):\s+(\S.*)", re.DOTALL)
+_HEADING = re.compile(r"((?:\b(?:Mr|Mrs|Ms|Dr)\. |[^.:;!?\n])+):\s+(\S.*)", re.DOTALL)
 _POLITE = Expression(rf"^(?:so,? )?{ASKED}")
 _AS_FOLLOWS = Expression(r",? as follows\s*$", re.IGNORECASE)
 _TABLE_SET = Expression(
@@ -236,7 +236,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
     heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()
-    job = words[-1] in _JOBS and not {"by", "with", *_WITHIN} & {*words}
+    what = words[: words.index("for")] if "for" in words[1:] and not named else words
+    job = {*what[-1:]} <= _JOBS and not {"by", "with", *_WITHIN} & {*words}
     planned = _PLAN.match(normalized(said[1])) if not named else None
     heading |= planned is not None and _is_purpose(words_in(planned["purpose"] or ""))
     heading |= job or (words[0] == "for" and not named and _is_purpose(words))
@@ -322,7 +323,7 @@ def _as_written(aside: str, instruction: str) -> str:
     # What is named in a clause of its own, and not what is put somewhere in another one
     names = begun.split()[0] in BEFORE_NAMES
     own = r"(?:^|[.,:;!?\n]|\b(?:so|but|because|since|as)\b)\s*" if names else ""
-    alike = rf"{own}({re.escape(begun)}\b[^.,:;!?\n]*)"
+    alike = rf"{own}({re.escape(begun)}\b(?:(?<= [md]r)\. |(?<= m[rs]s)\. |[^.,:;!?\n])*)"
     for wanted in (f"({re.escape(aside)})", alike):
         if found := re.search(wanted, instruction, re.IGNORECASE):
             return found[1].strip()

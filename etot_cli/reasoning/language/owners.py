@@ -20,7 +20,8 @@ _OWNED = Expression(
 )
 """Within a sentence; what it begins with has a capital anyway."""
 _WANTS = Expression(
-    r"(?:^|(?<=[.!?;,] )|(?<=\b(?:so|as) ))(?:(?P<who>[A-Z][a-z]+)"
+    r"(?<!Mr\. )(?<!Ms\. )(?<!Mrs\. )(?<!Dr\. )(?:^|(?<=[.!?;,] )|(?<=\b(?:so|as) ))"
+    r"(?:(?:(?:Mr|Ms|Mrs|Dr)\. )?(?P<who>[A-Z][a-z]+)"
     r"|(?:[Tt]he|[Oo]ur|[Mm]y) (?P<job>[a-z]+(?:man|woman|master|er|or|ist|ess|ant|ian)))"
     r"(?= (?:wants|needs|would like|asked for|asks for) (?:to have )?"
     r"(?:the|my|his|her|both|all|an?)\b)"

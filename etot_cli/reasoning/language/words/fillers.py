@@ -44,7 +44,8 @@ WITHOUT_MEANING = f"""
     at the moment, at present, for now, this time, (this|for) once,
     mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
-    [[and] that] is (it|all|everything) [{_I_ASK}|[that] there is [to it]],
+    [[and] that] is (it|all|everything)
+    [{_I_ASK}|[that] there is [to it]|for (today|tonight|the (day|moment))],
     ~comma (choose|pick|take|use) (whichever|whatever) [one] (you (like|want|prefer|choose|fancy)|
     suits you [best]|is (easier|easiest|best)),
     [just|simply] choose (whichever|whatever) [one] (you (like|want|prefer|fancy)|suits you),

@@ -8,6 +8,7 @@ from etot_cli.reasoning.language.words.verbs import THE_ROBOT
 ANNOUNCED = """
     (two|three|four|five|a few|a couple of) things [to do] [~comma] [(for you|please|now)],
     [just] [a|one] (quick|small|last) (one|thing|request|favour|favor) [for you],
+    [kindly] do the needful,
     do (it|this) (the way|as|like) (i|we) (always|usually) (do|like|have|want) [it]
 """
 """Before what is to be done."""

@@ -167,6 +167,8 @@ def _clauses(sentence: str) -> Iterator[Clause]:
             found = _GOES_ON.match(ahead)
         if found and found[0] == "who" and not mark:
             found = None  # a question
+        if found and kind == "reason" and found.lastgroup == "benefit" and not mark:
+            found = None  # "because she needs it for painting"
         if found and not begun and kind != "benefit":
             to_me = found[0] == "where" and words[at - 2 : at] == ["to", "me"]
             found = None if to_me or words[at - 1] in _BEFORE.get(found[0], ()) else found

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import GRANTED, Clause, clauses_of
 from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES, PRONOUNS, IsName
@@ -26,7 +27,7 @@ from etot_cli.reasoning.language.grammar.asides.named_in_asides import (
     words_of,
 )
 from etot_cli.reasoning.language.grammar.asides.people import HEARSAY, is_of_people
-from etot_cli.reasoning.language.grammar.asides.talk import is_talk
+from etot_cli.reasoning.language.grammar.asides.talk import WHEN, is_talk
 from etot_cli.reasoning.language.grammar.asides.telling import stranger_is_there
 from etot_cli.reasoning.language.grammar.asides.told_of_things import is_turning, told_of_thing
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import (
@@ -52,8 +53,10 @@ _CONFIRMED = Expression(
     r"(?:(?:then|so|if (?:so|yes|it can|possible|you can)|well|ok|okay|good|please),? )*"
     r"(?:please )?do (?:it|that|so)(?:,? (?:then|please|now|right away|for me))*"
 )
-_THEN = Expression(rf"(?:^then\b|\b(?:until|till|by|before|after) then\b|\bthen(?: {COMMA}|$))")
+_THEN = Expression(rf"(?:^then\b|\b(?:until|till|after) then\b|\bthen(?: {COMMA}|$))")
 """It may speak of a time that was told ("she comes at three, so do it then")."""
+_BY_THEN = Expression(rf"(?: {COMMA})? (?:by|before) then$")
+"""All is done by any time that was told."""
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
 _MYSELF = word_set("myself ourselves himself herself themselves")
@@ -115,6 +118,10 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
     parted = [_parted(sentence, is_name, is_sentence) for sentence in sentences]
     if len(sentences) == 1 and (asked := _asked_by_another(sentences[0])):
         parted = [asked]
+    timed = False
+    for at, part in enumerate(parted):
+        timed |= any(WHEN.search(item.said) for item in part.asides)
+        parted[at] = replace(part, rest=_BY_THEN.sub("", part.rest)) if timed else part
     rest = [part.rest for part in parted if part.rest]
     asides = [aside for part in parted for aside in part.asides]
     cut = any(part.before or part.after for part in parted)

@@ -75,7 +75,24 @@ NO_STRANGERS = (
 )  # fmt: skip
 """None of these is a thing that no scene has."""
 BEFORE_NAMES = word_set("the a an my your our his her their this that these those both all")
+AS_WELL = word_set("too also well likewise next please ditto instead there then upside")
+"""Behind what something is asked for once more ("the spare keys too")."""
 PLACED = word_set("in on into onto at next beside near off out")
+
+
+PLACING = word_set(
+    """
+    sit stand lie rest hang lean perch nest nestle reside dwell live go come belong get take hold
+    contain house accommodate carry store serve count need crown top line flank lead
+    """
+)
+"""What a thing does that is somewhere, or holds something."""
+
+
+def is_placing(verb: str) -> bool:
+    """Whether a verb may say where something is, or is to be, or what it is to hold."""
+    stems = {verb, verb.removesuffix("s"), verb.removesuffix("es")}
+    return bool((PLACING | WORK | CHANGING) & stems)
 
 
 def is_doing(word: str) -> bool:

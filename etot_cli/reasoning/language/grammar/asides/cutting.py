@@ -50,6 +50,7 @@ from etot_cli.reasoning.language.grammar.asides.vague_wishes import (
     lacks_room,
     still_needs_it,
     wants_such_a_thing,
+    would_see,
 )
 from etot_cli.reasoning.language.grammar.asides.where_needed import is_hindering
 from etot_cli.reasoning.language.words.expressions import Expression
@@ -57,6 +58,10 @@ from etot_cli.reasoning.language.words.expressions import Expression
 _PLACES = ("in ", "on ", "at ", "next ", "beside ", "behind ", "near ", "to ", "left ", "right ")
 _ASKED = Expression(r"(?:(?:so|please|kindly|but|and) )*(?:can|could|would|will|please|kindly)\b")
 """What begins a request."""
+_COMPOUND = Expression(
+    r"(?:the|my|our|your|his|her|some) \w+ (?!sleeps|cries|barks|insists|complains|snores)\w+[^s]s"
+)
+"""What may be a noun with another one before it ("the dog treats")."""
 _NEXT = Expression(
     r"^(?:(?:then|afterwards|after that|next|please|also|you can|(?:can|could|would) you) )+"
 )
@@ -132,7 +137,7 @@ def is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
             return (place.trails or place.leads) and _gives_a_reason(place)
         case "comment", "who":
             of_somebody = at > 0 and clauses[at - 1].kind == "benefit"
-            return of_somebody and is_remark(f"she {clause.said}", is_name)
+            return of_somebody and _tells_of_her(clause.said, is_name)
         case "comment", _:
             return clause.comma and (
                 is_comment(clause.said, is_name) or tells_fact(_whole_of(clause), is_name)
@@ -166,13 +171,19 @@ def _gives_a_reason(place: _Place) -> bool:
         or bool(told_of_thing(said, is_name))
         or tells_fact(said, is_name)
         or goes_there(said, is_name, whose=BEFORE_NAMES)
+        or is_talk(said, is_name)
     )
+
+
+def _tells_of_her(does: str, is_name: IsName) -> bool:
+    """Whether it asks for nothing that somebody is or does this."""
+    return is_remark(f"she {does}", is_name) or tells_fact(f"she {does}", is_name)
 
 
 def _is_for_somebody(place: _Place) -> bool:
     """Whether a clause says no more than for whom something is done, and what that one does."""
     _, _, does = place.said.partition(" who ")
-    if does and not is_remark(f"she {does}", place.is_name):
+    if does and not _tells_of_her(does, place.is_name):
         return False
     set_off = place.is_last or place.clauses[place.at + 1].comma
     apart = place.at > 0 and (set_off or place.clauses[place.at + 1].joint == "and")
@@ -218,14 +229,16 @@ def _only_tells(place: _Place) -> bool:
         return _is_whole(clauses, at) and _only_tells(_Place(clauses, at, is_name))
     first, whole = at == 0, _is_whole(clauses, at)
     so = at + 1 < len(clauses) and clauses[at + 1].joint in ("so", "and so")
+    if not so and _COMPOUND.fullmatch(said):
+        return False
     for_somebody = any(item.kind == "benefit" for item in clauses[at + 1 : at + 2])
-    wanted_for = so and (is_desk_wish(said) or is_plan(said, is_name))
+    wanted_for = so and (is_desk_wish(said) or is_plan(said, is_name) or would_see(said))
     is_there = so and (goes_there(said, is_name) or stranger_is_there(said, is_name))
     on_the_way = at + 1 < len(clauses) and goes_to_it(said, place.behind, first=first)
     feared = whole and (fears_for(said) or may_befall(said))
     set_off = whole or is_of_people(said) or _is_set_off(clauses, at, is_name)
-    of_others = (whole and goes_there_later(said, is_name)) or (
-        set_off and is_talk(said, is_name, before_so=so)
+    of_others = (whole and goes_there_later(said, is_name)) or is_talk(
+        said, is_name, before_so=so, listed=not set_off
     )
     added = place.trails and (
         is_unspoilt(said)

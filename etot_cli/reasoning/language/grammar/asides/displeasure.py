@@ -43,6 +43,10 @@ _BOTHERING = Expression(
     rf"(?:me|us|{PEOPLE}|my eyes)(?: (?:mad|crazy|nervous|sad|angry))? "
     rf"(?:that|when|to see|to have|how|if) {_thing('c')}{_how('d')}"
 )
+_BOTHERS = Expression(
+    r"it is (?:the|that|this|my|our) (?:\w+ ){0,6}?(?P<o>\w+)(?P<p>) that "
+    rf"(?:bothers?|annoys?|worr(?:y|ies)|disturbs?|irritates?) (?:me|us|{PEOPLE})"
+)
 _LEFT_SO = Expression(
     rf"(?:{PEOPLE}|they|you) (?:(?:have|has|had|just|again|always|once) )*"
     rf"(?:left|leaves?|forgot|keeps? leaving) {_thing('e')}{_how('f')}"
@@ -64,7 +68,7 @@ _VERY = (
 I_SAY = r"(?:i|we) (?:think|believe|find|feel|fear|notice|noticed|see|guess)(?: that)?"
 _NEAR = r"(?:close to|near(?: to)?|by|at|on)"
 _MISPLACED = Expression(
-    rf"(?:(?:{I_SAY}) )?(?!.*\b(?:not|never|must|should|may|can|that)\b){_thing('k')} "
+    rf"(?:(?:{I_SAY}) )?(?!.*\b(?:not|never|must|should|may|can|(?<!like )that)\b){_thing('k')} "
     rf"{_STANDING}{_VERY} "
     r"(?:too (?:(?:close|near|far)(?: \w+)*|\w+ (?:for|to) \w+(?: \w+)*)"
     rf"|(?:right|almost|nearly|dangerously|precariously|very|too) {_NEAR} the (?:very )?"
@@ -127,7 +131,7 @@ def is_answered(said: str, rest: Sequence[str]) -> bool:
 def _found(said: str) -> tuple[str, str] | None:
     """What a clause is about, and whether it says that it is open or closed."""
     said = ON_ARRIVAL_THEN.sub("", said)
-    for pattern in (_DISLIKED, _BOTHERING, _LEFT_SO, _HALF_DONE, _MISPLACED, _ASKED_FOR):
+    for pattern in (_DISLIKED, _BOTHERING, _BOTHERS, _LEFT_SO, _HALF_DONE, _MISPLACED, _ASKED_FOR):
         if found := pattern.fullmatch(said):
             told = found.groupdict()
             if told.get("does") in _HELPING:

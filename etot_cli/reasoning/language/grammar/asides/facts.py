@@ -13,6 +13,7 @@ from collections.abc import Iterable, Sequence
 from msgspec import Struct
 
 from etot_cli.reasoning.language.grammar.asides.asking_words import (
+    AS_WELL,
     ASKING,
     BEFORE_NAMES,
     CHANGING,
@@ -24,6 +25,7 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     WORK,
     IsName,
     asks_besides,
+    is_placing,
 )
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE, somebody
 from etot_cli.reasoning.language.grammar.asides.remarks import is_forbidding
@@ -34,6 +36,8 @@ from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     SIDES,
     STATES,
+    is_in_lexicon,
+    singular,
     word_set,
 )
 
@@ -72,7 +76,7 @@ _COMPLEMENT = word_set("of to about without")
 _NO_REQUEST = OTHER_VERBS | word_set("fallen had run come serve serving")
 """Participles and the like that nobody asks for."""
 _REQUESTS = (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
-_LASTING = word_set(
+LASTING = word_set(
     """
     standing lying sitting resting going staying coming moving joining leaving belonging living
     being having hanging waiting ending blocking obstructing covering holding leaning supporting
@@ -113,7 +117,9 @@ HOLDING_TRUE = word_set(
     think believe guess suppose mean imagine figure reckon know see find feel assume understand
     remember like likes love loves hate hates prefers favour favor thinks believes knows ask tell
     say says asks tells plan plans intend intends decided agreed promised said meant asked chosen
-    ordered arranged suggested recommended voted
+    ordered arranged suggested recommended voted hope hopes wish wishes crave craves desire desires
+    covet covets seek seeks request requests beg begs claim claims fancy fancies yearn yearns long
+    longs pray prays dream dreams
     """
 )
 """What somebody does who may ask for something by what he goes on to say."""
@@ -160,9 +166,9 @@ def tells_fact(said: str, is_name: IsName) -> bool:
         while rest[:1] and rest[0] in _ADVERBS:
             rest = rest[1:]
         if (happened := _is_told(rest)) is None and rest[:1] and rest[0] in ("will", "does", "do"):
-            happened = _is_strange(subject, is_name) and not _is_asked_for(
-                [word for word in rest[1:] if word not in _ADVERBS][:1]
-            )
+            does = next((word for word in rest[1:] if word not in _ADVERBS), "")
+            asked = is_asked_for([does]) or is_placing(does)
+            happened = _is_strange(subject, is_name) and not asked
         if happened is not None:
             return happened and _is_thing(subject, is_name) and not asks_besides(said)
     return False
@@ -174,6 +180,9 @@ def _by_name(said: str, is_name: IsName) -> tuple[str, str] | None:
     verb = next((word for word in did if word not in _ADVERBS), "")
     stranger = who == "one" or (not is_name(who) and who not in all_words())
     does = verb in (_BE | _HAVE) or (verb.endswith("s") and not verb.endswith("ss"))
+    if did[:1] == [verb] and verb not in _BE | _HAVE:  # "wine glasses hang …", "tea bags too"
+        following = {*did[1:2]} & (PLACED | AS_WELL) or any(map(is_placing, did[1:2]))
+        does &= not (following or is_in_lexicon(singular(verb)))
     return (who, " ".join(did)) if stranger and does and not is_name(verb) else None
 
 
@@ -215,16 +224,21 @@ def _is_told(rest: Sequence[str]) -> bool | None:
     then = more[0] if more else ""
     wished = (_WISHING - {"not", "never", "without"} | {*STATES} - _DONE) & {*more}
     if verb in _HAVE and then:
-        over = _is_participle(then) and not _is_asked_for([w for w in more if w != "been"][:1])
+        over = _is_participle(then) and not is_asked_for([w for w in more if w != "been"][:1])
         return over and not wished
-    if verb in _BE and then.endswith("ing") and len(then) > len("thing"):
-        return not (wished or then in _LASTING or _is_asked_for({then} - {"getting"}))
+    if verb in _BE | {"keep", "keeps"} and then.endswith("ing") and len(then) > len("thing"):
+        return goes_on(then) and not wished
     if verb in PAST:
-        to_be = verb in ("was", "were") and (then == "to" or _is_asked_for([then]))
+        to_be = verb in ("was", "were") and (then == "to" or is_asked_for([then]))
         return not (wished or to_be)
     if verb in _BE or verb in _HAVE:
         return False
     return None
+
+
+def goes_on(doing: str) -> bool:
+    """Whether what is going on is nothing that may be asked for."""
+    return not (doing in LASTING or is_asked_for({doing} - {"getting"}))
 
 
 def _is_participle(word: str) -> bool:
@@ -240,7 +254,7 @@ def _is_regular(word: str) -> bool:
     return word.endswith("ed") and len(word) > len("need")
 
 
-def _is_asked_for(words: Iterable[str]) -> bool:
+def is_asked_for(words: Iterable[str]) -> bool:
     """Whether these may be what the robot is to do, or how things are to be."""
     stems = {stem for word in words for stem in (word, word.removesuffix("d"), word[:-2])}
     return bool(_REQUESTS & stems)
@@ -263,16 +277,14 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
     named = any(map(is_name, did))
     if first in _HAVE:
         if _is_participle(then):
-            return not _is_asked_for(more[:1]) and then not in HOLDING_TRUE
+            return not is_asked_for(more[:1]) and then not in HOLDING_TRUE
         return not named and not (REFERRING | {"to"}) & {*more}
     if first in _BE:
         if more[:2] == ["going", "to"]:
-            return not _is_asked_for(more[2:3])
+            return not is_asked_for(more[2:3])
         if then.endswith("ing"):
             asked = (
-                then in _MEANT
-                or (named and then == "waiting")
-                or _is_asked_for({then} - {"coming"})
+                then in _MEANT or (named and then == "waiting") or is_asked_for({then} - {"coming"})
             )
             return not (asked or (then == "serving" and _is_placed(more, is_name)))
         over = first in ("was", "were") and not _is_placed(more, is_name)
@@ -281,7 +293,7 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
     if first in ("do", "does", "did", "can", "could", "will", "might"):
         able = told.denied or first in ("will", "might")
         bears = then in ("stand", "bear") and not named  # "I can not stand that smell"
-        asked = _is_asked_for({then} - {"be"}) or then in HOLDING_TRUE
+        asked = is_asked_for({then} - {"be"}) or then in HOLDING_TRUE
         return able and bool(then) and (bears or not asked)
     if is_past(first):
         return first not in HOLDING_TRUE
@@ -300,11 +312,11 @@ def _is_habit(told: _Doing, verb: str, then: str) -> bool:
     if verb in HOLDING_TRUE or verb in NO_STRANGERS - OTHER_VERBS - VERB_WORDS:
         return False
     if verb in ("keep", "keeps"):
-        return then.endswith("ing") and then not in _LASTING
+        return then.endswith("ing") and then not in _MEANT
     if told.who in ("i", "we", "people") or _SEVERAL.search(told.who):
-        return not (_is_asked_for([verb]) or verb.endswith("s"))
+        return not (is_asked_for([verb]) or verb.endswith("s"))
     stems = {verb.removesuffix("s"), verb.removesuffix("es"), f"{verb.removesuffix('ies')}y"}
-    return verb.endswith("s") and (told.habit or not _is_asked_for({verb, *stems}))
+    return verb.endswith("s") and (told.habit or not is_asked_for({verb, *stems}))
 
 
 def _goes_somewhere(did: Sequence[str]) -> bool:

@@ -34,6 +34,8 @@ _IS_ONE = Expression(
 """Before what is no other thing ("the vase was a gift", "he used it as a hat")."""
 _ONE_IS_FOR = Expression(r"one (?:(?:is|was)(?: meant| reserved)?(?: for\b|$)|belongs to\b)")
 """Behind "the little", which may be a child otherwise."""
+_BY_MEANS = Expression(r" with (?:my|our|his|her) \w+$")
+"""Behind what is spoken of ("I keep knocking it over with my sleeve")."""
 _WHICH_ONE = Expression(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
 _HELD = Expression(
     rf"(?:{PEOPLE}|they) (?:\w+ )??(?:has|have|had|took|uses?|needs?|wants?|reserved|got|keeps?)"
@@ -148,6 +150,9 @@ def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
 
 def names_stranger(said: str, is_name: IsName) -> bool:
     """Whether something is named that the scene does not have, and no person."""
+    means = _BY_MEANS.search(said)
+    if means and any(map(is_name, said[: means.start()].split())):
+        said = said[: means.start()]
     words = _IS_ONE.sub(" ", said).split()
     return any(
         word in BEFORE_NAMES

@@ -17,7 +17,7 @@ OWN = (
 PEOPLE = (
     r"(?:i|we|you|he|she|nobody|no one|somebody|someone|anybody|anyone|everybody|everyone|people"
     r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
-    r"|(?:mr|mrs|ms|dr|miss) \w+"
+    r"|(?:mr|mrs|ms|dr|miss|prof|professor|aunt|auntie|uncle) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
     rf"(?:(?:old|little|young|elder|dear|poor|older|younger|first|next|last|new) )?"
     rf"(?:{_RELATIONS}|little ones?)"

@@ -93,6 +93,7 @@ def is_comment(said: str, is_name: IsName) -> bool:
     return bool(_COMMENT.match(said)) and is_idle(said, is_name)
 
 
+_FOR_DOING = Expression(r" for \w+ing$")
 _YOU_DO = Expression(r"^you (?:then )?(\w+)")
 _IS_OPEN = Expression(
     rf"(?:it|they|{_THING}) (?:is|are|stands?)(?: (?:still|already|now|currently|just|wide|half))* "
@@ -104,6 +105,7 @@ def is_reason(said: str, is_name: IsName) -> bool:
     """Whether this may stand behind "because" and asks for nothing itself."""
     if _IS_OPEN.fullmatch(said):
         return True
+    said = _FOR_DOING.sub("", said)
     said = _A_PLACE.sub(r"\1 spot", _GONE_WRONG.sub(" fails", said))
     words = {*said.split()}
     asked = _YOU_DO.match(said)  # "even if you have to move it" asks for nothing

@@ -15,7 +15,6 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import (
     DOING,
     PLACED,
     PROPOSING,
-    REFERRING,
     WORK,
     IsName,
     asks_besides,
@@ -48,7 +47,6 @@ _HAPPENED = Expression(
     r"|will have) to |^will (?!be\b|need\b|[^~]* (?:myself|ourselves)$)"
     r"|^(?:need|want) something to \w+(?: (?:with|on|from|in))?$"
     r"|^will [^~]* (?:myself|ourselves)$"
-    r"|^keeps? (?:on )?(?!standing\b|lying\b|sitting\b)\w+ing\b"
     r"|^(?:worry|look|work|like(?! (?:the|my|our|your|this|that|these|those|it|them)\b))\b"
     r"|^(?:have|has|had|am|are|is|was|were|likes|loves?|hates?|broke|bought|left|made|forgot|lost|"
     r"found|got|did|went|came|ate|drank|saw|spilt|felt|gave|sent|"
@@ -69,7 +67,6 @@ _DOES = Expression(
     r"^(?:(?:will|might|may|could|can|would|does not|do not|did not|"
     r"will not|can not|keeps?) )?(?P<verb>\w+)"
 )
-_OUTSIDE = Expression(r"\b(?:is|are|was|were|has|have|had)\b(?! to\b)")
 _IN_GENERAL = Expression(
     r"(?:^it is (?:(?:already|nearly|almost|just|about) )*"
     r"(?:(?:half past|(?:a )?quarter (?:past|to)) \w+"
@@ -149,9 +146,7 @@ def is_remark(said: str, is_name: IsName) -> bool:
             return False  # "nobody is to use it", "she likes the cup on the tray"
         jointly = {word for word in did if words[0] in ("you", "we") and word in VERB_WORDS}
         return not ((WORK | ASKING) & {*did} or any(word.endswith("ing") for word in jointly))
-    outside = _OUTSIDE.search(said) and not any(map(is_name, words))
-    asking = (WORK | ASKING | REFERRING) & {*words}
-    return bool(_IN_GENERAL.match(said) or (outside and not asking))
+    return bool(_IN_GENERAL.match(said))
 
 
 def _is_of_no_thing(habit: re.Match[str], words: Sequence[str], is_name: IsName) -> bool:

@@ -38,7 +38,7 @@ _ASKING = (
 _TIME = Expression(
     r"(?:it is )?(?:(?!next\b|last\b|each\b|every\b|first\b|second\b|this\b|same\b|one\b|any\b)"
     r"\w+ ){0,2}?(?!sometime|anytime|meantime|meanwhile)(?:\w*time|break|over|recess)"
-    r"(?: (?:is )?(?:over|up|out|now|again|everybody|everyone|kids))*"
+    r"(?: (?:is )?(?:over|up|out|now|again|everybody|everyone|kids))*(?: for (?:the|my|our) \w+)?"
 )
 _EXCLAIMED = Expression(
     r"(?:what (?:an? )?(?:\w+ ){0,2}\w+|how (?!many\b|much\b|about\b|come\b|to\b)\w+(?: of you)?"

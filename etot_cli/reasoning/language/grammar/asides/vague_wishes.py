@@ -47,6 +47,21 @@ def wants_such_a_thing(said: str, is_name: IsName) -> bool:
     )
 
 
+_SEEING = Expression(
+    rf"(?!you\b)(?:{PEOPLE}|they|(?!the\b)\w+) would (?:(?:really|so|just) )?(?:love|like) to "
+    r"(?:see|hear|watch|admire|look at) (?:it|them|(?:the|my|our) (?P<what>(?:\w+ ){0,2}?\w+))"
+    r"(?: (?:up close|again|better|properly|in action|(?:for|by) \w+self))*"
+)
+
+
+def would_see(said: str) -> bool:
+    """Whether somebody would like to see something, whatever is done for that next."""
+    found = _SEEING.fullmatch(said)
+    what = (found["what"] or "").split() if found else []
+    asked = any(word in _TELLING - {*LEVELS, *SIDES} or word.endswith("ed") for word in what[1:])
+    return found is not None and not asked
+
+
 _STILL_NEEDED = Expression(
     rf"{PEOPLE} (?:(?P<later>still|soon|will) )?(?:also )?needs? (?:it|them)"
     r"(?P<when> (?:later|tomorrow|tonight|soon|myself|again)(?: on)?)?(?: for (?P<what>[^~]+))?"
