@@ -56,7 +56,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     (
         rf"(?<!all right )(?<!fine )\bas long as (?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) "
         rf"(?:is|are) (?:already |still |not )?{_IS_SO}{_END}"
-        r"(?!, (?:please )?(?:leave|keep|hold|wait|do not)\b))",
+        r"(?!, (?:please )?(?:(?:leave|keep|hold) (?!it (?:so|as it is|like|alone)\b)|wait\b"
+        r"|do not\b)))",
         "provided that ",
     ),
     # "The block of red colour", "the red colour block", "in red colour"
