@@ -70,8 +70,8 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(\b(?:any|an?|some|one|either|whichever)\b[^.;!?]*)?"
         rf"(?<!all right )(?<!fine )\bas long as "
         rf"(?=(?:it|{NAMED} (?:\w+ ){{0,2}}?\w+) (?:is|are) (?:already |still |not )?"
-        rf"{_IS_SO}{_END}(?!, (?:please )?(?:(?:leave|keep|hold) (?!it (?:so|as it is|like|alone)\b)"
-        r"|wait\b|do not\b)))",
+        rf"{_IS_SO}{_END}(?!, (?:please )?(?:(?:leave|keep|hold) "
+        r"(?!it (?:so|as it is|like|alone)\b)|wait\b|do not\b)))",
         lambda said: said[0] if said[1] else "provided that ",  # else it tells which of them
     ),
     # "The block of red colour", "the red colour block", "in red colour"
