@@ -11,11 +11,12 @@ from etot_cli.reasoning.language.words.expressions import Expression
 _STATE = "(?:state|configuration|situation|set-?up|scene|conditions?|arrangement|layout)"
 _GOAL = (
     r"(?:the )?(?:[a-z]+ )?(?:goal|desired|target|final|end|task|required|wanted|intended|expected"
-    rf"|results?|outcome)(?: (?:{_STATE}|results?|outcome))?(?: is)?\s*:"
+    rf"|results?|outcome|actions?)(?: (?:{_STATE}|results?|outcome))?(?: is)?\s*:"
 )
 _START = Expression(
     r"(?P<before>^|[.;!\n]\s*)(?:the )?"
-    rf"(?:(?:initial|start(?:ing)?|current|present|original) {_STATE}|start|initially|currently)"
+    rf"(?:(?:initial|start(?:ing)?|current|present|original) {_STATE}|start|initially|currently"
+    r"|pre-?conditions?(?=\s*:[^.;:\n]+[.;\n]\s*actions?\s*:))"
     rf"\s*:\s*(?P<told>[\s\S]+?)(?:[.;!\n]\s*(?=(?P<goal>{_GOAL}))|[.;!\s]*$)",
     re.IGNORECASE,
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 
 from msgspec.structs import replace
 
@@ -30,6 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.reference.geometry.space import is_flat, lies_in, rests_on, touches
+from etot_cli.reasoning.language.reference.memory.antecedents import EmptyAlready
 from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.world.state import DESK, SceneState
@@ -85,6 +87,9 @@ def _asked_for(
     several = given.either or (given.some is not None and given.there is None)
     if several and "it" in pronouns(first[0].clause):
         raise ReferenceProblem(given.text, "say which of them is meant", 3)
+    placed = given.place is not None and any(n.targets for n in _destinations(first))
+    if placed and any(n.word == "there" for n in _destinations(second)):
+        raise ReferenceProblem("there", "say where", 3)  # where it is, or where it was to go
     start = first[0].position - 1
     told = {so: _named(_told(given, so, holds=holds), start) for so in (True, False)}
     if given.there is not None:
@@ -92,14 +97,16 @@ def _asked_for(
         ones = (n for n in nodes((*absent,)) if isinstance(n, NounPhrase))
         if any("one" in (np.head, np.pronoun, "" if np.words else np.determiner) for np in ones):
             raise ReferenceProblem("one", "name what is meant", 3, word="one")
-        if any(isinstance(n, Modifier) and n.words == CLEARED for n in nodes(first[0].clause)):
+        if _is_what_is_there(first[0].clause):
             told[given.so] = _named(given.place.targets if given.place else (), start)
-    told[not given.so] += _named(_themes(first), start)
+    there = (np for np in _themes(first) if holds or not _is_what_is_there(np))
+    told[not given.so] += _named(there, start)
     second = tuple(_with_them(said, _themes(first)) for said in second)
     ways_out = {given.so: first, not given.so: second}
     to_do = {so: tuple(s for s in ways_out[so] if s.clause != NOTHING) for so in ways_out}
     now, otherwise = to_do[holds], to_do[not holds]
-    known.read(_plain((*told[not holds], *otherwise)))  # it has to be understood, too
+    with suppress(EmptyAlready):  # "if there is anything in the cup, empty it"
+        known.read(_plain((*told[not holds], *otherwise)))  # it has to be understood, too
     if first[1:] and not ways_out[holds]:
         why = "that is not so; say whether all of it hangs on that"
         raise ReferenceProblem(given.text, why, 3)
@@ -125,6 +132,15 @@ def _told(given: Condition, so: bool, *, holds: bool) -> Iterable[NounPhrase]:
     if holds is so:
         return (*places, given.there)
     return (*places, replace(one, words=("object",)) if anything else one)
+
+
+def _destinations(clauses: Iterable[Spoken]) -> Iterable[Destination]:
+    return (n for said in clauses for n in nodes(said.clause) if isinstance(n, Destination))
+
+
+def _is_what_is_there(said: object) -> bool:
+    """Whether it is about whatever is in or on something ("empty it")."""
+    return any(isinstance(n, Modifier) and n.words == CLEARED for n in nodes(said))
 
 
 def _plain(reading: Iterable[Spoken]) -> tuple[Spoken, ...]:

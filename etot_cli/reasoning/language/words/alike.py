@@ -7,7 +7,8 @@ has another name for it, and several that have are asked about.
 from __future__ import annotations
 
 TWINS: tuple[tuple[str, ...], ...] = (
-    ("train", "toy train", "locomotive"), ("teddy", "teddy bear"), ("rabbit", "bunny"),
+    ("train", "toy train", "locomotive", "loco", "engine", "train engine"),
+    ("teddy", "teddy bear"), ("rabbit", "bunny"),
     ("truck", "lorry"), ("airplane", "aeroplane", "plane"),
     ("fridge", "refrigerator"), ("closet", "wardrobe"), ("couch", "sofa", "settee"),
     ("faucet", "tap"), ("phone", "telephone", "cellphone"), ("tv", "television", "telly"),

@@ -73,7 +73,7 @@ _DONE = word_set(
 """Irregular participles."""
 _SEVERAL = Expression(r" (?:\w*[^s]s|\w*children|ladies|people|women|men)$")
 _COMPLEMENT = word_set("of to about without")
-_NO_REQUEST = OTHER_VERBS | word_set("fallen had run come serve serving")
+_NO_REQUEST = OTHER_VERBS | word_set("fallen had run come serve serving sat")
 """Participles and the like that nobody asks for."""
 _REQUESTS = (WORK | VERB_WORDS | CHANGING | DECREEING | {*STATES}) - _NO_REQUEST
 LASTING = word_set(
@@ -183,6 +183,7 @@ def _by_name(said: str, is_name: IsName) -> tuple[str, str] | None:
     if did[:1] == [verb] and verb not in _BE | _HAVE:  # "wine glasses hang …", "tea bags too"
         following = {*did[1:2]} & (PLACED | AS_WELL) or any(map(is_placing, did[1:2]))
         does &= not (following or is_in_lexicon(singular(verb)))
+    does |= verb in PAST and not is_asked_for([verb])  # "Karl nearly sat on it"
     return (who, " ".join(did)) if stranger and does and not is_name(verb) else None
 
 
@@ -256,7 +257,7 @@ def _is_regular(word: str) -> bool:
 
 def is_asked_for(words: Iterable[str]) -> bool:
     """Whether these may be what the robot is to do, or how things are to be."""
-    stems = {stem for word in words for stem in (word, word.removesuffix("d"), word[:-2])}
+    stems = {stem for word in words for stem in (word, *map(word.removesuffix, ("d", "ed", "es")))}
     return bool(_REQUESTS & stems)
 
 

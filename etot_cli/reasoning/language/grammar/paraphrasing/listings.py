@@ -7,7 +7,12 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, THING_NOUNS, is_descriptive
+from etot_cli.reasoning.language.words.lexicon import (
+    KIND_NOUNS,
+    NUMBERS,
+    THING_NOUNS,
+    is_descriptive,
+)
 from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _SO_MANY = rf"both|(?:all|these) (?:{'|'.join(NUMBERS)})"
@@ -171,15 +176,49 @@ def _layer_by_layer(said: re.Match[str]) -> str:
     return f"{said['stack']} in this order: {listed}"
 
 
+_STORES = "|".join(
+    noun
+    for kind in ("drawer_unit", "cabinet", "shelf", "bowl", "cup", "box")
+    for noun in KIND_NOUNS[kind]
+)
+_PLACE_FOR = (
+    rf"(?:(?:the|my|our) )?(?:\w+ )?(?:(?:{_STORES}|tray|plate|basket|bin|board|compartment)"
+    r"|(?:edge|corner|side|middle|centre|center) of the \w+) for (?:the|my|both|all|every) "
+    r"(?:(?!and\b)\w+ ){0,2}\w+(?: and (?:the|my) (?:(?!for\b)\w+ )?\w+(?! for\b| \w+ for\b))?"
+)
+"""A place without a verb, and what goes there."""
+
+
+def _places_for(said: re.Match[str]) -> str:
+    """What is listed by the places that are for it."""
+    items = re.split(r", and |, | and (?=[^,]* for )", said[2])
+    pairs = (item.split(" for ") for item in items)
+    named = ((re.sub(r"^(?!(?:the|my|our)\b)", "the ", where), what) for where, what in pairs)
+    return said[1] + ", and ".join(f"{what} must go to {where}" for where, what in named)
+
+
+def _made_so(said: re.Match[str]) -> str:
+    """What has to be so before, with the verb that it leaves out."""
+    what = re.sub(r"^((?!.*\b(?:is|are)\b)(?:\w+ )+)(open|closed|shut|empty)$", r"\1is \2", said[2])
+    return f"{said[1]}make sure that {what}. "
+
+
 LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "Precondition: the drawer is open. Effect: …": what is not so yet is made so before
     (
         r"(^|[.;\n] ?)pre ?-?conditions?:(?! ?(?:none|no)\b) ?([^.;:\n]+)[.;\n] ?"
         r"(?=(?:(?:desired|expected|intended|required) )?"
         r"(?:effects?|post ?-?conditions?|results?|outcome|goal(?: \w+)?):)",
-        r"\1make sure that \2. ",
+        _made_so,
     ),
     (r"\bpost[ -]condition(?=s?:)", "postcondition"),
+    (r"(^|[.;\n] ?)actions?: ?", r"\1"),
+    (r"\b(?:acceptance|pass(?:ing)?|exit) criteri(?:on|a):", "success criterion:"),
+    # "Bottom shelf for the cups, top shelf for the pens"
+    (
+        rf"(?<![^.;\n])( ?)({_PLACE_FOR}(?:(?:,| and|, and) {_PLACE_FOR})*)(?=[.;!]|$)",
+        _places_for,
+    ),
     # "White bottle: store in the drawer", "brown vial expired - discard in the bin"
     (
         rf"(^|[.;!\n] ?)({_LABEL}) ({_SPOILT})(?=(?: ?[:,;]| {_DASH}) )",

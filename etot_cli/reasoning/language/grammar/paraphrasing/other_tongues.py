@@ -45,7 +45,27 @@ def _please(said: re.Match[str]) -> str:
 
 
 OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
-    (rf"\b(put|place|set|lay|stand|open|close|shut) me (?={NAMED})", r"\1 "),
+    (rf"\b(put|place|set|lay|stand|open|close|shut) me (?:please )?(?={NAMED})", r"\1 "),
+    # "The left one you must not touch"
+    (
+        rf"(^|[.;!,:] |\b(?:and|but) )({NAMED} {_THING}(?: (?:on|at) the (?:left|right))?) you "
+        r"((?:must|should|may|shall|can) not (?:touch|move|open|close|disturb))(?=[.,;!]|$)",
+        r"\1you \3 \2",
+    ),
+    (r"(^|[.;!,] |\bbut )(?:attention|caution|careful|beware|note)(?: please)?: ?", r"\1"),
+    # "The jar is in wrong place. Correct place is the left side of the box."
+    (r"\bis in wrong (place|position|location)\b", r"is in the wrong \1"),
+    (
+        r"(?<=[.;!] )(?:the |its )?(?:correct|right|proper) (?:place|position|location) is "
+        rf"(?:at |to )?(?={NAMED}|left\b|right\b|(?:(?:top|bottom|upper|lower|middle) \w))",
+        "it goes to ",
+    ),
+    (r"\b(first|second|third|fourth|1st|2nd|3rd|4th) (\w+) from below\b", r"\1 \2 from the bottom"),
+    (r"\b(first|second|third|fourth|1st|2nd|3rd|4th) (\w+) from above\b", r"\1 \2 from the top"),
+    (
+        rf"(^|[.;!] )should ({NAMED} (?:\w+ ){{1,3}}?)(contain|hold|have)(?= )",
+        r"\1if \2\3s",
+    ),
     (r"\b(i|we) (?:am|are) (want|need)ing (?=\w)", r"\1 \2 "),
     (r"(^|[.;!] )you please (?=\w)", r"\1please "),
     (r"\b(if you )will (?=(?:please )?\w+ (?:the|my|it|them|both|all)\b)", r"\1would "),

@@ -38,6 +38,20 @@ _STAYS = {"it": "it stays", "them": "they stay"}
 
 TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\bso long as\b", "as long as"),
+    (r"\bthereafter\b", "afterwards"),
+    (r"\btherein\b", "in it"),
+    (
+        r"\b(?:up)?on completion(?: of (?:this|the) (?:task|job|work|step))?"
+        r"(?=[.,;!]|$| (?:close|shut|open|put)\b)",
+        "in the end",
+    ),
+    # "The operator takes the pen and lays it on the box"
+    (
+        r"^the (?:operator|technician|assistant|manipulator|agent|system|worker) "
+        r"(?=(?:then )?(?:takes|picks|puts|places|opens|closes|shuts|grasps|grabs|moves|removes"
+        r"|lifts|sets|lays|transfers|inserts|stacks)\b(?!.*\b(?:so|because|when|if|who|daily|every)\b))",
+        "the robot ",
+    ),
     # "Somebody left the cup on the tray again, so …": what happened before, nobody does again
     (
         rf"(^|[.;!?,] |\band )(?:({PEOPLE}) (?:(?:has|have) )?)?left ({NAMED} (?:\w+ ){{1,3}}?"
