@@ -62,6 +62,14 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\b(that (?:is|are) (?:in|on) (?:there|it)) now(?= (?:can|goes|should|must|belongs)\b)",
         r"\1",
     ),
+    # "The tray goes on the shelf. Before you lift it, take the cup off"
+    (
+        r"(\b(?:go|goes|belongs?|put|move|place|set|bring)\b[^.;!?]*? (?:on|in|onto|into|to|next"
+        r"|beside|behind)\b[^.;!?]*[.;!] )before (?:you (?:lift|move|shift|take|pick up)"
+        r"|(?:lifting|moving|shifting|taking)) it(?: up)?,? ",
+        r"\1before you do that, ",
+    ),
+    (rf"\b(?:pop|fling|swing) (it|them|{NAMED} (?:\w+ ){{0,2}}?\w+) open\b", r"open \1"),
     # "The pen goes up there with it"
     (
         r"\b((?:goes|belongs|put [^.,;:]*?|and [^.,;:]*?)(?: up| in| down| over)? there) "
