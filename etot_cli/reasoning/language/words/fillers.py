@@ -94,6 +94,7 @@ WITHOUT_MEANING = f"""
     ~comma if you would [be so (kind|good|nice)], ~comma shall we, behind you, after you,
     one (by|after) (one|another|the other),
     do not (ask [me] [why|about (it|that)]|worry [about (it|that|a thing)]|mind me),
+    (can|could|would) you believe (it|that), [and] [i am] (naming|mentioning) no names,
     do not make me (do (it|that) [myself]|ask (twice|again)|beg),
     if (i|we) (remember|recall) [(it|that)] (rightly|correctly|right|well),
     if memory serves [me] [(right|well|correctly)], to [the best of] my knowledge,

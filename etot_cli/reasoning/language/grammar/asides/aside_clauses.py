@@ -38,7 +38,7 @@ _WITHIN = Expression(
     rf"|(?P<purpose>so that|so|where|before(?= {PEOPLE} )|or else"
     r"|before(?= (?:the|my|our) (?:\w+ ){1,2}(?:arrives?|comes?|starts?|begins?|leaves?)\b)"
     rf"|before(?= {BEFORE_IT_DOES}(?:$| {COMMA}))|or(?= (?:{PEOPLE}|it|they) \w+)"
-    rf"|or(?= {THING_WILL}(?:$| {COMMA})))\b"
+    rf"|or(?= (?:{THING_WILL}(?:$| {COMMA})|(?:the|my|our) \w+ (?:will|might|may) (?!be\b)\w+)))\b"
     r"|(?P<plain>(?:and|but|without)"
     r"(?= (?:only|do not|you|feel free|leave|move|take|touch|moving|taking|touching)\b"
     r"[^~]* (?:if|unless|when) )"
@@ -57,7 +57,7 @@ _WITHIN = Expression(
 _GOES_ON = Expression(r"(?P<plain>and)\b")
 """Behind whom something is for ("get the tape for my sister and put it down")."""
 _AHEAD = Expression(
-    r"(?:(?P<reason>as"
+    r"(?:(?P<reason>what with|as"
     r"(?! (?:\w+ as|soon|long|far|well|much|if|it is|they are|seen|viewed|looked|before)\b)"
     r"|as(?= (?:it is|they are) (?:going|\w+ing|not|so|too|very|rather|quite|getting)\b)|though)\b"
     r"|(?P<comment>which|who)\b|(?P<purpose>otherwise)\b"

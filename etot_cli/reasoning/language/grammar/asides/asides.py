@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.asides.displeasure import is_answered
 from etot_cli.reasoning.language.grammar.asides.left_open import is_left_open, is_wondering
 from etot_cli.reasoning.language.grammar.asides.named_in_asides import (
     are_spoken_of,
+    awaits_name,
     is_of_held_one,
     named_in,
     names_stranger,
@@ -145,13 +146,17 @@ def without_asides(text: str, is_name: IsName, is_sentence: IsSentence) -> Plain
         for said in (item.said for item in asides)
     ):
         return None
+    # What is only told behind all that is asked for is meant by nothing, unless a word awaits it.
+    asked_last = max(at for at, part in enumerate(parted) if part.rest)
+    awaited = awaits_name(" ".join(rest).split(), is_name)
     kept = (
         said
-        for part in parted
+        for at, part in enumerate(parted)
+        for referred in [at < asked_last or awaited]
         for said in (
             named_in(of_which(part.before, rest), is_name, rest),
             part.rest,
-            named_in((item.said for item in part.after), is_name, rest),
+            named_in((item.said for item in part.after), is_name, rest) if referred else "",
         )
     )
     return Plain(

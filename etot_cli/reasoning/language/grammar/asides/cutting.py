@@ -65,6 +65,9 @@ _COMPOUND = Expression(
 _NEXT = Expression(
     r"^(?:(?:then|afterwards|after that|next|please|also|you can|(?:can|could|would) you) )+"
 )
+_OWNED = Expression(r" (?:is|are) (?:(?:\w+ )?\w+ 's|mine|hers|theirs)$")
+_NOT_OURS = Expression(r"(?:(?:it|they) (?:is|are) )?not (?:ours|mine|yours|his|hers|theirs)")
+"""Behind whose something is."""
 _DOES_WITH_IT = Expression(r"you \w+ (?:up )?(?:it|them|either|both|any|anything)\b")
 """What the robot does comes later than what is done before it."""
 
@@ -151,7 +154,7 @@ def is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
         case "purpose", ("so" | "so that" | "where"):
             return _tells_what_for(place)
         case "purpose", _:
-            return place.trails and is_warning(clause.said)
+            return place.trails and is_warning(clause.said, is_name)
         case _:
             return _only_tells(place)
 
@@ -159,6 +162,8 @@ def is_aside(clauses: Sequence[Clause], at: int, is_name: IsName) -> bool:
 def _gives_a_reason(place: _Place) -> bool:
     """Whether a clause behind "because", "as" or "while" says how things are."""
     said, is_name = place.said, place.is_name
+    if place.clause.joint == "what with":  # "the open day"
+        return place.leads and not any(map(is_name, said.split()))
     if re.match("an? ", said) and any(is_name(it) or it in OF_A_CASE for it in said.split()):
         return False  # "as a backup the banana"
     of_people = is_of_people(said) and not said.startswith("you ")
@@ -223,6 +228,8 @@ def _tells_what_for(place: _Place) -> bool:
 def _only_tells(place: _Place) -> bool:
     """Whether a clause without such a joint only tells something."""
     said, is_name, at, clauses = place.said, place.is_name, place.at, place.clauses
+    if said.startswith(("says ", "said ")) and at and is_aside(clauses, at - 1, is_name):
+        said = f"she {said}"  # "Ann was here, says it is late"
     if heard := HEARSAY.match(said):
         told = replace(place.clause, said=said[heard.end() :])
         clauses = [*clauses[:at], told, *clauses[at + 1 :]]
@@ -248,6 +255,7 @@ def _only_tells(place: _Place) -> bool:
         (wanted_for or is_there or on_the_way or feared or of_others or added)
         or (sum(len(item.said.split()) for item in clauses[:at]) < 2 and exclaims(said, is_name))
         or ((not first or whole) and goes_with_somebody(said, is_name))
+        or (at > 0 and _NOT_OURS.fullmatch(said) and bool(_OWNED.search(clauses[at - 1].said)))
         or dislikes(said)
         or is_hindering(said)
         or wants_such_a_thing(said, is_name)

@@ -130,6 +130,8 @@ _MEANT = word_set(
     """
 )
 """What somebody is doing who may ask for something by it ("I am having the cup moved")."""
+_GONE_AND = Expression(r"\b(?:(?:has|have) gone|went) and \w+")
+"""With this people complain of what was done ("he has gone and moved it"), and ask for nothing."""
 _LONGEST = 5
 """Words of what something is said of, at most."""
 
@@ -147,10 +149,13 @@ class _Doing(Struct, frozen=True):
 
 def tells_fact(said: str, is_name: IsName) -> bool:
     """Whether this is what a clause does; where something was may be checked and is none."""
-    if _WAS & {*said.split()} and PLACED & {*said.split()} and any(map(is_name, said.split())):
-        return False
-    said = BEFORE_SUBJECT.sub("", said)
-    person = somebody(said) or _by_name(said, is_name)
+    words = said.split()
+    placed = _WAS & {*words} and PLACED & {*words} and any(map(is_name, words))
+    said = _GONE_AND.sub("found", BEFORE_SUBJECT.sub("", said))
+    by_name = _by_name(said, is_name)
+    if placed and (by_name is None or _is_placed(words, is_name)):
+        return False  # "Doreen has been on at me about the cups" tells of no place
+    person = somebody(said) or by_name
     if is_forbidding(said):
         return False
     if person:
@@ -176,7 +181,7 @@ def tells_fact(said: str, is_name: IsName) -> bool:
 
 def _by_name(said: str, is_name: IsName) -> tuple[str, str] | None:
     """Who a clause is about by his name, and what it says of him ("Karl never gives it back")."""
-    who, *did = said.split() or [""]
+    who, *did = said.removeprefix("our ").split() or [""]
     verb = next((word for word in did if word not in _ADVERBS), "")
     stranger = who == "one" or (not is_name(who) and who not in all_words())
     does = verb in (_BE | _HAVE) or (verb.endswith("s") and not verb.endswith("ss"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import takewhile
+from itertools import pairwise, takewhile
 
 from etot_cli.reasoning.language.grammar.asides.aside_clauses import Clause
 from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES, PRONOUNS, IsName
@@ -44,7 +44,7 @@ _HELD = Expression(
 """What somebody has who tells so, told from others of its kind."""
 _NO_NAMES = VERB_WORDS | OTHER_VERBS | {*STATES, *LEVELS, *SIDES}
 _COUNTED = BEFORE_NAMES | {*NUMBERS, "which", "what"}
-_ONES = PRONOUNS | {"one", "other", "another"}
+ONES = PRONOUNS | {"one", "other", "another"}
 
 
 def words_of(said: Iterable[str]) -> set[str]:
@@ -93,7 +93,7 @@ def named_in(asides: Iterable[str], is_name: IsName, rest: Sequence[str] = ()) -
     may be meant by a pronoun of the rest.
     """
     told = [aside.split() for aside in asides]
-    if not any(any(_phrases(words, is_name)) for words in told) and _ONES & words_of(rest):
+    if not any(any(_phrases(words, is_name)) for words in told) and ONES & words_of(rest):
         told = [_with_articles(words, is_name) for words in told]
     phrases, alone = list[str](), list[str]()
     for words in told:
@@ -161,6 +161,21 @@ def names_stranger(said: str, is_name: IsName) -> bool:
         and not re.match(rf"{PEOPLE}\b", " ".join(words[at:]))
         for at, word in enumerate(words[:-1])
     )
+
+
+def awaits_name(words: Sequence[str], is_name: IsName) -> bool:
+    """Whether what is said next may be meant: by "one" or "there", or by a pronoun, or "both" as
+    one, before anything is named ("give it to me, the cup is mine").
+    """
+    if {"one", "other", "another", "there"} & {*words}:
+        return True
+    alone = ("both", "all", "each", "either")
+    for word, behind in pairwise([*(word.strip(",") for word in words), ""]):
+        if word in PRONOUNS or (word in alone and behind in {"", *LINKS}):
+            return True
+        if is_name(word):
+            return False
+    return True
 
 
 def refers_back(words: Sequence[str], is_name: IsName, meaning: frozenset[str]) -> bool:

@@ -38,6 +38,9 @@ _SO_PEOPLE = Expression(
     rf"^{PEOPLE} (?:can|could|may|might|will|do|does|would|have|has|need not)\b"
 )
 _ENABLED = word_set("can could may might will do does would")
+_THREATENED = word_set("will might may")
+_SERVING = word_set("do serve suffice work fit go stay")
+"""What something else may do in place of what was named ("or the crate will do")."""
 _BEING = word_set("be stand sit lie rest stay remain go end come move open close")
 """What a stranger is enabled to do asks for nothing, unless it is to be somewhere."""
 _NEEDED = word_set("need needs want wants use uses like likes")
@@ -78,10 +81,12 @@ def is_made_possible(said: str) -> bool:
     return bool(_SO_IT_CAN.match(said))
 
 
-def is_warning(said: str) -> bool:
+def is_warning(said: str, is_name: IsName) -> bool:
     """Whether this tells, behind "or", what else would happen ("it will fall")."""
+    will = verb_of_stranger(said, is_name, _THREATENED)
+    serves = {*said.split()[will + 1 : will + 2]} & _SERVING
     return befalls(said) or (
-        bool(_OR_WILL.match(said))
+        bool(_OR_WILL.match(said) or (will and not serves))
         and not (DOING - {"get"} | ASKING - {"will", "would", "not"}) & {*said.split()}
     )
 

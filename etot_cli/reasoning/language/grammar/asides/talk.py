@@ -102,6 +102,13 @@ _ALL_OVER = Expression(r" all (?=over\b|around\b)")
 _SOME_PLACE = Expression(
     r"(?:this|the|our|my) (?:whole |entire )?(?:place|room|world|house) (?:is|looks|smells|feels) "
 )
+_WHO_DID = Expression(r" who (?:\w+ly |just |only |also |once )?(?P<did>\w+) .*")
+"""Behind somebody, who did something with things ("we had a chap in who bought the cups")."""
+_OF_IT = Expression(
+    r"^(?P<what>(?:the|its|their) \w+) (?:on|in|of|inside|around) (?:it|them) "
+    r"(?=(?:is|are|was|were|has|have)\b)"
+)
+"""Of what a stranger is a part, or where it is ("the paint on them is wet")."""
 _SIDE = Expression(r"\b(?:(?:on|to|at) (?:the|my|our|his|her|their) )?(?:left|right) (?:hand|side)")
 _CALLING = (
     (ASKING - word_set("not never no none nothing if when until could only go goes would like"))
@@ -138,7 +145,9 @@ def is_talk(
         listed: whether it may be an item of a list, where a word is only sure to be a verb if no
             noun is spelled so.
     """
-    told = BEFORE_SUBJECT.sub("", said.replace(" 's ", "s "))
+    if (who := _WHO_DID.search(said)) and is_past(who["did"]) and not asks_besides(said):
+        said = said[: who.start()]
+    told = _OF_IT.sub(r"\g<what> ", BEFORE_SUBJECT.sub("", said.replace(" 's ", "s ")))
     timeless = _ALL_OVER.sub(" ", _LIKE.sub(r" \g<does>", WHEN.sub("", told)))
     words = timeless.split()
     named = any(map(is_name, (word for word in words if word != "can")))

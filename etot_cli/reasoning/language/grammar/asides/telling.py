@@ -72,7 +72,8 @@ _NO_EXISTENCE = REFERRING | {*THING_NOUNS, *LEVELS, *SIDES, *STATES}
 def exclaims(said: str, is_name: IsName) -> bool:
     """Whether a clause is but an exclamation or names a time ("playtime is over")."""
     if _TIME.fullmatch(said):
-        return said.split()[0] not in VERB_WORDS - {"tidy", "clean", "clear"}
+        first = said.split()[0]
+        return first.endswith("ing") or first not in VERB_WORDS - {"tidy", "clean", "clear"}
     found = _EXCLAIMED.fullmatch(said)
     return bool(found) and not any(
         is_name(word) or word in (_ASKING | VERB_WORDS) - BEFORE_NAMES for word in said.split()[1:]

@@ -67,7 +67,8 @@ _OVER_THE_EDGE = (
 )
 _NO_PLACE = Expression(
     rf"(?:^belong(?:s|ed)? to {PEOPLE}$"
-    rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$|^(?:is|are) {PEOPLE} 's$"
+    rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$"
+    rf"|^(?:is|are) (?:(?:{PEOPLE}|(?!not\b)\w+) 's|mine|ours|hers|theirs)$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"
     r"|^(?:is|are) getting \w+$"
     r"|^(?:is|are) (?:(?:just|much|simply|so much|a lot|also) )*(?:easier|safer|quicker|handier)"

@@ -51,6 +51,37 @@ def _holding_in_the_end(said: re.Match[str]) -> str:
 
 
 ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "It is the red cup I need now, so pick it up"
+    (
+        rf"(^|[.;!?,] )it is ({NAMED} (?:\w+ ){{0,2}}?\w+) (?:that )?((?:i|we) (?:need|want))"
+        r"(?=(?: now)?,? so\b)",
+        r"\1\3 \2",
+    ),
+    (r"(^|[.;!?] )(what with [^.,;:]*?) (?=(?:i|we) (?:want|need|would like)\b)", r"\1\2, "),
+    (
+        r"\b(that (?:is|are) (?:in|on) (?:there|it)) now(?= (?:can|goes|should|must|belongs)\b)",
+        r"\1",
+    ),
+    # "The tray goes on the shelf. Before you lift it, take the cup off"
+    (
+        r"(\b(?:go|goes|belongs?|put|move|place|set|bring)\b[^.;!?]*? (?:on|in|onto|into|to|next"
+        r"|beside|behind)\b[^.;!?]*[.;!] )before (?:you (?:lift|move|shift|take|pick up)"
+        r"|(?:lifting|moving|shifting|taking)) it(?: up)?,? ",
+        r"\1before you do that, ",
+    ),
+    (rf"\b(?:pop|fling|swing) (it|them|{NAMED} (?:\w+ ){{0,2}}?\w+) open\b", r"open \1"),
+    # "The pen goes up there with it"
+    (
+        r"\b((?:goes|belongs|put [^.,;:]*?|and [^.,;:]*?)(?: up| in| down| over)? there) "
+        r"with (?:it|them)" + _END,
+        r"\1 too",
+    ),
+    # "Somebody, naming no names, …"
+    (
+        r"\b(some(?:body|one)),(?: and)?(?: i am)? (?:naming|mentioning) no names,(?: \w+,)? "
+        r"(?=(?:has|had|is|was|did|keeps?|left|forgot)\b)",
+        r"\1 ",
+    ),
     # "The cup, as well as the pen, goes in the box"
     (
         rf"\b({NAMED}(?: \w+){{1,4}}), (?:as well as|along with|together with) "

@@ -12,6 +12,8 @@ _STATES = (
     r"| -|[,.;:!]|$)"
 )
 """What "the door's" is followed by where it is no possessive."""
+_OBJECT = "(?:the|my|our|his|her|their|it|them|some|an?|him|us|me)"
+"""What somebody's deed is done to; no name of a thing goes before it."""
 CONTRACTIONS = (
     # As people type who leave apostrophes out; "its" and "ill" are words of their own.
     (r"\b(that|there|what|where|who)s\b", r"\1's"),
@@ -40,6 +42,12 @@ CONTRACTIONS = (
         " is",
     ),
     (r"\b((?:no|some|every)(?:body| ?one))'s(?= \w+ing\b)", r"\1 is"),
+    (rf"(?<=\w)'s(?= \w+ing {_OBJECT}\b)", " is"),
+    (
+        r"(?<=\w)(?<!\blet)'s(?= (?:brought|taken|left|put|made|forgotten|broken|lost|bought)"
+        rf" {_OBJECT}\b)",
+        " has",
+    ),
     (r"\b(that|which|it|there|here|what|who|he|she)'s\b", r"\1 is"),
     (r"\blet's\b", "let us"),
     (r"\b(?:don't|dont)\b", "do not"),
@@ -53,6 +61,11 @@ CONTRACTIONS = (
     (r"\b(i|you|we|they)'ve\b", r"\1 have"),
     (r"\b(you|we|they)'re\b", r"\1 are"),
     (rf"(?<=\w)'s(?= (?:{_STATES}))", " is"),
+    (
+        r"\b(?!that one\b)((?:the|that|this) (?:\w+ )?\w+)'s "
+        r"(?=(?:mine|ours|hers|theirs|\w+'s)(?: and\b|[.,;:!?]|$))",
+        r"\1 is ",
+    ),
     (r"(?<=\w)'s\b", " 's"),
     (r"(?<=s)'(?=\s)", " 's"),
 )

@@ -67,9 +67,12 @@ _REASON = Expression(
 """Why something is taken back ("the big bell, no, that one is broken, I mean the small one")."""
 _NEARLY = Expression(
     r"^(?P<nearly>i (?:was|am) (?:just )?(?:going|about) to (?:say|suggest|ask (?:you )?for)"
-    r"(?: ?:)? [^.:;!?]*?),? but(?: (?:actually|no|instead))?,? "
+    r"(?: ?:)? [^.:;!?]*?(?=,? but )|i said [^.:;!?]*?(?=,? (?:(?:but|no),? )?i meant?\b))"
+    r",? (?:(?:but|no)(?: (?:actually|no|instead))?,? )?(?:i meant? )?"
+    r"(?:(?P<why>(?:that|this|it)(?: one)? (?:is|has|was) (?!to\b)[^.:;!?,]*)[;,] )?"
 )
 """What was nearly asked for, and what is asked for instead stands behind it."""
+_NEARLY_NAMED = Expression(r" (?:say|said|suggest|for) (?:the|my) (?:\w+ ){1,2}(?P<noun>\w+)$")
 _MEANT = Expression(r",? i mean(?:t|t to say)?(?=[.!?;]*$)")
 """At the very end it says again what an earlier word said ("no, in the box, I mean")."""
 _ALL_OF_IT = Expression(rf"\b(?:never mind|forget|{_SCRATCH}|on second thoughts?)\b")
@@ -122,6 +125,11 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     """All ways to understand what is taken back; none where more than one thing is."""
     if nearly := mark.groupdict().get("nearly"):
         asked = text[mark.end() :]
+        if named := _NEARLY_NAMED.search(nearly):  # "I said the left jar, I meant the right one"
+            asked = re.sub(r"^(the [^.,;:!?]*)\. (\w+) it\b", r"\2 \1", asked)
+            asked = re.sub(r"^([^.,;:!?]*?\bthe \w+) one\b", rf"\1 {named['noun']}", asked)
+        if mark["why"]:
+            nearly = f"{nearly}, {mark['why']}"
         yield TakenBack(nearly, asked.rstrip(".!"), asked)
         return
     text = _MEANT.sub("", text) if _MEANT.search(text, mark.end()) else text

@@ -38,6 +38,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     SIZES,
     STATES,
     THING_NOUNS,
+    basic_color,
     head_of,
     is_descriptive,
     matches_any,
@@ -116,6 +117,7 @@ class LentNouns(ABC):
         # Beside the only tray "the small one" of two beakers is the smaller beaker.
         sized = role is Role.ANY and any(word in SIZES for word in phrase.words[:-1])
         told = problem is not None or phrase.modifiers or sized
+        told = told or self._is_plain(phrase, role, noun)
         sure = [way for way in found.values() if told or singular(way.noun) != way.noun]
         if len(found) == len(sure) == 1:
             return sure[0]
@@ -127,6 +129,8 @@ class LentNouns(ABC):
             raise AmbiguousReference(phrase.text, ways)
         if phrase.modifiers:
             raise ReferenceProblem(phrase.text, UNCLEAR, 2)
+        if phrase.head == "one" and self._is_plain(phrase, role, noun):
+            raise ReferenceProblem(phrase.text, f"there is but one {noun!r}; say what it is", 3)
         return resolved
 
     def _like_theme(self, phrase: NounPhrase, role: Role, noun: str) -> str:
@@ -221,7 +225,8 @@ class LentNouns(ABC):
         told = any(word in table for word in words[:-1] for table in (SIZES, SIDES))
         by_more = bool(phrase.modifiers) or any(map(is_descriptive, words[:-1]))
         told = told or (by_more and self.discourse.is_landmark(noun or ""))
-        return told and noun is not None and self._is_sole(phrase, role, noun)
+        sole = told and noun is not None and self._is_sole(phrase, role, noun)
+        return sole or self._is_plain(phrase, role, noun)
 
     def _check_contrast(self, phrase: NounPhrase, role: Role, noun: str) -> None:
         """After "put the badge in the box" "the white one" is another thing than the only badge.
@@ -237,6 +242,18 @@ class LentNouns(ABC):
         acted = {*self.discourse.things(*themes)}
         if len(acted) < 2:
             raise ReferenceProblem(phrase.text, f"there is but one {noun!r}; say what it is", 3)
+
+    def _is_plain(self, phrase: NounPhrase, role: Role, noun: str | None) -> bool:
+        """Whether a colour would be said of a thing that none is known of, nor was it called so."""
+        said = {word for word in phrase.words[:-1] if basic_color(word)}
+        same = (m for m in self.discourse.mentions if same_noun(m.noun, noun or ""))
+        before = {word for mention in same for word in mention.adjectives}
+        with suppress(ReferenceProblem):
+            things = things_in(self.resolved_as(phrase, role, noun).options) if said else ()
+            infos = self.scene.infos
+            plain = [thing.name in infos and infos[thing.name].color is None for thing in things]
+            return bool(plain) and all(plain) and not said & before
+        return False
 
     def _is_sole(self, phrase: NounPhrase, role: Role, noun: str) -> bool:
         """Whether there is one thing of the noun that "one" leaves out."""
