@@ -53,6 +53,12 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         r"\1you \3 \2",
     ),
     (r"(^|[.;!,] |\bbut )(?:attention|caution|careful|beware|note)(?: please)?: ?", r"\1"),
+    # "First you open the drawer, …, finally you close"
+    (
+        r"(?<=[.;!,] )((?:and )?(?:finally|lastly|at last|in the end),? )(?:you )?"
+        r"(close|shut)(?: again)?(?=[.;!]|$)",
+        r"\1\2 it",
+    ),
     # "The jar is in wrong place. Correct place is the left side of the box."
     (r"\bis in wrong (place|position|location)\b", r"is in the wrong \1"),
     (
