@@ -6,7 +6,10 @@ from __future__ import annotations
 
 import re
 
-_ROBOT = r"(?:the|a|an|your|our) (?:[\w-]+ ){0,2}?(?:robot|arm|manipulator|gripper|franka|panda)(?: arm)?"
+_ROBOT = (
+    r"(?:the|a|an|your|our) (?:[\w-]+ ){0,2}?"
+    r"(?:robot|arm|manipulator|franka|panda)(?: arm)?"
+)
 _SURFACE = (
     r"(?:the|a|an) (?:\w+ )??(?:table ?top|table|(?:work ?)?bench|desk|counter|worktop|work ?space"
     r"|work surface|scene|environment|setup)(?: scene)?"
