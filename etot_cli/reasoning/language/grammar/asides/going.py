@@ -40,7 +40,8 @@ GOING: tuple[tuple[str | Expression, str], ...] = (
         Expression(
             r"(^|[.;,\n] ?)(?:find|locate|look for|search for) (?:an?|the) (\w+(?: \w+)??)"
             r"[.;,\n]+ ?(?:and |then )*"
-            r"(?=(?:pick up|take|grasp|grab|get|fetch|lift) (?:an?|the) \2(?:[.;,\n]|$| (?:and|then|from)\b))"
+            r"(?=(?:pick up|take|grasp|grab|get|fetch|lift) (?:an?|the) \2"
+            r"(?:[.;,\n]|$| (?:and|then|from)\b))"
         ),
         r"\1",
     ),
