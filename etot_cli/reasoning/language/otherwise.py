@@ -100,6 +100,11 @@ _BUILT = words_of((verbs.BUILD,)) - {"them"} | {"on", "in", "onto"}
 _ALSO_VERBS = frozenset({"open", "please", "first", "empty", "free", "you"})
 """They begin a request, too, though things are told by them."""
 _DECLARED = word_set("is are sits sit stands stand lies lie rests rest")
+_VERBLESS = Expression(
+    r"\b((?:(?!and\b|is\b|are\b|not\b)\w+ )+?)"
+    r"(?=(?:open|closed|shut|empty)(?:$|,| and\b)|(?:in|on|inside) )"
+)
+"""How something is, without a verb."""
 _OF_ITS_OWN = Expression(
     r"(?:\b(?:all|both|each|every|any)(?: of)? (?=the\b)"
     r"|(?<= )(?:all|both) (?=(?:go|are|should|belong|must|need)\b)"
@@ -199,7 +204,8 @@ def _from_start(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> 
         if notes and not told.is_condition:
             raise
         # "Start: the pen is in the top drawer. Goal: it is in the lower one, both drawers closed"
-        goal = read_plainly(". ".join((*start, normalized(told.asked))), scene, vocabulary)
+        named = (_VERBLESS.sub(r"\1is ", sentence) for sentence in start)
+        goal = read_plainly(". ".join((*named, normalized(told.asked))), scene, vocabulary)
     return replace(goal, notes=(*notes, *goal.notes))
 
 

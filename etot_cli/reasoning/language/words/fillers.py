@@ -145,7 +145,8 @@ REMARKS = f"""
     (has|have) been (in|out|up|down|on|over|) (here|there) ({SO_LONG}),
     (is|are) [now|already|still|all|no longer|not] [very|too|so|really]
     (dirty|clean|expired|damaged|defective|faulty|outdated|ripe|rotten|ready|done|finished|used|hot|cold|wet|dry|fresh|stale|broken|old|new|mine|yours|washed|cooked|fragile|needed|wanted),
-    (is|are) not (needed|wanted|used) [anymore|any more|any longer],
+    (is|are) (not|no longer) (needed|wanted|used|necessary|required)
+    [anymore|any more|any longer|now|right now|at the moment|today],
     (is|are|stands|lies) in (my|the) way [here|there], (is|are) [still] put away,
     (has|have|needs|need) to (move|go),
     (is|are) (fine|good|ok|okay|alright),

@@ -35,5 +35,15 @@ GOING: tuple[tuple[str | Expression, str], ...] = (
         ),
         r"\1\2, ",
     ),
+    # "Find a cup. Pick up the cup": what is taken has been found
+    (
+        Expression(
+            r"(^|[.;,\n] ?)(?:find|locate|look for|search for) (?:an?|the) (\w+(?: \w+)??)"
+            r"[.;,\n]+ ?(?:and |then )*"
+            r"(?=(?:pick up|take|grasp|grab|get|fetch|lift) (?:an?|the) \2"
+            r"(?:[.;,\n]|$| (?:and|then|from)\b))"
+        ),
+        r"\1",
+    ),
 )
 """What is done there stands behind a comma."""

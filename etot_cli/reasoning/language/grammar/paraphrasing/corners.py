@@ -7,6 +7,7 @@ from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS
 TABLE = f"(?:{'|'.join(DESK_NOUNS)})"
 _SIDE = r"(left|right|far|near|front|back)(?: (?:hand )?(?:side|edge|end|part|half))?"
 CORNERS_AND_SIDES: tuple[tuple[str, str], ...] = (
+    (r"\b(the|my|your|our) work(?:ing)?[ -]?surface\b", r"\1 worktop"),
     # "Cup: back left corner of the table"
     (
         r"(^|[.;\n] ?)((?!(?:take|pick|grab|get|lift|fetch|grasp|hold)\b)"

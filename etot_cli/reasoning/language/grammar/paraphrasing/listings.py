@@ -212,6 +212,12 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         _made_so,
     ),
     (r"\bpost[ -]condition(?=s?:)", "postcondition"),
+    # "Load the oven: both pots inside, door closed": how that is to be in the end
+    (
+        rf"(^|[.;\n] ?)(?:please )?(?:load|fill|pack|stock|prepare|set up) ({NAMED} [^,.;:!?\n]+):"
+        r"(?= [^.;:!?\n]*? (?:inside|in it|on it|in there)(?:[.;!,]|$| and\b))",
+        r"\1\2:",
+    ),
     (r"(^|[.;\n] ?)actions?: ?", r"\1"),
     (r"\b(?:acceptance|pass(?:ing)?|exit) criteri(?:on|a):", "success criterion:"),
     # "Bottom shelf for the cups, top shelf for the pens"

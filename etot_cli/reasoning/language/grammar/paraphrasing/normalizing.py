@@ -60,6 +60,16 @@ _WELL = Expression(
     rf"(?:\d{{1,5}}|{'|'.join(NUMBERS)})(?:\s*[:.)]|\s-)\s+)"
 )
 """What begins a sentence and says nothing, such as the number of a step or job alone."""
+_I_WOULD = Expression(
+    r"^\s*(?:(?:robot|plan|answer):\s*)?(?:i (?:would|will|should):\s*)?(?=(?:step )?\(?1\b)",
+    re.IGNORECASE,
+)
+_DONE = Expression(
+    r"(?<=\w)\s*[.,;\n]?\s+(?:(?:and|then)\s+)?"
+    r"(?:(?P<number>(?:step )?\(?\d{1,2}[.):]\s*)|(?<=[.,;\n] ))(?:done|finish(?:ed)?)[.!]*\s*$",
+    re.IGNORECASE,
+)
+"""How plans begin and end that are told as a robot tells them ("I would: 1. … 2. … 3. done")."""
 _BRACKETED = Expression(r"\b([a-z]{2,}) \(([a-z]+)\)")
 _BULLETS = "-*\N{BULLET}\N{EN DASH}"
 _QUOTES = Expression('["`*\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}]')
@@ -91,6 +101,7 @@ _REMEMBERED = 64
 @lru_cache(maxsize=_REMEMBERED)
 def normalized(text: str) -> str:
     """Lower case, plain quotes, one space between words, clitics apart."""
+    text = _I_WOULD.sub("", _DONE.sub(_without_done, text))
     text = _UH.sub(_without_uh, _BEGUN.sub("", text))
     line = _NEW_LINE if _ARTICLE.search(text) else _TERSE_LINE
     text = _listed(line.sub("\n ", text).casefold().strip())
@@ -105,6 +116,13 @@ def normalized(text: str) -> str:
     text = text.replace(":", " : ")
     text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     return _counted(re.sub(r"[^\S\n]+", " ", text).strip())
+
+
+def _without_done(found: re.Match[str]) -> str:
+    """Nothing for "done" behind a request, which tells what has been done behind anything else."""
+    asked = re.match(r"\s*(?:please )?(\w+)", found.string)
+    begins = asked is not None and asked[1].casefold() in VERB_WORDS
+    return "" if found["number"] or begins else found[0]
 
 
 def _without_uh(found: re.Match[str]) -> str:

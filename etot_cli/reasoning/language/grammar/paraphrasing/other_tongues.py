@@ -53,6 +53,18 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         r"\1you \3 \2",
     ),
     (r"(^|[.;!,] |\bbut )(?:attention|caution|careful|beware|note)(?: please)?: ?", r"\1"),
+    # "First you open the drawer, …, finally you close"
+    (
+        r"(?<=[.;!,] )((?:and )?(?:finally|lastly|at last|in the end),? )(?:you )?"
+        r"(close|shut)(?: again)?(?=[.;!]|$)",
+        r"\1\2 it",
+    ),
+    # "Two dishes, I want them on the shelf, the black one on the left"
+    (
+        rf"((?:^|[.;!] )(?:{NAMED}|two|three|four) [^.;:!?,]*?[,:] )(?:i|we) "
+        r"(?:want|need|would like) (?:to have )?(?=(?:them|it) (?:in|on|inside|next to|beside)\b)",
+        r"\1put ",
+    ),
     # "The jar is in wrong place. Correct place is the left side of the box."
     (r"\bis in wrong (place|position|location)\b", r"is in the wrong \1"),
     (

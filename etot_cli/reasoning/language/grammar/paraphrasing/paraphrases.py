@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.paraphrasing.other_tongues import OTHER
 from etot_cli.reasoning.language.grammar.paraphrasing.placements import PLACEMENTS
 from etot_cli.reasoning.language.grammar.paraphrasing.roundabout import ROUNDABOUT
 from etot_cli.reasoning.language.grammar.paraphrasing.said_again import SAID_AGAIN
+from etot_cli.reasoning.language.grammar.paraphrasing.scene_setting import SCENE_SETTING
 from etot_cli.reasoning.language.grammar.paraphrasing.told_by_others import TOLD_BY_OTHERS
 from etot_cli.reasoning.language.grammar.paraphrasing.whereabouts import WHEREABOUTS
 from etot_cli.reasoning.language.grammar.paraphrasing.you_do import YOU_DO
@@ -69,6 +70,7 @@ def _as_asked(wish: re.Match[str]) -> str:
 
 
 _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    *SCENE_SETTING,
     # Behind what is asked for: "…, won't you?"
     (
         r", (?:(?:wo|would|could|ca|should|ought|must)n't|(?:would|could|should|ought|must) not"

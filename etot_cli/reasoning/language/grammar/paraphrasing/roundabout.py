@@ -35,6 +35,31 @@ _SOMETHING = (
 )
 """What somebody wants who tells why something is to be opened."""
 
+_WORKERS = "shift|user|worker|crew|staff|team|cleaners?|technician|apprentice|trainee|student"
+_BY_WHOM = (
+    rf"(?!you\b|we\b|nobody\b|no one\b|any)(?:{PEOPLE}|(?:the|a|an|our|my) "
+    rf"(?:(?:{_WORKERS})|(?:previous|last|earlier|night|day|morning|late|early) "
+    rf"(?:{_WORKERS}|operator|person|experimenter)))"
+)
+"""Who did what a thing is told by; "you", "we" and "the operator" are the robot, or ask for it."""
+_DONE = r"(?:just |already |once )?(?:left|put|placed|set|laid|dropped|forgot|forgotten|stored)"
+_BY_NOW = r"(?:that|which) (?:is|are|was|were|has been|have been|had been)"
+_WORD = r"(?!(?:that|which|is|are|be|was|were|and|or|to|not|should|must|in|on|by|from|gets?)\b)\w+"
+_TURNED = "(?:left )?(?P<state>open|closed|shut|empty|opened)"
+_THING = (
+    rf"(?<!want )(?<!like )(?<!need )(?<!have )(?<!with )(?<!see )(?<!keep )(?<!leave )"
+    rf"(?<!prefer )\b(?P<what>{NAMED} {_WORD}(?: {_WORD}){{0,2}}?) "
+)
+_STANDS = rf"(?:in|on|inside|under|behind|beside|next to) {NAMED}"
+
+
+def _by_how_it_is(said: re.Match[str]) -> str:
+    """A thing told by who left it so, which shows now in how it is."""
+    what, state, place = said["what"], said["state"] or "", said["place"]
+    several = what.endswith("s") and not what.endswith("ss")
+    now = place or {"opened": "open"}.get(state, state)
+    return f"{what} that {'are' if several else 'is'} {now}"
+
 
 def _of_one_sort(said: re.Match[str]) -> str:
     """Neither of two things of which but the second has its noun ("neither the blue nor the …")."""
@@ -81,6 +106,18 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\b(some(?:body|one)),(?: and)?(?: i am)? (?:naming|mentioning) no names,(?: \w+,)? "
         r"(?=(?:has|had|is|was|did|keeps?|left|forgot)\b)",
         r"\1 ",
+    ),
+    # "The drawer left open by the previous shift", "the cup put on the tray by my brother"
+    (
+        rf"{_THING}(?:{_BY_NOW} )?(?:{_TURNED}|{_DONE} (?P<place>{_STANDS}(?: {_WORD}){{1,3}}?))"
+        rf" by {_BY_WHOM}\b",
+        _by_how_it_is,
+    ),
+    # "The drawer that the previous shift left open", "the cup my brother put on the tray"
+    (
+        rf"{_THING}(?:(?:that|which) )?{_BY_WHOM} (?:has |had |have )?"
+        rf"(?:{_TURNED}\b|{_DONE} (?P<place>{_STANDS}))",
+        _by_how_it_is,
     ),
     # "The cup, as well as the pen, goes in the box"
     (

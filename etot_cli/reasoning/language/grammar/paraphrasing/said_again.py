@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import re
 
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import LEVELS, is_descriptive
+from etot_cli.reasoning.language.words.small_words import NAMED
 
 _TO_BE_EXACT = r"(?:namely|viz\.?|that is to say|to be (?:precise|exact|specific)|i\.e\.),?"
 _SO_MANY = r"(?:exactly|only|just) one"
@@ -16,6 +18,27 @@ _SHOULD = (
 )
 _WHICH = r"the (?:(?P<told>\w+)(?: one)?|one (?P<so>(?!of )[^.,;:]+?))"
 _NOT_THERE = r"(?! (?:of|drawer|shelf|board))"
+
+_SUNDRY = (
+    "tools?|things|objects|items|parts|containers|vessels|utensils|equipment|stuff|supplies"
+    "|materials|goods|belongings|tableware|crockery|toys|stationery|groceries"
+)
+"""What such words mean is whatever is listed behind them."""
+_ITEM = Expression(rf"(?:{NAMED}|one\b|two\b|three\b)")
+_APART = "all any no both other two three four of but except"
+_NOT_COUNTED = "".join(rf"(?<!\b{word} )(?<!\b{word} the )" for word in _APART.split())
+"""Behind such words more may be meant than is listed, or less."""
+_LISTED = r"(?:(?!not\b|no\b|all\b|in\b|on\b|at\b|from\b|see\b|without\b|e ?\.)[a-z][a-z -]*)"
+
+
+def _by_list(said: re.Match[str]) -> str:
+    """Things of all sorts in brackets, for the word that only sums them up."""
+    told = re.split(r",? and |, ?", said["listed"].strip())
+    if any(is_descriptive(item.split()[-1]) or item.split()[-1] in LEVELS for item in told):
+        return said[0]
+    only = "only" in (said["before"], said["behind"])
+    told = [f"the {item}" if only and not _ITEM.match(item) else item for item in told]
+    return f"{'only ' if only else ''}{', '.join(told[:-1])} and {told[-1]}"
 
 
 def _without_assurance(said: re.Match[str]) -> str:
@@ -40,6 +63,12 @@ def _state_again(said: re.Match[str]) -> str:
 
 
 SAID_AGAIN = (
+    (
+        # "Stow tools only (screwdrivers, loupe) in the drawer"
+        rf"{_NOT_COUNTED}\b(?:(?P<before>only) )?(?:(?:the|my|these|those) )?(?:{_SUNDRY})"
+        rf"(?: (?P<behind>only))? \((?P<listed>{_LISTED}(?:(?:, ?|,? and ){_LISTED})+)\)",
+        _by_list,
+    ),
     (
         # "The drawer is not open, the door is"
         r"(?P<first>\bthe [^.,;:]*? is (?P<not>not )?(?P<state>open|closed|shut)(?: again)?)"

@@ -19,7 +19,13 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Toward,
 )
 from etot_cli.reasoning.language.words import places
-from etot_cli.reasoning.language.words.lexicon import BOARD_NOUNS, DESK_NOUNS, LEVELS, STATES
+from etot_cli.reasoning.language.words.lexicon import (
+    BOARD_NOUNS,
+    DESK_NOUNS,
+    LEVELS,
+    ORDINALS,
+    STATES,
+)
 from etot_cli.reasoning.language.words.places import Prep
 
 LEVEL = sequence(
@@ -41,8 +47,15 @@ def _level_of(owner: NounPhrase, toward: Toward, level: NounPhrase) -> Destinati
 
 
 def _told_level(np: NounPhrase) -> NounPhrase | None:
-    """One that is told by what is on it or how it is, not by where it is."""
+    """One that is told by what is on it, how it is or which one it is from an end, not by where it
+    is.
+    """
     *said, noun = np.words or ("",)
+    counted = {*said} <= {*ORDINALS} - {"last"} and {item.prep for item in np.modifiers} <= {
+        Prep.SIDE
+    }
+    if said and noun in _LEVEL_NOUNS and counted:
+        return np
     told = all(item.prep in _TELLING for item in np.modifiers) and all(w in STATES for w in said)
     return np if noun in _LEVEL_NOUNS and (np.modifiers or said) and told else None
 
