@@ -110,6 +110,7 @@ def test_politeness_changes_nothing(name: str, text: str) -> None:
     framed += r"(you )?see |"
     framed += r"time |don't|never|yes\b|robot |hi\b|1\.|\w+ out\. |one (more|last) |moved |tower |"
     framed += r"which |it is |when i |end with |as for |with |now |on the |if |unless |is |are |"
+    framed += r"(the )?(\w+ ){1,2}(of the \w+ )?for (the|my) |"
     framed += r"should there |we'\w+ |we have |in the \w+ you |"
     framed += r"regarding |in this |storage |only |exactly |no, |into |whichever |do not |"
     framed += r"\w+ (nothing|neither) |\w+ things, |"
