@@ -222,7 +222,8 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
     (r"\b(?:acceptance|pass(?:ing)?|exit) criteri(?:on|a):", "success criterion:"),
     # "Bottom shelf for the cups, top shelf for the pens"
     (
-        rf"(?<![^.;\n])( ?(?:please,? )?)({_PLACE_FOR}(?:(?:,| and|, and) {_PLACE_FOR})*)(?=[.;!]|,? so\b|$)",
+        rf"(?<![^.;\n])( ?(?:please,? )?)({_PLACE_FOR}(?:(?:,| and|, and) {_PLACE_FOR})*)"
+        r"(?=[.;!]|,? (?:so|please)\b|$)",
         _places_for,
     ),
     # "White bottle: store in the drawer", "brown vial expired - discard in the bin"
