@@ -245,6 +245,8 @@ class LentNouns(ABC):
 
     def _is_plain(self, phrase: NounPhrase, role: Role, noun: str | None) -> bool:
         """Whether a colour would be said of a thing that none is known of, nor was it called so."""
+        if quantity_of(phrase.determiner).other:
+            return False
         said = {word for word in phrase.words[:-1] if basic_color(word)}
         same = (m for m in self.discourse.mentions if same_noun(m.noun, noun or ""))
         before = {word for mention in same for word in mention.adjectives}
