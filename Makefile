@@ -56,7 +56,7 @@ calibrate: $(VENV)/.dev  ## compare the odds that --worlds tells with what then 
 check-random: $(VENV)/.dev  ## simulate and plan 160 random problems
 	$(BIN)/python -m tests.measure.check_random
 
-check-reading: $(VENV)/.dev  ## read every sentence of the corpus; the tests read one in two
+check-reading: $(VENV)/.dev  ## read every sentence of the corpus; the tests read one in four
 	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal --whole-corpus tests/reasoning
 
 check-execute: $(VENV)/.dev  ## carry all tasks out in closed loop, 20 times each

@@ -29,7 +29,7 @@ CORPUS: dict[str, dict[str, dict[str, str]]] = yaml.load(
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
 
 
-ONE_IN = 2
+ONE_IN = 4
 """Of so many sentences one is read in a run of all tests, of each scene and kind; `make
 check-reading` reads them all."""
 
