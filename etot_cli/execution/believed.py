@@ -78,6 +78,9 @@ class BelievedTwin:
 
         Returns:
             The stored state, to plan from, and the same state as relations see it.
+
+        Raises:
+            ServiceError: nothing was ever seen of a movable object.
         """
         world, data = self.world, self._data
         self._place_fastened(observation)
