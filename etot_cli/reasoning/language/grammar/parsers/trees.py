@@ -12,6 +12,8 @@ from etot_cli.reasoning.language.words.places import Prep
 _CONTRASTS = (Prep.CONTRAST, Prep.EXCEPT)
 UNSAID = "it or them"
 """The pronoun of what is left out behind a verb ("take the cup out and place on the tray")."""
+UNPLACED = "what has no place yet"
+"""The pronoun of what a place is used for that stands alone ("clear the desk; use the box")."""
 
 
 def nodes(tree: object) -> Iterator[object]:

@@ -18,6 +18,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     variants,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import LIST, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.trees import UNPLACED
 from etot_cli.reasoning.language.grammar.phrases.coordination import all_of
 from etot_cli.reasoning.language.grammar.phrases.destinations import TARGETS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, NP_LIST, THINGS
@@ -85,7 +86,7 @@ def _used_for(
         return None  # that is told above
     if things is None and any(matches_any(np.head, BODY_NOUNS) for np in nps):
         return None  # "use both hands to lift it" is about how
-    them = NounPhrase(pronoun="them", text="them")
+    them = NounPhrase(pronoun=UNPLACED, text="them")
     return put_to(things or Things((them,)), (Destination(toward, nps, FILLED),))
 
 

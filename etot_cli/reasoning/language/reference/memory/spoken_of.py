@@ -100,3 +100,21 @@ def left_unsaid(discourse: Discourse, text: str) -> tuple[int, ...]:
     if said[-1].clause == discourse.emptied:
         raise AmbiguousReference(text, [*named, *(name.split(maxsplit=2)[2] for name in named)])
     return tuple(dict.fromkeys(latest))
+
+
+def without_place(discourse: Discourse, text: str) -> tuple[int, ...]:
+    """What the clause before wants elsewhere without saying where ("clear the desk; use the box").
+
+    Raises:
+        ReferenceProblem: nothing, or it has a place already: what else that is to be used for, or
+            instead of what, is not said.
+    """
+    latest = max((mention.clause for mention in discourse.mentions), default=0)
+    said = [mention for mention in discourse.mentions if mention.clause == latest]
+    found = [mention.referent for mention in said if mention.role is Role.THEME]
+    chosen = {mention.referent for mention in said if mention.role is Role.ANY}
+    moved = discourse.things(*{*found} - discourse.swept)
+    places = [place for thing in moved for place in discourse.placed.get(thing, ())]
+    if not found or any(not p or p.beside or p.where not in chosen for p in places):
+        raise ReferenceProblem(text, "say what is to go there", 2)
+    return tuple(dict.fromkeys(found))

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 from etot_cli.reasoning.builtin.goal import Place, Relation
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.parsers.trees import UNSAID
+from etot_cli.reasoning.language.grammar.parsers.trees import UNPLACED, UNSAID
 from etot_cli.reasoning.language.reference.memory.antecedents import UNCLEAR, AmbiguousReference
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.spoken_of import (
     left_unsaid,
+    without_place,
 )
 from etot_cli.reasoning.language.reference.pronouns.one_thing import meant_by_it, telling
 from etot_cli.reasoning.language.reference.pronouns.plural_pronouns import (
@@ -52,6 +53,8 @@ def antecedents(
     """
     if pronoun == UNSAID:
         return left_unsaid(discourse, text)
+    if pronoun == UNPLACED:
+        return without_place(discourse, text)
     if pronoun in PLURAL_PRONOUNS:
         found = meant_by_them(discourse, role, text, excluded)
         if not found:
