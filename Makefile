@@ -24,7 +24,7 @@ test-fast: $(VENV)/.dev  ## a cross-section of the tests, in a minute
 lint: $(VENV)/.dev  ## style and types
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy --num-workers $(WORKERS)
+	$(BIN)/mypy
 
 format: $(VENV)/.dev  ## put the style right
 	$(BIN)/ruff check --fix .
