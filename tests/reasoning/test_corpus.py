@@ -29,7 +29,7 @@ CORPUS: dict[str, dict[str, dict[str, str]]] = yaml.load(
 SCENES = {name: getattr(corpus_scenes, name)() for name in CORPUS}
 
 
-ONE_IN = 4
+ONE_IN = 8
 """Of so many sentences one is read in a run of all tests, of each scene and kind; `make
 check-reading` reads them all."""
 
@@ -77,17 +77,17 @@ def test_read(name: str, text: str, wanted: str) -> None:
 
 
 def test_every_fourth_refusal_says_what_would_be_read() -> None:
-    """0.256 of 2,224 did, and for the others there is nothing near that asks for the same; a tenth
-    of them differs from that by 0.03 (one deviation).
+    """0.256 of 2,224 did, and for the others there is nothing near that asks for the same; a
+    twentieth of them differs from that by 0.04 (one deviation).
     """
     refused = [(name, text) for name, found in CORPUS.items() for text in found.get("refused", {})]
-    refused = refused[::10]
+    refused = refused[::20]
     told = 0
     for name, text in refused:
         with pytest.raises(InstructionError) as raised:
             goal_of(text, SCENES[name])
         told += "what would be read: " in str(raised.value)
-    assert told > (0.256 - 3 * 0.03) * len(refused)
+    assert told > (0.256 - 3 * 0.04) * len(refused)
 
 
 @pytest.mark.parametrize(

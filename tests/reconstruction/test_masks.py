@@ -87,7 +87,7 @@ def open_on_its_own_colour() -> Scene:
 
 
 @pytest.mark.parametrize("what", [alike_behind_each_other, cup_at_the_back, open_on_its_own_colour])
-@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("seed", [0])
 def test_lost_readings_neither_tear_nor_join(what, tmp_path: Path, seed: int) -> None:
     picture = render(what())
     best, count = overlaps(picture, tmp_path, seed)

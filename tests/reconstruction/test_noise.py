@@ -85,7 +85,7 @@ def cup_before_the_gap() -> Scene:
 
 
 @pytest.mark.parametrize("what", [pen_above_an_open_drawer, before_the_floor, cup_before_the_gap])
-@pytest.mark.parametrize("seed", [8, 33])
+@pytest.mark.parametrize("seed", [8])
 def test_nothing_is_lost_or_invented(what, tmp_path: Path, seed: int) -> None:
     found = find_segments(calibrate(read_capture(noisy(what(), tmp_path, seed))))
     assert len(found) == len(what().objects)

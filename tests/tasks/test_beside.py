@@ -56,7 +56,7 @@ def test_the_vase_is_moved_where_it_does_not_stand_right(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("key", ["left_of", "right_of"])
 def test_a_row_is_built_around_what_stands_in_its_middle(
     key: str, seed: int, tmp_path: Path
@@ -128,7 +128,7 @@ def _planned(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_landmark_at_the_edge_comes_to_the_thing(seed: int, tmp_path: Path) -> None:
     box, cup = JIG | {"at": [0.40, 0.54]}, CUP | {"at": [0.42, 0.05]}
     plan = _planned(tmp_path, seed, [{"left_of": ["cup", "box"]}], box=box, cup=cup)
@@ -136,7 +136,7 @@ def test_a_landmark_at_the_edge_comes_to_the_thing(seed: int, tmp_path: Path) ->
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_landmark_at_the_edge_makes_room_where_both_are_to_stand(
     seed: int, tmp_path: Path
 ) -> None:
@@ -148,7 +148,7 @@ def test_a_landmark_at_the_edge_makes_room_where_both_are_to_stand(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_one_of_two_landmarks_is_moved_where_that_is_enough(seed: int, tmp_path: Path) -> None:
     flask = {"kind": "cylinder", "diameter": 0.06, "height": 0.12, "mass": 0.2}
     one, other = flask | {"at": [0.42, 0.05]}, flask | {"at": [0.42, -0.05]}
@@ -162,7 +162,7 @@ def test_one_of_two_landmarks_is_moved_where_that_is_enough(seed: int, tmp_path:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("depth", [0.22, 0.14])
 def test_three_in_a_row_on_a_narrow_mat(depth: float, seed: int, tmp_path: Path) -> None:
     mat = {"kind": "box", "at": [0.45, 0.05], "size": [depth, 0.40, 0.008], "mass": 0.4}
@@ -190,7 +190,7 @@ def test_what_cannot_be_taken_gets_between_two_others_by_one_of_them(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_of_two_that_change_places_each_is_moved_once(seed: int, tmp_path: Path) -> None:
     lamp = {"kind": "cylinder", "diameter": 0.07, "height": 0.18, "mass": 0.3, "at": [0.40, -0.25]}
     goal = [{"at": ["lamp", [0.42, 0.05]]}, {"right_of": ["block", "lamp"]}]
@@ -199,7 +199,7 @@ def test_of_two_that_change_places_each_is_moved_once(seed: int, tmp_path: Path)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("at", [[0.22, -0.40], [0.30, -0.16]])
 def test_what_makes_way_stays_away_from_what_it_is_to_be_away_from(
     at: list[float], seed: int, tmp_path: Path
