@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.goal import Place, Put, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
-from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
+from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup, RemoveClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
@@ -134,9 +134,17 @@ def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]
     """What is left somewhere is there already, or is put there.
 
     Raises:
+        AmbiguousReference: it is all that the clause before takes away from there.
         ReferenceProblem: it lies on something that lies there, which may be meant to stay so.
     """
     at = [place.where for place in places if place.where is not None and not place.beside]
+    left = {*context.discourse.things(*themes)}
+    removed = context.done if isinstance(context.last, RemoveClause) else ()
+    for step in (step for step in removed if isinstance(step, Put) and step.removal):
+        out = {*context.discourse.things(*step.what)}
+        for thing in out if out <= left else ():
+            if any(touches(thing, o, context.scene) for o in context.discourse.things(*at)):
+                raise AmbiguousReference(thing.name, ["what is taken away", "what stays there"])
     for thing in context.discourse.things(*(i for i in themes if i not in context.discourse.put)):
         gone = {item.name for item in context.discourse.things(*context.discourse.put)}
         upon = carriers(context.scene, thing.name) - gone
