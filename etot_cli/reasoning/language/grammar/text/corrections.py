@@ -26,6 +26,7 @@ from etot_cli.reasoning.language.grammar.text.said_instead import (
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import (
+    LEVELS,
     SIDES,
     is_descriptive,
     word_set,
@@ -84,6 +85,10 @@ _AS_IT_IS = ("where it is", "where they are", "as it is", "as they are", "alone"
 """Behind "leave it": nothing is done with what something was to be done with."""
 _OPPOSITES = {"open": ("closed", "shut"), "close": ("open",), "shut": ("open",)}
 """How something is left that is not to be opened, or closed, after all."""
+_ONE_AT_A_SIDE = re.compile(
+    rf"the one (?:on|at|in) the (?P<side>{'|'.join(sorted({*SIDES, *LEVELS}))})$"
+)
+_ONE = (("one",), ("ones",))
 _SWAPPED = ("the other way around", "the other way round", "vice versa", "the reverse")
 MOST_WAYS = 5
 """Phrases that may be taken back at once; of more nobody knows which one is."""
@@ -149,7 +154,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         # "The car, no wait, not the car, the ball"
         denied = frozenset(after[1 : after.index(",")]) - BEFORE_THINGS - {"one", "ones"}
         after = after[after.index(",") + 1 :]
-    while after[:1] in (("just",), ("please",), ("rather",), ("instead",)):
+    fewer = after[:1] in (("just",), ("only",))  # of the things, not another place
+    while after[:1] in (("just",), ("only",), ("please",), ("rather",), ("instead",)):
         after = after[1:]
     start = max((at + 1 for at, token in enumerate(before) if token in _ENDS), default=0)
     stop = next((at for at, token in enumerate(after) if token in _ENDS), len(after))
@@ -157,6 +163,11 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     tail, said, rest = before[start:], after[:end], after[end:]
     if not said:
         return
+    if sided := _ONE_AT_A_SIDE.match(" ".join(said)):
+        said = ("the", sided["side"], "one")
+    several = fewer or (JOINTS & {*said} and said[0] in BEFORE_THINGS)
+    if (several and JOINTS & {*tail}) or (said[1:2] in _ONE and {*said[2:3]} & BEFORE_PLACES):
+        return  # "the ball and the car, no, just the car"; "on the mat, no, the one by the cup"
     if said[0] in _LEFT and {*said[1:2]} & {*_POINTING}:
         more = said[3:] if said[2:3] in (("one",), ("ones",)) else said[2:]
         left = " ".join(more).startswith(_AS_IT_IS)
@@ -185,6 +196,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         span
         for span in _spans(tail, said, sentence, everything=everything, whole=whole)
         if denied <= {*tail[slice(*span)]}
+        and not (fewer and {*tail[max(span[0] - 1, 0) : span[0]]} & BEFORE_PLACES)
     ]
     if said[-1] in ("one", "ones") and said[1:-1] not in ((), ("other",)):
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
@@ -207,9 +219,12 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         if kept and rest[:1] == (",",) and not further:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
-        new = (*said[:-1], *also_told(taken, said), *called(taken, said)) if noun else said
-        news = in_its_stead(taken, new[:-1]) if new[-1] == "instead" else iter((new,))
-        for new in news:
+        # "The green tray, no, the left one": the left green one, or the left of all trays?
+        told = dict.fromkeys((also_told(taken, said), ())) if noun else ()
+        ways = [(*said[:-1], *more, *called(taken, said)) for more in told] or [said]
+        if said[-1] == "instead":
+            ways = [*in_its_stead(taken, said[:-1])]
+        for new in ways:
             instead = _settled(taken, new)
             for more in dict.fromkeys((rest, rest[rest[:1] == (",",) and not kept :])):
                 words = _joined(*before[:start], *tail[:first], *instead, *kept, *more)
