@@ -220,8 +220,8 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
             continue  # "the apple in the bowl, no, the banana, in the box"
         noun = said[-1] in ("one", "ones") and len(said) > 1
         # "The green tray, no, the left one": the left green one, or the left of all trays?
-        told = dict.fromkeys((also_told(taken, said), ())) if noun else ()
-        ways = [(*said[:-1], *more, *called(taken, said)) for more in told] or [said]
+        besides = dict.fromkeys((also_told(taken, said), ())) if noun else ()
+        ways = [(*said[:-1], *one, *called(taken, said)) for one in besides] or [said]
         if said[-1] == "instead":
             ways = [*in_its_stead(taken, said[:-1])]
         for new in ways:
