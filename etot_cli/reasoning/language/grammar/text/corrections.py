@@ -154,7 +154,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         # "The car, no wait, not the car, the ball"
         denied = frozenset(after[1 : after.index(",")]) - BEFORE_THINGS - {"one", "ones"}
         after = after[after.index(",") + 1 :]
-    fewer = after[:1] in (("just",), ("only",))  # of the things, not another place
+    chosen = after[:1] in (("just",), ("only",))  # of the things, not another place
     while after[:1] in (("just",), ("only",), ("please",), ("rather",), ("instead",)):
         after = after[1:]
     start = max((at + 1 for at, token in enumerate(before) if token in _ENDS), default=0)
@@ -165,7 +165,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         return
     if sided := _ONE_AT_A_SIDE.match(" ".join(said)):
         said = ("the", sided["side"], "one")
-    several = fewer or (JOINTS & {*said} and said[0] in BEFORE_THINGS)
+    several = chosen or (JOINTS & {*said} and said[0] in BEFORE_THINGS)
     if (several and JOINTS & {*tail}) or (said[1:2] in _ONE and {*said[2:3]} & BEFORE_PLACES):
         return  # "the ball and the car, no, just the car"; "on the mat, no, the one by the cup"
     if said[0] in _LEFT and {*said[1:2]} & {*_POINTING}:
@@ -196,7 +196,7 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
         span
         for span in _spans(tail, said, sentence, everything=everything, whole=whole)
         if denied <= {*tail[slice(*span)]}
-        and not (fewer and {*tail[max(span[0] - 1, 0) : span[0]]} & BEFORE_PLACES)
+        and not (chosen and {*tail[max(span[0] - 1, 0) : span[0]]} & BEFORE_PLACES)
     ]
     if said[-1] in ("one", "ones") and said[1:-1] not in ((), ("other",)):
         # "The black pen in the tray, I mean the blue one" contrasts what has such a word, too.
