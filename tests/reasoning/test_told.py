@@ -22,7 +22,7 @@ SCENES = {
     )
 }  # fmt: skip
 """Those in which things' names, which the plain sentences use, mean nothing else."""
-TOLD = 24
+TOLD = 16
 """Instructions of a family in each of its tests."""
 REFUSED = 0.15
 """Share of a family that may be refused: 0.01 to 0.08 of some thousands were, by family, and 0.12
