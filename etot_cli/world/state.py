@@ -199,7 +199,7 @@ class Cause:
     time_s: float | None = None
     """Simulated time within the action, when there was one."""
     lasting: bool = False
-    """It lies in the object as it stands: elsewhere, and at another time, it is the same."""
+    """It lies in the object: elsewhere, at another time, or held otherwise, it is the same."""
 
 
 @dataclass(frozen=True, slots=True)

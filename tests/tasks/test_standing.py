@@ -97,3 +97,20 @@ def test_a_flat_thing_that_turned_in_a_slanted_hand_lies_flat(
     goal = [{"on": ["tile", "desk"]}, *stance]
     _, lean = planned({"chest": CHEST, "tile": tile}, goal, tmp_path)
     assert lean["tile"] < STANDS_WITHIN
+
+
+@pytest.mark.slow
+def test_what_is_too_tall_to_stand_on_a_board_is_tried_there_once(tmp_path: Path) -> None:
+    """However it is grasped, it is as high: there is nothing else to try."""
+    objects = {
+        "shelf": {**RACK, "at": [0.40, 0.32], "yaw_deg": -90, "size": [0.20, 0.34, 0.15],
+                  "boards": ["low", "high"]},
+        "bottle": {"kind": "cylinder", "diameter": 0.055, "height": 0.17, "mass": 0.3,
+                   "at": [0.30, -0.12]},
+    }  # fmt: skip
+    goal = [{"on": ["bottle", "shelf.low"]}, {"upright": "bottle"}]
+    task = {"name": "too_tall", "scene": {"objects": objects}, "goal": goal}
+    result = plan_task(PlanOptions(task=write(task, tmp_path), jobs=1)).result
+    assert result.status is SearchStatus.INFEASIBLE
+    (cause,) = [node.verdict.cause for node in result.tree if node.verdict.cause]
+    assert cause.text == "bottle does not fit on shelf.low"

@@ -162,6 +162,8 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
     if toppled and owner_of(toppled[0]) == owner:
         return  # the container does not stand what is put into it
     yield from other_boards(case.failed)
+    if case.cause.lasting:
+        return
     yield from filled_before(case)
     if pick is not None and case.is_furniture_alone():
         yield from regrasped(case.failed, pick, case.cause.kind)

@@ -16,6 +16,7 @@ from etot_cli.skills.placements.placement import Placement, Tally, placement_at
 from etot_cli.skills.placements.places import Place, PlaceFinder
 from etot_cli.skills.placements.suspects import MAX_SUSPECTS, least, suspected
 from etot_cli.skills.placements.undersides import Stamps
+from etot_cli.world.spatial import Nearby
 from etot_cli.world.state import CauseKind
 
 MAX_KNOWN = 2
@@ -175,10 +176,13 @@ def _too_small(
             [*dict.fromkeys(marks), name],
             f"there is no room for {name} on {address} {' and '.join(map(str, request.where))}",
         )
+    # What has to stand is turned about its own axis only: no other grasp of it makes it lower.
     return failed(
         CauseKind.NO_ROOM,
         [name, *owner],
         f"{name} does not fit {_preposition(request)} {address}{_at(request)}",
+        lasting=request.stance is Nearby.UPRIGHT
+        and not (request.support.is_container or request.absent),
     )
 
 
