@@ -196,6 +196,18 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         r"(?(3)(?:to )?(?:move|touch|open|close|shut)|(?:open|close|shut))(?=[.;!]|$)",
         _please,
     ),
+    # "The red one please leave on the desk"
+    (
+        rf"(^|[.;!] )({NAMED} {_THING}),? please (leave|keep|put|place) "
+        r"(?=(?:on|in|at|into|onto|inside|next|beside|behind|where|as|alone|there)\b)",
+        r"\1please \3 \2 ",
+    ),
+    # "After both cups were put inside"
+    (
+        r"\b((?:after|once|as soon as) (?:the|both|all|my|it|they)\b[^.,;:!?]*?)"
+        r" (?:(was)|were) (?=(?:put|placed|set|moved|taken|brought|opened|closed|stored)\b)",
+        lambda said: f"{said[1]} {'has' if said[2] else 'have'} been ",
+    ),
     (r"\bcomes? (together (?:in|on|into|onto) )", r"go \1"),
     # "Only when that is done may the cup be put in it"; "do not touch it during this"
     (rf"\bonly (?:when|once|if|after) {_DONE},?", "only then"),
