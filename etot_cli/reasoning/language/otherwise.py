@@ -28,7 +28,12 @@ from etot_cli.reasoning.language.start_told import without_start
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, opening_words
+from etot_cli.reasoning.language.words.known import (
+    OTHER_VERBS,
+    VERB_WORDS,
+    all_words,
+    opening_words,
+)
 from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
     LEVELS,
@@ -44,13 +49,32 @@ from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import SceneState
 
 _HEADING = re.compile(r"((?:\b(?:Mr|Mrs|Ms|Dr)\. |[^.:;!?\n])+):\s+(\S.*)", re.DOTALL)
-_POLITE = Expression(rf"^(?:so,? )?{ASKED}")
+_POLITE = Expression(rf"^(?:so,? )?(?:(?:it is )?(?:high )?time (?:to|for) )?{ASKED}")
 _AS_FOLLOWS = Expression(r",? as follows\s*$", re.IGNORECASE)
 _TABLE_SET = Expression(
     r"((?:please )?(?:set|lay) the table(?: for [^,.:;!?\n]+)?)[,.]\s+(\S.*)",
     re.IGNORECASE | re.DOTALL,
 )
 """Says nothing of what is to stand where, which comes next."""
+_FOR = Expression(
+    r"^((?:[Ff]or|[Ii]n preparation for) (?:the|our|my|this|(?:today|tomorrow|tonight)'s)"
+    r"(?: (?:next|coming|upcoming))?((?: \w+){1,3}?))(?:, +|"
+    r" (?=(?:the|my|both|all|please|put|place|set|move|open|close|shut)\b))(\S[\s\S]*)"
+)
+"""The same as a heading, of what no scene has ("for the next measurement the cup should …")."""
+_ARRANGING = word_set(
+    "prepare ready set lay make arrange organise organize pack serve stock restock start "
+    "begin stage assemble rearrange equip decorate complete form load unload plan host get "
+    "declutter straighten gather collect group"
+)
+"""What consists of what stands below it; anything else would have to be done besides."""
+_PARTICLES = word_set("up down off out")
+_PROCEDURE = word_set("protocol procedure plan schedule steps recipe programme program routine")
+_IS_DONE = Expression(
+    r"\b(is|are) (?=(?:then |first |finally )?(?:put|placed|set|laid|moved|taken|brought|opened|"
+    r"closed|shut|transferred|stored|stacked|picked|lifted|removed|returned|emptied)\b)"
+)
+"""In a procedure this says what is to be done."""
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last end then do t "
@@ -225,13 +249,17 @@ def _holds(sentence: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
 
 
 def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
-    """What a colon announces ("season the salad: put the salt next to it"), where the words before
+    """What a colon announces ("set the table: put the salt next to it"), where the words before
     it ask for nothing that could be read, condition nothing and deny nothing; they are noted.
 
     Raises:
         UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
     """
     said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
+    if said is None and (found := _FOR.match(instruction)):
+        strange = [word.casefold() for word in found[2].split()]
+        if not any(word in all_words() or is_name(word, vocabulary) for word in strange):
+            said = re.match(rf"({re.escape(found[1])}),? +(\S.*)", instruction, re.DOTALL)
     words = words_in(_POLITE.sub("", normalized(_AS_FOLLOWS.sub("", said[1])))) if said else ()
     # "A stack of three: …", "the tower on the tray: …", "make a pile: …"
     counted = {*spellings(STACK)} & {*words} and (_BUILT | {*NUMBERS}) & {*words}
@@ -241,7 +269,12 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         raise UnreadableError(instruction, "")  # "put both on the book: the pen on the left, …"
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
-    heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()
+    # "Wipe the table: …", "polish up the cups: …" would have to be done besides.
+    parts = _PARTICLES if words[0] in OTHER_VERBS else {"up", "down"}
+    deed = {*words[1:2]} & (BEFORE_NAMES | parts) and words[0] not in BEFORE_NAMES
+    heading = words[0] in VERB_WORDS | _ARRANGING or (
+        not deed and (words[0] in OTHER_VERBS or words[0] not in opening_words())
+    )
     what = words[: words.index("for")] if "for" in words[1:] and not named else words
     job = {*what[-1:]} <= _JOBS and not {"by", "with", *_WITHIN} & {*words}
     planned = _PLAN.match(normalized(said[1])) if not named else None
@@ -256,7 +289,9 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         raise UnreadableError(said[2], "")
     if reads(said[1], scene, vocabulary):
         raise UnreadableError(said[1], "", "say it in a sentence of its own")
-    goal = read_plainly(normalized(said[2]), scene, vocabulary)
+    asked = normalized(said[2])
+    asked = _IS_DONE.sub(r"\1 to be ", asked) if _PROCEDURE & {*words} else asked
+    goal = read_plainly(asked, scene, vocabulary)
     note = f"{said[1].strip()!r} is a heading: what stands below it is done"
     return replace(goal, notes=(note, *goal.notes))
 

@@ -121,6 +121,8 @@ WITHOUT_MEANING = f"""
     (four|five|six|seven|eight|nine|ten|eleven|twelve) [o 'clock|tonight]),
     before (dark|nightfall|midnight|noon),
     (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here],
+    before you (go (home|(to|for) (lunch|dinner|bed))|leave for (today|the (day|night|weekend))|
+    finish (work|(your|the) shift)),
     (by the time|before) (i|we|they|he|she|(the|our|my) (guests|kids|children))
     (sit down|sits down|leave|leaves|arrive|arrives)
 """
@@ -166,7 +168,8 @@ REMARKS = f"""
 FOUND = """
     (is|are|was|were|has been|have been|got|seem[s] to be|stands|sits|lies|rests|stand|sit|lie|rest)
     [still|just|now|currently|again|all]
-    [left|standing|lying|sitting|resting|wide|slightly|partly|half|a (little|bit)]
+    [left|standing|lying|sitting|resting|parked|located|situated|positioned|
+    wide|slightly|partly|half|a (little|bit)]
 """
 """Between a thing and how it is, before something is asked of it."""
 FELL = """

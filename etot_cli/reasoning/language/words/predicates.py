@@ -141,14 +141,14 @@ _SOMEBODY = f"{RELATIONS}|lady|gentleman|woman|man|person|visitor|shopper|diner|
 OTHERS_WANT = f"""
     (the|my|our|a|an|one|another|this|that) [(old|young|little|nice|first|next)] ({_SOMEBODY})
     [(here|outside|at the (door|counter|table|bar)|over there)]
-    (wants|needs|would like [to have]|has ordered|ordered|asked for|asks for),
+    (wants|needs|would like [to have]|will need|has ordered|ordered|asked for|asks for),
     [the|my|our|some|two]
     (guests|customers|clients|patients|parents|colleagues|students|visitors|kids|children|people|
     ladies|girls|boys|friends)
-    (want|need|would like [to have]|have ordered|ordered|asked for),
+    (want|need|would like [to have]|will need|have ordered|ordered|asked for),
     [my|our] (grandma|grandpa|granny|mum|mom|dad) (wants|needs|would like [to have]),
-    (he|she|somebody|someone) (wants|needs|would like [to have]),
-    they (want|need|would like [to have])
+    (he|she|somebody|someone) [also] (wants|needs|would like [to have]|will [also] need),
+    they [also] (want|need|would like [to have]|will [also] need)
 """
 """Said of other people, who are not there to be handed anything."""
 _END_HAS = """

@@ -49,7 +49,8 @@ _PREDICATE = Expression(
     r"(?= |$)"
 )
 _A_BIT = Expression(
-    r" (?:a (?:little|bit|lot)|quite a bit|by now|all the time|so often|every time)(?= |$)"
+    r" (?:any ?(?:more|longer)|a (?:little|bit|lot)|quite a bit|by now|all the time|so often"
+    r"|every time)(?= |$)"
 )
 _TOO_SO = Expression(
     r"^(?:is|are|looks?|gets?) (?:far |much |way )?too \w+"
