@@ -63,9 +63,8 @@ _FOR = Expression(
 )
 """The same as a heading, of what no scene has ("for the next measurement the cup should …")."""
 _ARRANGING = word_set(
-    "prepare ready set lay make arrange organise organize pack serve stock restock start "
-    "begin stage assemble rearrange equip decorate complete form load unload plan host get "
-    "declutter straighten gather collect group"
+    "prepare ready set lay make arrange organise organize pack serve stock restock "
+    "stage assemble rearrange equip decorate form plan host declutter straighten gather collect group"
 )
 """What consists of what stands below it; anything else would have to be done besides."""
 _PARTICLES = word_set("up down off out")

@@ -33,6 +33,7 @@ _NO_NAMES = word_set("nobody none neither nothing few everybody everyone anybody
 """They may stand where somebody's name does, and some of them deny what is wanted."""
 
 _ADDRESSED = "colleague, colleagues, team, everyone, everybody, all, friend, friends, assistant"
+_CALLS_OFF = word_set("cancel abort undo halt cease disregard")
 _TITLE = r"(?:(?:Mr|Mrs|Ms|Miss|Dr|Prof|Professor)\.? )?"
 _TO_SOMEBODY = Expression(
     r"^\s*(?:(?:[Oo]h,? )?(?:[Dd]ear|[Hh]i|[Hh]ello|[Hh]ey|(?:[Gg]ood )?"
@@ -78,7 +79,9 @@ def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
     def written(found: re.Match[str]) -> str:
         parts = found.groupdict()
         who = found["who"].casefold()
-        stranger = is_stranger(who) or (not is_name(who) and who in spellings(_ADDRESSED))
+        stranger = (is_stranger(who) and who not in _CALLS_OFF) or (
+            not is_name(who) and who in spellings(_ADDRESSED)
+        )
         return (parts.get("end") or "") if parts.get("titled") or stranger else found[0]
 
     instruction = _FROM_SOMEBODY.sub(written, _TO_SOMEBODY.sub(written, instruction))

@@ -92,15 +92,19 @@ _IN_GENERAL = Expression(
 
 _NOBODY_DOES = Expression(rf"^(?:nobody|no one) (?:ever )?(?:{'|'.join(sorted(DOING))})(?:e?s)?\b")
 _WILL = word_set("will shall may can could would is are am")
+_GIVEN = Expression(
+    r"\bbe (?:given|shown|handed|offered|served|provided|supplied|issued|assigned|brought|sent) "
+)
+"""Of people to whom a thing is to be brought ("each student will be given a cup")."""
 
 
 def is_forbidding(said: str, is_name: IsName) -> bool:
     """Whether a clause may forbid what it says that nobody does ("nobody touches the cup"), or all
-    but what it says will be done ("the guests will use the red cup only").
+    but what it says will be done ("the guests will use the red cup only"), or ask for that.
     """
     words = said.split()
-    alone = "only" in words and _WILL & {*words} and any(map(is_name, words))
-    return bool(alone or _NOBODY_DOES.match(said))
+    asked = ("only" in words and _WILL & {*words}) or _GIVEN.search(said)
+    return bool((asked and any(map(is_name, words))) or _NOBODY_DOES.match(said))
 
 
 def is_unused(said: str) -> bool:

@@ -60,7 +60,7 @@ TOLD_BY_OTHERS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], st
     ),
     # "Do not worry about the lids, they can stay"
     (
-        rf"\bdo not (?:worry|bother) (?:about|with) (?P<what>{NAMED} (?:\w+ ){{0,2}}?(?!mess\b"
+        rf"\bdo not worry about (?P<what>{NAMED} (?:\w+ ){{0,2}}?(?!mess\b"
         r"|clutter\b|chaos\b|muddle\b|noise\b|smell\b|dust\b|time\b|order\b)\w+)"
         rf"(?:[,;] (?:they|it|those|that) (?P<stays>can stay)\b|{_END})",
         lambda said: (
