@@ -64,7 +64,7 @@ _FOR = Expression(
 """The same as a heading, of what no scene has ("for the next measurement the cup should …")."""
 _ARRANGING = word_set(
     "prepare ready set lay make arrange organise organize pack serve stock restock "
-    "stage assemble rearrange equip decorate form plan host declutter straighten gather collect group"
+    "stage assemble rearrange equip decorate form plan host declutter straighten gather group"
 )
 """What consists of what stands below it; anything else would have to be done besides."""
 _PARTICLES = word_set("up down off out")

@@ -102,7 +102,7 @@ WITHOUT_MEANING = f"""
     as far as i (know|remember|recall|can (tell|see)|am aware),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way,
-    (never mind|ignore|excuse|pardon|forgive|do not mind|do not worry about|sorry about)
+    (never mind|ignore|excuse|pardon|forgive|do not mind|do not worry about|sorry (about|for))
     (the|this|that|my|all the|all this) (mess|clutter|chaos|muddle|noise|smell|dust),
     what a mess [(in|around|over|) here|[over|in|] there|this is],
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
@@ -140,7 +140,8 @@ TURNED = "warm|hot|cold|wet|dry|dirty|dusty|stale|soft|hard|bad|off|flat|mouldy|
 """How things get or go by themselves."""
 SO_LONG = """
     [for] (long enough|too long|ages|hours|days|weeks|a [long] while|[quite] some time),
-    [for] (an hour|a day|a week|all (day|night|morning|week))
+    [for] (an hour|a day|a week|all (day|night|morning|week)),
+    since (yesterday|this morning|last (night|week|month)|monday|tuesday|wednesday|thursday|friday)
 """
 """With how things are by now."""
 REMARKS = f"""

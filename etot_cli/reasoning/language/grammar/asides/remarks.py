@@ -37,7 +37,7 @@ _HAPPENED = Expression(
     r"|^likes? (?:it|them|(?:my|our|his|her|the) \w+) "
     r"(?:cold|cool|warm|hot|chilled|fresh|clean|neat|better|best)(?= anyway|$)"
     r"|^(?:comes?|gets?) (?:back |home )+(?:late|early|soon|tired|hungry)\b"
-    r"|^(?:can (?:not|never|hardly|barely|rarely)(?: ever)? "
+    r"|^(?:(?:can|could) (?:not|never|hardly|barely|rarely)(?: ever)? "
     r"(?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
     r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?|will not (?:bend|let (?:me|us)))\b"
     r"|^(?:insists?(?: on (?:it|that))?|demands? (?:it|that|so)|told me so)$"

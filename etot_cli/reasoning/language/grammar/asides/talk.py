@@ -99,7 +99,7 @@ _HAPPENS = word_set(
 _OPENS = word_set("open opens close closes shut shuts")
 """What people do with a shop, where nothing follows ("we close at nine")."""
 _LIKE = Expression(r" (?P<does>looks|smells|feels|sounds|is) like\b")
-_ALL_OVER = Expression(r" all (?=over\b|around\b)")
+_ALL_OVER = Expression(r" (?:all (?=over\b|around\b)|running (?=(?:late|short|behind|over)\b))")
 """Words that ask for nothing here, and do elsewhere."""
 _SOME_PLACE = Expression(
     r"(?:this|the|our|my) (?:whole |entire )?(?:place|room|world|house) (?:is|looks|smells|feels) "
@@ -189,7 +189,7 @@ def _is_of_stranger(words: Sequence[str], *, timed: bool, before_so: bool, liste
         if adjective or not (left or _may_be_verb(words[at], subject[-1])):
             continue
         verb, *more = [word for word in words[at:] if word not in _BEFORE_VERBS]
-        did = left or (is_past(verb) and {*more[:1]} & _OBJECTS)
+        did = left or (is_past(verb) and {*more[:1]} & _OBJECTS) or (timed and verb in _HAPPENS)
         if doing and (not did or _A_BIT & {*more[1:2]}):
             continue  # "wagon shift left a bit"
         if verb in _LINKING:
@@ -208,7 +208,9 @@ def _is_so(verb: str, more: Sequence[str], *, timed: bool, listed: bool) -> bool
     """Whether what is said behind such a verb asks neither for a place nor for a deed, nor speaks
     of what may be asked for.
     """
-    told = [word for word in more if word not in ("not", "never", "been", "being")]
+    told = [word for word in more if word not in ("not", "never", "been", "being", "be")]
+    if verb == "will" and PLACED & {*told[:1]}:
+        return False
     if verb in ("tend", "tends") and told[:1] == ["to"]:
         told = told[1:]
     then = told[0] if told else ""

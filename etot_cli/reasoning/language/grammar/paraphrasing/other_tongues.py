@@ -45,6 +45,7 @@ def _please(said: re.Match[str]) -> str:
 
 
 OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"\b(my english (?:is|was) [^.,;:!?]*),? sorry ?[:.,!] ", r"\1. "),
     (rf"\b(put|place|set|lay|stand|open|close|shut) me (?:please )?(?={NAMED})", r"\1 "),
     # "The left one you must not touch"
     (
@@ -183,6 +184,12 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         rf"\b(?:(?<=\bso )you )?({_PUT}) (there|inside|in it|on it|in there) also "
         rf"({NAMED} {_THING})(?=[.,;!]|$)",
         r"\1 \3 \2 too",
+    ),
+    # "The yellow jar, you take it from there and you put it on the shelf"
+    (
+        rf"((?:^|[.;!:] ){NAMED} {_THING},? you )(?:take|get|fetch|grab) it(?: from there)? and "
+        r"(?:then )?(?:you )?(?=(?:put|place|set|lay) it\b)",
+        r"\1",
     ),
     # "From the two models, the white one you put it in the drawer"
     (r"(^|[.;!] )from (?=(?:(?:all|both) )?(?:the|these|those) (?:\w+ ){1,3}?\w+s, )", r"\1of "),
