@@ -21,14 +21,24 @@ from etot_cli.reasoning.language.grammar.asides.asking_words import BEFORE_NAMES
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
 from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized, read
 from etot_cli.reasoning.language.grammar.text.corrections import mark_in
-from etot_cli.reasoning.language.grammar.text.splitting import QUESTION, sentences_of, words_in
+from etot_cli.reasoning.language.grammar.text.splitting import (
+    COMMA,
+    QUESTION,
+    sentences_of,
+    words_in,
+)
 from etot_cli.reasoning.language.plainly import is_name, read_plainly, reads
 from etot_cli.reasoning.language.reference.naming.vocabulary import Vocabulary
 from etot_cli.reasoning.language.start_told import without_start
 from etot_cli.reasoning.language.words import verbs
 from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.expressions import Expression
-from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, opening_words
+from etot_cli.reasoning.language.words.known import (
+    OTHER_VERBS,
+    VERB_WORDS,
+    all_words,
+    opening_words,
+)
 from etot_cli.reasoning.language.words.lexicon import (
     DESK_NOUNS,
     LEVELS,
@@ -36,6 +46,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
     is_descriptive,
     is_in_lexicon,
+    singular,
     word_set,
 )
 from etot_cli.reasoning.language.words.nouns import STACK
@@ -44,13 +55,31 @@ from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import SceneState
 
 _HEADING = re.compile(r"((?:\b(?:Mr|Mrs|Ms|Dr)\. |[^.:;!?\n])+):\s+(\S.*)", re.DOTALL)
-_POLITE = Expression(rf"^(?:so,? )?{ASKED}")
+_POLITE = Expression(rf"^(?:so,? )?(?:(?:it is )?(?:high )?time (?:to|for) )?{ASKED}")
 _AS_FOLLOWS = Expression(r",? as follows\s*$", re.IGNORECASE)
 _TABLE_SET = Expression(
     r"((?:please )?(?:set|lay) the table(?: for [^,.:;!?\n]+)?)[,.]\s+(\S.*)",
     re.IGNORECASE | re.DOTALL,
 )
 """Says nothing of what is to stand where, which comes next."""
+_FOR = Expression(
+    r"^((?:[Ff]or|[Ii]n preparation for) (?:the|our|my|this|(?:today|tomorrow|tonight)'s)"
+    r"(?: (?:next|coming|upcoming))?((?: \w+){1,3}?))(?:, +|"
+    r" (?=(?:the|my|both|all|please|put|place|set|move|open|close|shut)\b))(\S[\s\S]*)"
+)
+"""The same as a heading, of what no scene has ("for the next measurement the cup should …")."""
+_ARRANGING = word_set(
+    "prepare ready set lay make arrange organise organize pack serve stock restock "
+    "fill stage assemble rearrange equip decorate form host declutter straighten gather group"
+)
+"""What consists of what stands below it; anything else would have to be done besides."""
+_PROCEDURE = word_set("protocol procedure plan schedule steps recipe programme program routine")
+_IS_DONE = Expression(
+    r"\b((?:first|then|afterwards?|finally|lastly|next|after that),? (?:the|my|both|all|it|they)\b"
+    r"[^.,;:!?]*?) (is|are) (?=(?:put|placed|set|laid|moved|taken|brought|opened|closed|shut|picked"
+    r"|transferred|stored|stacked|lifted|removed|returned|emptied)\b)"
+)
+"""In a procedure, and its order, this says what is to be done."""
 _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last end then do t "
@@ -93,6 +122,10 @@ _LASTING = word_set(
     "moment second seconds minute minutes hour hours day days week weeks while long later"
 )
 _PUT = words_of((verbs.PUT, verbs.BRING))
+_DONE_TO = VERB_WORDS & (
+    _PUT | words_of((verbs.PICK, verbs.REMOVE, verbs.OPEN, verbs.CLOSE, verbs.TURN))
+)
+"""What is done to things that are named; where these are not spoken of below, it is left undone."""
 _WITHIN = word_set("in on into onto inside")
 """A heading by which things are put into or onto others says where, which is to be read."""
 _BUILT = words_of((verbs.BUILD,)) - {"them"} | {"on", "in", "onto"}
@@ -225,13 +258,17 @@ def _holds(sentence: str, scene: SceneState, vocabulary: Vocabulary) -> bool:
 
 
 def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
-    """What a colon announces ("season the salad: put the salt next to it"), where the words before
+    """What a colon announces ("set the table: put the salt next to it"), where the words before
     it ask for nothing that could be read, condition nothing and deny nothing; they are noted.
 
     Raises:
         UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
     """
     said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
+    if said is None and (found := _FOR.match(instruction)):
+        strange = [word.casefold() for word in found[2].split()]
+        if not any(word in all_words() or is_name(word, vocabulary) for word in strange):
+            said = re.match(rf"({re.escape(found[1])}),? +(\S.*)", instruction, re.DOTALL)
     words = words_in(_POLITE.sub("", normalized(_AS_FOLLOWS.sub("", said[1])))) if said else ()
     # "A stack of three: …", "the tower on the tray: …", "make a pile: …"
     counted = {*spellings(STACK)} & {*words} and (_BUILT | {*NUMBERS}) & {*words}
@@ -241,13 +278,29 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         raise UnreadableError(instruction, "")  # "put both on the book: the pen on the left, …"
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
-    heading = words[0] in VERB_WORDS | OTHER_VERBS or words[0] not in opening_words()
+    # "Wipe the table: …", "polish up the cups: …" would have to be done besides.
+    parts = word_set("up down off out" if words[0] in OTHER_VERBS else "up down")
+    deed = {*words[1:2]} & (BEFORE_NAMES | parts) and words[0] not in BEFORE_NAMES
+    for joint, verb, behind in zip(words, words[1:], words[2:], strict=False):
+        if joint in ("and", "then", COMMA) and (
+            verb in OTHER_VERBS or (behind in BEFORE_NAMES and verb not in BEFORE_NAMES)
+        ):
+            raise UnreadableError(verb, "")  # "prepare the bench and label the cups: …"
+    heading = words[0] in VERB_WORDS | _ARRANGING or (
+        not deed and (words[0] in OTHER_VERBS or words[0] not in opening_words())
+    )
     what = words[: words.index("for")] if "for" in words[1:] and not named else words
     job = {*what[-1:]} <= _JOBS and not {"by", "with", *_WITHIN} & {*words}
     planned = _PLAN.match(normalized(said[1])) if not named else None
     heading |= planned is not None and _is_purpose(words_in(planned["purpose"] or ""))
     heading |= job or (words[0] == "for" and not named and _is_purpose(words))
     below = {*words_in(_OF_ITS_OWN.sub("", normalized(said[2])))}
+    spoken = {*map(singular, below), *DESK_NOUNS}
+    if words[0] in _DONE_TO and any(
+        is_name(word, vocabulary) and not (is_category(word) or singular(word) in spoken)
+        for word in words
+    ):
+        raise UnreadableError(said[1], "")  # "pick up the cup: open the drawer"
     if any(is_name(word, vocabulary) for word in {*words} & {*below, *map(_several, below)}):
         below -= {"one"}  # "bring the mugs together: put the blue mug next to the red one"
     if _OF_SEVERAL_PARTS.search(normalized(said[2])):
@@ -256,7 +309,9 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         raise UnreadableError(said[2], "")
     if reads(said[1], scene, vocabulary):
         raise UnreadableError(said[1], "", "say it in a sentence of its own")
-    goal = read_plainly(normalized(said[2]), scene, vocabulary)
+    asked = normalized(said[2])
+    asked = _IS_DONE.sub(r"\1 \2 to be ", asked) if _PROCEDURE & {*words} else asked
+    goal = read_plainly(asked, scene, vocabulary)
     note = f"{said[1].strip()!r} is a heading: what stands below it is done"
     return replace(goal, notes=(note, *goal.notes))
 

@@ -1,4 +1,6 @@
-"""Whose things are, by people of whom a scene knows nothing ("Emma's cup", "my son's cup")."""
+"""Whose things are, and whom an instruction is written to and by: people of whom a scene knows
+nothing ("Emma's cup", "my son's cup", "Hi Anna, …", "Thanks, Marek").
+"""
 
 from __future__ import annotations
 
@@ -30,10 +32,27 @@ _WANTS = Expression(
 _NO_NAMES = word_set("nobody none neither nothing few everybody everyone anybody anyone most many")
 """They may stand where somebody's name does, and some of them deny what is wanted."""
 
+_ADDRESSED = "colleague, colleagues, team, everyone, everybody, all, friend, friends, assistant"
+_CALLS_OFF = word_set("cancel abort undo halt cease disregard")
+_TITLE = r"(?:(?:Mr|Mrs|Ms|Miss|Dr|Prof|Professor)\.? )?"
+_TO_SOMEBODY = Expression(
+    r"^\s*(?:(?:[Oo]h,? )?(?:[Dd]ear|[Hh]i|[Hh]ello|[Hh]ey|(?:[Gg]ood )?"
+    r"(?:[Mm]orning|[Aa]fternoon|[Ee]vening|[Dd]ay))(?: there| dear)?,? "
+    rf"(?P<titled>{_TITLE})(?P<who>\w+))\s*[,!:]\s+"
+)
+"""Before what is asked for, as in a letter."""
+_FROM_SOMEBODY = Expression(
+    r"(?P<end>[.!?;\n])\s*(?:(?:[Mm]any )?[Tt]hanks?(?: you)?(?: (?:(?:so |very )?much|a lot"
+    r"|in advance))*|(?:[Ww]ith )?(?:[Bb]est|[Kk]ind|[Ww]arm)(?: (?:regards|wishes))?|[Rr]egards"
+    rf"|[Cc]heers|[Ss]incerely|[Yy]ours(?: \w+)?)[,.!\s-]\s*{_TITLE}(?P<who>[A-Z][a-z]*)"
+    r"(?: [A-Z][a-z]*)?\s*[.!]?\s*$"
+)
+"""At its end."""
+
 
 def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
-    """An instruction in which things of the scene that belong to somebody by name are "mine", and
-    who wants something by name is "somebody".
+    """An instruction in which things of the scene that belong to somebody by name are "mine", who
+    wants something by name is "somebody", and to and by whom it is written is left out.
 
     Args:
         instruction: as typed: names of people have capitals.
@@ -57,4 +76,13 @@ def without_owners(instruction: str, is_name: Callable[[str], bool]) -> str:
         who = (found["who"] or found["job"]).casefold()
         return "somebody" if is_stranger(who) else found[0]
 
+    def written(found: re.Match[str]) -> str:
+        parts = found.groupdict()
+        who = found["who"].casefold()
+        stranger = (is_stranger(who) and who not in _CALLS_OFF) or (
+            not is_name(who) and who in spellings(_ADDRESSED)
+        )
+        return (parts.get("end") or "") if parts.get("titled") or stranger else found[0]
+
+    instruction = _FROM_SOMEBODY.sub(written, _TO_SOMEBODY.sub(written, instruction))
     return _WANTS.sub(wanting, _OWNED.sub(told, instruction))

@@ -102,7 +102,7 @@ WITHOUT_MEANING = f"""
     as far as i (know|remember|recall|can (tell|see)|am aware),
     without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
     without (dropping|breaking) (it|them), before i forget, by the way,
-    (never mind|ignore|excuse|pardon|forgive|do not mind|do not worry about|sorry about)
+    (never mind|ignore|excuse|pardon|forgive|do not mind|do not worry about|sorry (about|for))
     (the|this|that|my|all the|all this) (mess|clutter|chaos|muddle|noise|smell|dust),
     what a mess [(in|around|over|) here|[over|in|] there|this is],
     (if|when) you (have|get|find) (time|the time|a (moment|minute|second|chance)),
@@ -121,6 +121,8 @@ WITHOUT_MEANING = f"""
     (four|five|six|seven|eight|nine|ten|eleven|twelve) [o 'clock|tonight]),
     before (dark|nightfall|midnight|noon),
     (by the time|before) (i|we) (am|are|come|get|return) [back|home|in|here],
+    before you (go (home|(to|for) (lunch|dinner|bed))|leave for (today|the (day|night|weekend))|
+    finish (work|(your|the) shift)),
     (by the time|before) (i|we|they|he|she|(the|our|my) (guests|kids|children))
     (sit down|sits down|leave|leaves|arrive|arrives)
 """
@@ -138,7 +140,8 @@ TURNED = "warm|hot|cold|wet|dry|dirty|dusty|stale|soft|hard|bad|off|flat|mouldy|
 """How things get or go by themselves."""
 SO_LONG = """
     [for] (long enough|too long|ages|hours|days|weeks|a [long] while|[quite] some time),
-    [for] (an hour|a day|a week|all (day|night|morning|week))
+    [for] (an hour|a day|a week|all (day|night|morning|week)),
+    since (yesterday|this morning|last (night|week|month)|monday|tuesday|wednesday|thursday|friday)
 """
 """With how things are by now."""
 REMARKS = f"""
@@ -166,7 +169,8 @@ REMARKS = f"""
 FOUND = """
     (is|are|was|were|has been|have been|got|seem[s] to be|stands|sits|lies|rests|stand|sit|lie|rest)
     [still|just|now|currently|again|all]
-    [left|standing|lying|sitting|resting|wide|slightly|partly|half|a (little|bit)]
+    [left|standing|lying|sitting|resting|parked|located|situated|positioned|
+    wide|slightly|partly|half|a (little|bit)]
 """
 """Between a thing and how it is, before something is asked of it."""
 FELL = """

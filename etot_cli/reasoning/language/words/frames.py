@@ -163,5 +163,6 @@ FRAMES = f"""
     mind [that] you, be so (kind|good|nice) (as to|to|and), if you would, do me a favor and,
     do me a favour and,
     be (a|an) (dear|darling|love|angel|star|pal|legend|sport|sweetheart|sweetie|saint|treasure) and,
+    be [very|extra|really] careful and,
     be a (good|kind|nice|clever) (boy|girl|lad|lass|dear|robot|fellow|sport|chap|soul) and
 """

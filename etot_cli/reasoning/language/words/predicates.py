@@ -147,16 +147,21 @@ OTHERS_WANT = f"""
     ladies|girls|boys|friends)
     (want|need|would like [to have]|have ordered|ordered|asked for),
     [my|our] (grandma|grandpa|granny|mum|mom|dad) (wants|needs|would like [to have]),
-    (he|she|somebody|someone) (wants|needs|would like [to have]),
-    they (want|need|would like [to have])
+    (he|she|somebody|someone) [also] (wants|needs|would like [to have]),
+    they [also] (want|need|would like [to have])
 """
 """Said of other people, who are not there to be handed anything."""
+WILL_NEED = f"""
+    (he|she|they|[(the|my|our)] (guests|visitors|customers|colleagues|students|kids|children)|
+    (the|my|our) ({_SOMEBODY})) will [also] need
+"""
+"""The same before where something is to be; alone it may only tell what they will do with it."""
 _END_HAS = """
     [the|our|your] [desired|required|intended] (final|end|goal|target|desired|resulting)
     (state|configuration|result|situation|arrangement|scene)
     (should|must|shall|has to|needs to|is to) (have|show), the (result|outcome) should (have|show)
 """
-WANTED = f"{WANT}, {OTHERS_WANT}, {_END_HAS}"
+WANTED = f"{WANT}, {OTHERS_WANT}, {WILL_NEED}, {_END_HAS}"
 BE = f"""
     is, are, be, (is|are|be) (left|put|placed|stored|stowed|housed|kept|again|properly),
     end[s] up [{_BEING}], get[s],

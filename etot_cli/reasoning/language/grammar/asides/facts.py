@@ -156,7 +156,7 @@ def tells_fact(said: str, is_name: IsName) -> bool:
     if placed and (by_name is None or _is_placed(words, is_name)):
         return False  # "Doreen has been on at me about the cups" tells of no place
     person = somebody(said) or by_name
-    if is_forbidding(said):
+    if is_forbidding(said, is_name):
         return False
     if person:
         who, told = person

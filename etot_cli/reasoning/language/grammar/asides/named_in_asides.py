@@ -37,6 +37,8 @@ _ONE_IS_FOR = Expression(r"one (?:(?:is|was)(?: meant| reserved)?(?: for\b|$)|be
 _BY_MEANS = Expression(r" with (?:my|our|his|her) \w+$")
 """Behind what is spoken of ("I keep knocking it over with my sleeve")."""
 _WHICH_ONE = Expression(r"which ((?:\w+ )?(?!of\b)\w+) (?:you|it|they|is) ")
+_ON_A_SIDE = Expression(r"(?:(?:that|which) is )?on the (?:left|right)(?: side)?(?= |$)(?! of\b)")
+"""Behind a noun ("I forgot the cup on the left side")."""
 _HELD = Expression(
     rf"(?:{PEOPLE}|they) (?:\w+ )??(?:has|have|had|took|uses?|needs?|wants?|reserved|got|keeps?)"
     r"(?: (?:got|taken|reserved))? (?:the|my|his|her|our) (?:\w+ ){1,3}?(?P<noun>\w+)"
@@ -142,6 +144,8 @@ def _phrases(words: Sequence[str], is_name: IsName) -> Iterator[str]:
                 yield " ".join((word, *words[at + 1 : end], "one"))
                 continue
             if last > at + 1:
+                aside = _ON_A_SIDE.match(" ".join(words[last:]))
+                last += len(aside[0].split()) if aside else 0
                 owner = "the" if word in ("his", "her", "their") else word
                 if re.match(rf"{PEOPLE}\b", " ".join(words[at:])):
                     continue  # "my hands" are no hand cream

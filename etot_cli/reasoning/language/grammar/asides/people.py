@@ -16,6 +16,7 @@ OWN = (
 """Of people, and of nothing that is in a scene."""
 PEOPLE = (
     r"(?:i|we|you|he|she|nobody|no one|somebody|someone|anybody|anyone|everybody|everyone|people"
+    r"|guests|visitors|customers|friends|colleagues|students"
     r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
     r"|(?:mr|mrs|ms|dr|miss|prof|professor|aunt|auntie|uncle) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"

@@ -25,7 +25,7 @@ from etot_cli.reasoning.language.words.lexicon import STATES, word_set
 _GONE_WRONG = Expression(r" (?:go|goes) (?:out|off|wrong|bad|missing|cold|home)$")
 _A_PLACE = Expression(r"\b(the|our|my|this|that) place\b")
 """Which is no verb here."""
-_THING = r"(?:the|my|our) (?:\w+ )?\w+"
+_THING = r"(?:the|my|our|its|their) (?:\w+ )?\w+"
 _SO_OF_ITSELF = Expression(
     rf"^{_THING} (?:(?:stays?|keeps?|remains?) (?:warm|cold|cool|dry|fresh|clean|safe)"
     rf"|(?:do|does|will) not (?:get|go|turn) (?:{TURNED}))$"

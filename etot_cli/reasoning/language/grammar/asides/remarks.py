@@ -29,7 +29,7 @@ from etot_cli.reasoning.language.grammar.asides.told_of_things import is_in_pass
 from etot_cli.reasoning.language.grammar.asides.vague_wishes import lacks_room
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
-from etot_cli.reasoning.language.words.lexicon import NUMBERS, STATES
+from etot_cli.reasoning.language.words.lexicon import NUMBERS, STATES, word_set
 
 _MISHAPS = "slip|trip|fall|break|spill|roll|tip|drop|get|knock|bump|lose|hurt|burn|cut|step"
 _HAPPENED = Expression(
@@ -37,7 +37,8 @@ _HAPPENED = Expression(
     r"|^likes? (?:it|them|(?:my|our|his|her|the) \w+) "
     r"(?:cold|cool|warm|hot|chilled|fresh|clean|neat|better|best)(?= anyway|$)"
     r"|^(?:comes?|gets?) (?:back |home )+(?:late|early|soon|tired|hungry)\b"
-    r"|^(?:can not (?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
+    r"|^(?:(?:can|could) (?:not|never|hardly|barely|rarely)(?: ever)? "
+    r"(?:reach|see|find|get at|get to|lift|sleep|work|write|read)"
     r"|(?:do|will) not (?:be )?(?:need|use|using|miss)(?:ing)?|will not (?:bend|let (?:me|us)))\b"
     r"|^(?:insists?(?: on (?:it|that))?|demands? (?:it|that|so)|told me so)$"
     r"|^(?:am going to need|"
@@ -90,11 +91,20 @@ _IN_GENERAL = Expression(
 
 
 _NOBODY_DOES = Expression(rf"^(?:nobody|no one) (?:ever )?(?:{'|'.join(sorted(DOING))})(?:e?s)?\b")
+_WILL = word_set("will shall may can could would is are am")
+_GIVEN = Expression(
+    r"\bbe (?:given|shown|handed|offered|served|provided|supplied|issued|assigned|brought|sent) "
+)
+"""Of people to whom a thing is to be brought ("each student will be given a cup")."""
 
 
-def is_forbidding(said: str) -> bool:
-    """Whether a clause may forbid what it says that nobody does ("nobody touches the cup")."""
-    return bool(_NOBODY_DOES.match(said))
+def is_forbidding(said: str, is_name: IsName) -> bool:
+    """Whether a clause may forbid what it says that nobody does ("nobody touches the cup"), or all
+    but what it says will be done ("the guests will use the red cup only"), or ask for that.
+    """
+    words = said.split()
+    asked = ("only" in words and _WILL & {*words}) or _GIVEN.search(said)
+    return bool((asked and any(map(is_name, words))) or _NOBODY_DOES.match(said))
 
 
 def is_unused(said: str) -> bool:
@@ -116,7 +126,7 @@ def is_remark(said: str, is_name: IsName) -> bool:
         return True
     if asks_besides(said) or lacks_room(said):
         return lacks_room(said)
-    if is_forbidding(said):
+    if is_forbidding(said, is_name):
         return False
     if unused := _UNUSED.match(said):
         # "Nobody needs it in the box", "open", "moved" may say how it is to be.

@@ -68,6 +68,8 @@ _FINITE = word_set(
 )
 """Verbs that a subject goes before, and no list of things."""
 _BEING = word_set("is are was were")
+_A_BIT = word_set("bit little touch tad lot")
+"""How far something goes to the left."""
 _OBJECTS = word_set("it them me us him her my our a an some the everything anything")
 """Behind a word that may be a verb or a noun ("the egg cups") they show that it is a verb."""
 _AUXILIARIES = word_set(
@@ -97,7 +99,7 @@ _HAPPENS = word_set(
 _OPENS = word_set("open opens close closes shut shuts")
 """What people do with a shop, where nothing follows ("we close at nine")."""
 _LIKE = Expression(r" (?P<does>looks|smells|feels|sounds|is) like\b")
-_ALL_OVER = Expression(r" all (?=over\b|around\b)")
+_ALL_OVER = Expression(r" (?:all (?=over\b|around\b)|running (?=(?:late|short|behind|over)\b))")
 """Words that ask for nothing here, and do elsewhere."""
 _SOME_PLACE = Expression(
     r"(?:this|the|our|my) (?:whole |entire )?(?:place|room|world|house) (?:is|looks|smells|feels) "
@@ -179,12 +181,17 @@ def _is_of_stranger(words: Sequence[str], *, timed: bool, before_so: bool, liste
     )  # "the paint is wet"
     for at in range(first + 1, min(first + 5, len(words))):
         subject = [word for word in words[first:at] if word not in _BEFORE_VERBS]
-        if not subject or any(word in no_strangers for word in subject):
+        doing = {*subject[1:]} & (VERB_WORDS | OTHER_VERBS)  # "night shift"
+        if not subject or any(word in no_strangers - doing for word in subject):
             return False
         adjective = is_descriptive(subject[-1]) or subject[-1] in STATES
-        if adjective or not _may_be_verb(words[at], subject[-1]):
+        left = words[at] == "left" and {*words[at + 1 : at + 2]} & _OBJECTS
+        if adjective or not (left or _may_be_verb(words[at], subject[-1])):
             continue
         verb, *more = [word for word in words[at:] if word not in _BEFORE_VERBS]
+        did = left or (is_past(verb) and {*more[:1]} & _OBJECTS) or (timed and verb in _HAPPENS)
+        if doing and (not did or _A_BIT & {*more[1:2]}):
+            continue  # "wagon shift left a bit"
         if verb in _LINKING:
             return _is_so(verb, more, timed=timed or before_so, listed=listed)
         does = more[more[:1] != [] and more[0] in _OBJECTS :]
@@ -201,7 +208,9 @@ def _is_so(verb: str, more: Sequence[str], *, timed: bool, listed: bool) -> bool
     """Whether what is said behind such a verb asks neither for a place nor for a deed, nor speaks
     of what may be asked for.
     """
-    told = [word for word in more if word not in ("not", "never", "been", "being")]
+    told = [word for word in more if word not in ("not", "never", "been", "being", "be")]
+    if verb == "will" and PLACED & {*told[:1]}:
+        return False
     if verb in ("tend", "tends") and told[:1] == ["to"]:
         told = told[1:]
     then = told[0] if told else ""

@@ -49,7 +49,8 @@ _PREDICATE = Expression(
     r"(?= |$)"
 )
 _A_BIT = Expression(
-    r" (?:a (?:little|bit|lot)|quite a bit|by now|all the time|so often|every time)(?= |$)"
+    r" (?:any ?(?:more|longer)|a (?:little|bit|lot)|quite a bit|by now|all the time|so often"
+    r"|every time)(?= |$)"
 )
 _TOO_SO = Expression(
     r"^(?:is|are|looks?|gets?) (?:far |much |way )?too \w+"
@@ -66,7 +67,7 @@ _OVER_THE_EDGE = (
     r"(?:top|edge|side|rim|front))?"
 )
 _NO_PLACE = Expression(
-    rf"(?:^belong(?:s|ed)? to {PEOPLE}$"
+    rf"(?:^(?:(?:do|does|did) not )?belong(?:s|ed)? to (?:me|us|him|her|them|{PEOPLE})$"
     rf"|^(?:is|are|was) (?:\w+ )?{_OVER_THE_EDGE}$"
     rf"|^(?:is|are) (?:(?:{PEOPLE}|(?!not\b)\w+) 's|mine|ours|hers|theirs)$"
     r"|^(?:is|are|stands|lies) in (?:the|my|our|your) way(?: (?:here|there))?$"

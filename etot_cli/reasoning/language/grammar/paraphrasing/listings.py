@@ -25,7 +25,8 @@ ASKED = (
 _ALL_NAMED = Expression(
     r"(^|[.;\n]\s*)([^:.;\n]+): (?P<do>(?:(?:please|just) )*(?:put|place|move|store|pack) )?"
     r"(?:all(?: of (?:them|it|these))?|(?P<both>both)(?: of them)?|everything|the lot"
-    rf"|(?:all (?:the )?|the )(?P<number>{'|'.join(NUMBERS)})(?: of (?:them|these))?)"
+    rf"|(?:all (?:the )?|the )(?P<number>(?!one\b|an?\b)(?:{'|'.join(NUMBERS)}))"
+    r"(?: of (?:them|these))?)"
     r" (?=(?:in|on|into|onto|to)\b"
     r"|(?P<verb>(?:go|belong)|(?:should|must|have to|need to|are to) (?:go|be|end up)) )"
 )

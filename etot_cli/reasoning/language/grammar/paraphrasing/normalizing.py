@@ -56,6 +56,7 @@ _RIGHT = Expression(
 _WELL = Expression(
     r"(^|[.!?;\n]\s*)(?:"
     r"(?:yes|yeah|er|erm|uh|ah|hm+|anyway|next up)(?:,\s*| )(?=[a-z])"
+    r"|oh,? (?:and|but)(?:,\s*| )(?=[a-z])"
     rf"|(?:step|job|task|work order|ticket|test(?: case)?|trial)(?: no\.?| number)? #?"
     rf"(?:\d{{1,5}}|{'|'.join(NUMBERS)})(?:\s*[:.)]|\s-)\s+)"
 )

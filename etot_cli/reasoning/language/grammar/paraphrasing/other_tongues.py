@@ -45,6 +45,7 @@ def _please(said: re.Match[str]) -> str:
 
 
 OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"\b(my english (?:is|was) [^.,;:!?]*),? sorry ?[:.,!] ", r"\1. "),
     (rf"\b(put|place|set|lay|stand|open|close|shut) me (?:please )?(?={NAMED})", r"\1 "),
     # "The left one you must not touch"
     (
@@ -184,6 +185,12 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         rf"({NAMED} {_THING})(?=[.,;!]|$)",
         r"\1 \3 \2 too",
     ),
+    # "The yellow jar, you take it from there and you put it on the shelf"
+    (
+        rf"((?:^|[.;!:] ){NAMED} {_THING},? you )(?:take|get|fetch|grab) it(?: from there)? and "
+        r"(?:then )?(?:you )?(?=(?:put|place|set|lay) it\b)",
+        r"\1",
+    ),
     # "From the two models, the white one you put it in the drawer"
     (r"(^|[.;!] )from (?=(?:(?:all|both) )?(?:the|these|those) (?:\w+ ){1,3}?\w+s, )", r"\1of "),
     (
@@ -195,6 +202,18 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         rf"(^|[.;!,] |\b(?:and|but) )({NAMED} {_THING}),? please (?:do )?(?:(not )|to )?"
         r"(?(3)(?:to )?(?:move|touch|open|close|shut)|(?:open|close|shut))(?=[.;!]|$)",
         _please,
+    ),
+    # "The red one please leave on the desk"
+    (
+        rf"(^|[.;!] )({NAMED} {_THING}),? please (leave|keep|put|place) "
+        r"(?=(?:on|in|at|into|onto|inside|next|beside|behind|where|as|alone|there)\b)",
+        r"\1please \3 \2 ",
+    ),
+    # "After both cups were put inside"
+    (
+        r"\b((?:after|once|as soon as) (?:the|both|all|my|it|they)\b[^.,;:!?]*?)"
+        r" (?:(was)|were) (?=(?:put|placed|set|moved|taken|brought|opened|closed|stored)\b)",
+        lambda said: f"{said[1]} {'has' if said[2] else 'have'} been ",
     ),
     (r"\bcomes? (together (?:in|on|into|onto) )", r"go \1"),
     # "Only when that is done may the cup be put in it"; "do not touch it during this"

@@ -7,11 +7,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
 from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.small_words import NAMED
 
 _ONE = r"(?:the|my|our) (?:(?!and\b|or\b|in\b|on\b|to\b|of\b)\w+ ){0,3}?\w+"
 _PUT = "put|place|set|lay|stand|move|store|stow"
 _BESIDE = "in front of|behind|beside|next to|in|on|on top of|inside"
+_BY_MISTAKE = "(?:by (?:mistake|accident)|accidentally|mistakenly|inadvertently|wrongly)"
 _LEVEL = r"(?:the )?(?:top|upper|middle|lower|bottom)(?: one)?"
 _END = r"(?=[.,;!]|$)"
 
@@ -34,6 +37,49 @@ TOLD_BY_OTHERS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], st
         rf"(^|[.;!] )(?:(?:(?:after that|then|next),? comes? |then )?({_ONE}), )"
         r"(?:in |to |into )?(?:the )?same place(?=[.;!]|$)",
         r"\1then put \2 in the same place",
+    ),
+    # "Put one reel in the tin: the one on the left"
+    (
+        rf"\b(?:one|an?) (\w+)(?:(?P<goes>(?: (?:in|into|on|onto|to) {NAMED}[^.,:;!?]*?)?):|,)"
+        r" (?:namely )?the one (?:(?:that|which) is )?(?=(?:on|at|in|next|behind|beside|near)\b)"
+        rf"([^.,:;!?]*)(?(goes){_END}|(?=[.;!]|$))",
+        lambda said: f"the {said[1]} that is {said[3]}{said['goes'] or ''}",
+    ),
+    # "The drawer that is open, close that one as well"
+    (
+        rf"(^|[.;!] )({NAMED} [^.,;:!?]+, (?:please )?(?:open|close|shut|take|put|place|move)) "
+        r"(?:that|this) one\b",
+        r"\1\2 it",
+    ),
+    # "A reel, which goes in the tin, and the lid, which goes next to it"
+    (
+        rf"((?:^|[.;!:] |, (?:and )?){NAMED} (?:\w+ ){{0,2}}?\w+), which "
+        r"((?:goes|go|belongs?|(?:should|must) (?:go|be)) [^.,;:!?]*?)"
+        rf"(?=[.;!]|$|,? and {NAMED} (?:\w+ ){{0,2}}?\w+, which )",
+        r"\1 \2",
+    ),
+    # "Do not worry about the lids, they can stay"
+    (
+        rf"\bdo not worry about (?P<what>{NAMED} (?:\w+ ){{0,2}}?(?!mess\b"
+        r"|clutter\b|chaos\b|muddle\b|noise\b|smell\b|dust\b|time\b|order\b)\w+)"
+        rf"(?:[,;] (?:they|it|those|that) (?P<stays>can stay)\b|{_END})",
+        lambda said: (
+            f"{said['what']} {said['stays']}"
+            if said["stays"]
+            else f"you do not have to touch {said['what']}"
+        ),
+    ),
+    # "I have put the reel on the tin by mistake. It should be on the shelf": the reel
+    (
+        rf"((?:put|placed|set|laid) ({NAMED} (?:\w+ ){{0,2}}?\w+) (?:{_BESIDE}|into|onto) {_ONE}"
+        rf" {_BY_MISTAKE}[.;,] )it (?=(?:should|must|has to|belongs|goes)\b)",
+        r"\1\2 ",
+    ),
+    (
+        rf"(^|[.;!] )((?!you\b|no)(?:{PEOPLE}|they)) (?:(?:have|has|had) (?:{_BY_MISTAKE} )?"
+        rf"|{_BY_MISTAKE} |(?=[^.,;:!?]* {_BY_MISTAKE}{_END}))(?:put|placed|set|laid) "
+        rf"({NAMED} [^.,;:!?]*?)(?: {_BY_MISTAKE})?{_END}",
+        r"\1\2 left \3",
     ),
     # "On the shelf, top or bottom"
     (

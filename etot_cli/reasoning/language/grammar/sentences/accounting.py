@@ -132,6 +132,7 @@ _FIXED = f"""
 """Phrases in which such words say something else, or nothing of their own."""
 _SAY_NOTHING = phrase(
     f"{WITHOUT_MEANING}, {FRAMES}, {SOMEBODY_LEFT}, {predicates.OTHERS_WANT}, {_FIXED}"
+    f", {predicates.WILL_NEED}"
     f", {manner.NOT_STACKED}, {manner.STANDS_SINGLY}, {manner.ANYHOW}, {SO_LONG}"
     f", {manner.KEPT_UPRIGHT}"
     f", {FREE_SPOT}, {SOMEWHERE_FREE}, {SOMEBODY_COMES}"

@@ -117,7 +117,7 @@ def lacks_verb(clause: Clause) -> bool:
     return False
 
 
-_IS = either(COMMA, "to")
+_IS = either(COMMA, "to, to be")
 _WHEN = optional(
     one_of(
         {

@@ -15,9 +15,14 @@ from etot_cli.reasoning.language.reference.choosing.modified import names_of_thi
 from etot_cli.reasoning.language.reference.geometry.rows import is_column
 from etot_cli.reasoning.language.reference.geometry.space import OPPOSITE, is_flat
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
+from etot_cli.reasoning.language.reference.memory.by_now import is_shut_away
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
-from etot_cli.reasoning.language.reference.memory.spoken_of import clauses_of, mentioned_in
+from etot_cli.reasoning.language.reference.memory.spoken_of import (
+    are_several,
+    clauses_of,
+    mentioned_in,
+)
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.pronouns.coreference import PLURAL_PRONOUNS
 from etot_cli.reasoning.language.reference.pronouns.one_thing import ROOMY
@@ -264,7 +269,13 @@ class Landmarks:
         rivals = [mark] if mark != index and clause in said else []
         infos = self._scene.infos
         if any(not infos[t.name].movable for t in discourse.things(index) if t.name in infos):
-            rivals += [theme for theme, around in inside.items() if around == index]
+            # "Put both pens in it, close it and put the cup in front of it"
+            within = (theme for theme, around in inside.items() if around == index)
+            rivals += [
+                theme
+                for theme in within
+                if not (are_several(discourse, theme) or is_shut_away(theme, discourse))
+            ]
         if rivals:
             named = [discourse.referents[item].text for item in (*rivals, index)]
             raise AmbiguousReference(phrase.text, named)
