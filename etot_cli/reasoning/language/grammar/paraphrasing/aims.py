@@ -1,0 +1,45 @@
+"""What somebody aims at by a request, told with it or in its place, put plainly."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
+from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
+
+_ENDS = r"(?=[.,;!?]|$)"
+_STATE = r"(?:state|configuration|situation|arrangement|layout|condition)"
+
+AIMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Reach a configuration in which the red block is on the blue one"
+    (
+        rf"(^|[.;!] )({ASKED})(?:(?:reach|achieve|attain|establish|obtain|produce|get to|arrive at"
+        rf"|end up in)|(?:bring|get|put|take) (?:the|this) (?:scene|world|workspace|{TABLE})"
+        rf" (?:in|into|to)) (?:a|an|the) (?:\w+ )?{_STATE},? (?:in which|where|such that|so that) ",
+        r"\1\2make sure that ",
+    ),
+    # What is held until it is needed is held when all is done
+    (
+        r"\b((?:hold|hang on ?to|keep hold of|take|pick up|grab|grasp) [^.,;:!?]*?)"
+        r"(?: for (?:me|us))? (?:until|till) (?:i|we) (?:need|want|ask for|come for|take) it"
+        r"(?=(?:,? please)?[.!?]*$)",
+        r"\1",
+    ),
+    (
+        r"\b((?:put|place|store|stow|tidy|move|drop|lay|goes|go|belongs?)\b[^.;!?]*? (?:in|into|on"
+        r"|inside|onto|away)\b[^.;!?]*?)[,;] (it|they) (?:must|should|may|shall) not (?:just )?"
+        r"(?:be )?(?:l(?:ie|ying)|sit(?:ting)?|stand(?:ing)?) (?:around|about)"
+        rf"(?: (?:here|there|any ?more))?{_ENDS}",
+        lambda said: f"{said[1]}, so that {said[2]} do{'es' * (said[2] == 'it')} not lie around",
+    ),
+    # "Make some space in front of the oven by moving the jar aside"
+    (
+        rf"(^|[.;!] )({ASKED})(?:make|create|free(?: up)?|clear) (?:some |more |enough |the "
+        r"|a little |a bit of )?(?:room|space|area) (?:(?:on|at|in) the (?:left|right|front|back)"
+        r"(?: side| half| part)?(?: of (?:the|my) \w+)?|(?:in front of|next to|beside|behind|around"
+        r"|near) (?:the|my) (?:\w+ ){0,2}?\w+) by (?=\w+ing\b)",
+        r"\1\2make room on the desk by ",
+    ),
+)
+"""In order."""
