@@ -7,8 +7,14 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import TABLE
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
+from etot_cli.reasoning.language.words.small_words import NAMED
 
 _ENDS = r"(?=[.,;!?]|$)"
+_WISHES = (
+    r"(?:want|wants|need|needs|like|love|prefer|wish|expect|is|are|was|has|have|had|ought|supposed"
+    r"|meant|it|them|not|going|about|able|ready|allowed)\b"
+)
+"""Behind these what is "to be" so is part of what they say."""
 _STATE = r"(?:state|configuration|situation|arrangement|layout|condition)"
 
 AIMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -32,6 +38,31 @@ AIMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"(?:be )?(?:l(?:ie|ying)|sit(?:ting)?|stand(?:ing)?) (?:around|about)"
         rf"(?: (?:here|there|any ?more))?{_ENDS}",
         lambda said: f"{said[1]}, so that {said[2]} do{'es' * (said[2] == 'it')} not lie around",
+    ),
+    # "Screwdriver needed, please lift it up", "all bolts in the bin, drawer to be shut at the end"
+    (
+        r"^((?:(?:the|my) )?(?:\w+ )?\w+) needed(?=[,.;:!] (?:(?:so|please|can you|could you) )*"
+        r"(?:pick|lift|grab|take|get|fetch|put|bring|place|move)\b[^.;!?]*?\b(?:it|them)\b)",
+        r"\1 is needed",
+    ),
+    (
+        rf"([,;.] (?:and )?| and )((?:(?:the|my) )?(?:(?!{_WISHES})\w+ )?(?!{_WISHES})\w+) to be "
+        r"(?=(?:left |kept )?(?:shut|closed|open|opened)\b)",
+        r"\1\2 should be ",
+    ),
+    # "Two of the bolts are for the customer, put them in the bin", "this one we keep, it goes …"
+    (
+        r"(^|[.;!] )((?:one|two|three|four|\d) (?:of (?:the|my|our) )?(?:\w+ )?\w+) (?:is|are) "
+        rf"(for (?:the|my|our) \w+)[,;.] (?:so )?({ASKED}(?:put|place|bring|move|set|store)) "
+        r"(?:it|them) ([^.,;:!?]*)",
+        r"\1\4 \2 \5 \3",
+    ),
+    (
+        rf"(^|[.;!,] |\b(?:and|but) )({NAMED} (?:\w+ )?\w+) ((?:i|we) (?:(?:will |still )?keep"
+        r"|still need)), (?:so )?it (goes|comes|belongs|should|must|has to) ([^.,;:!?]*)",
+        lambda said: (
+            f"{said[1]}{said[2]} {said[4].replace('comes', 'goes')} {said[5]} because {said[3]} it"
+        ),
     ),
     # "Make some space in front of the oven by moving the jar aside"
     (

@@ -113,6 +113,12 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?=(?:(?:to the )?(?:left|right) (?:of|from)|{_AT}) )",
         r"\1 it ",
     ),
+    # "Put the pen, and after that also the book, in the box"
+    (
+        r"(?<=\w), and (?:then|after (?:that|this)|afterwards|thereafter),? (?:also )?"
+        rf"({NAMED} (?:\w+ ){{0,2}}?\w+), (?=(?:in|into|on|onto|at|next|beside|behind|to)\b)",
+        r", then \1, ",
+    ),
     # What is taken "out onto the desk" goes there, out of whatever it is in
     (
         r"\b(?:take|lift|get|fetch|bring) ((?:the|my|both|all) [^.,;:]*?) out "

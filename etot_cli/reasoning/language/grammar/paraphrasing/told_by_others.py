@@ -29,6 +29,20 @@ TOLD_BY_OTHERS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], st
         rf" and {_ONE} (?:{_BESIDE}|into|onto) )the (?:(?P<former>former)|latter){_END}",
         _of_the_two,
     ),
+    # "The pen goes on the tray, then the tray with it goes on the shelf": it comes along
+    (
+        r"(\b(?:in|into|on|onto) (?:the|my) (?:\w+ )?(?P<what>\w+)(?:[.;]|,? and|,) (?:(?:then|next"
+        rf"|after that|afterwards),? )*(?:(?:{_PUT}|bring) )?the (?:\w+ )?(?P=what)) with "
+        r"(?:it|them|that)(?: (?:in|on) (?:it|there))? "
+        r"(?=(?:goes|should|must|has to|belongs|in|on|to|into|onto|next|beside|behind)\b)",
+        r"\1 ",
+    ),
+    # "Pick up the cup. Put the grasped object on the tray"
+    (
+        rf"(\b(?:pick up|grasp|grab|lift|take|grip) {_ONE}\b[^!?]*?[.;,] [^.;:!?]*?)\bthe "
+        r"(?:grasped|gripped|held|lifted|picked(?: up)?) (?:(?P<it>object|item|thing)|(?=\w))",
+        lambda said: f"{said[1]}{'it' if said['it'] else 'that '}",
+    ),
     # "After that comes the duck, same place"
     (
         rf"(^|[.;!] )(?:(?:(?:after that|then|next),? comes? |then )?({_ONE}), )"
