@@ -66,11 +66,12 @@ AIMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     # "Make some space in front of the oven by moving the jar aside"
     (
-        rf"(^|[.;!] )({ASKED})(?:make|create|free(?: up)?|clear) (?:some |more |enough |the "
+        rf"(^|[.;!] )((?:the robot (?:must|should|has to) )?)(?:(?<!\W )first,? )?({ASKED})"
+        r"(?:make|create|free(?: up)?|clear) (?:some |more |enough |the "
         r"|a little |a bit of )?(?:room|space|area) (?:(?:on|at|in) the (?:left|right|front|back)"
         r"(?: side| half| part)?(?: of (?:the|my) \w+)?|(?:in front of|next to|beside|behind|around"
         r"|near) (?:the|my) (?:\w+ ){0,2}?\w+) by (?=\w+ing\b)",
-        r"\1\2make room on the desk by ",
+        r"\1\2\3make room on the desk by ",
     ),
 )
 """In order."""

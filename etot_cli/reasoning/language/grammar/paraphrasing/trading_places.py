@@ -15,11 +15,13 @@ _GOES = (
     r"(?:belongs|goes|(?:should|must|is to|has to|needs to)"
     r" (?:be|go|stand|lie|end up|belong|come|be (?:put|moved|placed)))"
 )
+_VERB = r"(?:(?:re)?arrange|swap|exchange|switch|put|move|place|bring|set|shift|transfer|relocate)"
 _SPOT = r"(?:places?|positions?|spots?|locations?)"
 _EACH = r"(?:both|each(?: one| of them)?|they)"
 _ITS_OTHER = (
     rf"(?:(?:in|into|to|at|on) (?:the other(?: one)?|each other|one another) ?'s {_SPOT}"
-    r"|(?:to )?where the other(?: one)? (?:is|was|stands|stood|lies|lay)(?: (?:now|before))?)"
+    r"|(?:to )?where the other(?: one)? (?:is|was|stands|stood|lies|lay)"
+    r"(?: (?:lying|standing|now|before))*)"
 )
 
 
@@ -47,17 +49,16 @@ TRADING_PLACES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     # "The cup should be where the jar is now, and vice versa"
     (
-        rf"\b(?:(?:i|we) (?:want|would like|need) |(?:put|move|place|bring|set) )?({_THING})"
-        rf"(?: to be| {_GOES})? (?:(?:to )?(where {_THING} (?:is|was|stands|stood|lies|lay))"
-        rf"(?: now)?|in ({_THING}) ?'s {_SPOT}),? and "
-        rf"(?=(?:vice versa|the other way a?round){_ENDS})",
-        lambda said: f"put {said[1]} {said[2] or f'where {said[3]} is'}, and ",
+        rf"\b(?:(?:i|we) (?:want|would like|need) |{_VERB} )?({_THING})(?: to be| {_GOES})?"
+        rf" (?:(?:to )?where ({_THING}) (?:is|was|stands|stood|lies|lay)(?: now)?"
+        rf"|in ({_THING}) ?'s {_SPOT}),? and (?:vice versa|the other way a?round){_ENDS}",
+        lambda said: f"swap {said[1]} and {said[2] or said[3]}",
     ),
     # "Move the cup and the jar so that each ends up in the other's place"
     (
-        rf"\b(?:(?:re)?arrange|swap|move|put|place|set|make|have|(?:i|we) (?:want|would like)) "
-        rf"({_THING},? and {_THING}|{_THING}(?<=s)|them|both of them),?"
-        rf"(?: (?:so(?: that)?|such that))?(?: {_EACH})?(?: to)?"
+        rf"\b(?:{_VERB}|make|have|(?:i|we) (?:want|would like)) "
+        rf"({_THING},? and {_THING}|{_THING}(?<=s)|them|both of them)[,:]?"
+        rf"(?: (?:so(?: that)?|such that))?(?: {_EACH})?(?: to| must| should| has to)?"
         rf"(?: (?:end up|ends up|is|are|be|goes|go|stands?|lies?|comes to (?:stand|lie)))? "
         rf"{_ITS_OTHER}{_ENDS}",
         r"swap \1",
