@@ -136,7 +136,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
             continue
         before = ". ".join(parts[: len(sentences)])
         words: list[str] = []
-        plain = _asked(words_in(part), vocabulary, narrated=narrated)
+        plain = _asked(words_in(part), vocabulary, continued=narrated)
         narrated |= part.startswith(_NARRATED)
         for word in plain:
             # What stands before "the" is a verb, and no noun of the scene.
@@ -158,7 +158,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
 
 
 def _asked(
-    words: tuple[str, ...], vocabulary: frozenset[str], *, narrated: bool
+    words: tuple[str, ...], vocabulary: frozenset[str], *, continued: bool
 ) -> tuple[str, ...]:
     """What is told of the robot as what it is to do ("the robot picks the cup up and lifts it"),
     perhaps when ("in this trial the robot …"); behind such a sentence, of "it" ("it then opens …").
@@ -166,7 +166,7 @@ def _asked(
     at = 2 if words[1:2] == ("then",) else 1
     does, what = (*words[at : at + 2], "", "")[:2]
     acts = singular(does) in _DOING_TO - {does} and (what,) in known.BEFORE_NOUNS
-    words = ("the", "robot", *words[1:]) if narrated and acts and words[0] == "it" else words
+    words = ("the", "robot", *words[1:]) if continued and acts and words[0] == "it" else words
     starts = range(_MOST_BEFORE + 1 if words[:1] in (("in",), ("for",)) else 1)
     found = ((at, said) for at in starts for said in _TOLD if words[at : at + len(said)] == said)
     start, told = next(found, (0, ()))
