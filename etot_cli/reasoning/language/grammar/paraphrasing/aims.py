@@ -17,6 +17,14 @@ _WISHES = (
 """Behind these what is "to be" so is part of what they say."""
 _STATE = r"(?:state|configuration|situation|arrangement|layout|condition)"
 
+
+def _to_be_so(said: re.Match[str]) -> str:
+    """How a thing is to be, told without a verb; behind a wish or a denial it belongs to that."""
+    before = re.split(r"[.;]", said.string[: said.start()])[-1]
+    wished = re.search(r"\b(?:want|need|like|not|never|no|without|unless|if|when|until)\b", before)
+    return said[0] if wished else f"{said[1]}{said[2]} should be "
+
+
 AIMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # "Reach a configuration in which the red block is on the blue one"
     (
@@ -48,7 +56,7 @@ AIMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         rf"([,;.] (?:and )?| and )((?:(?:the|my) )?(?:(?!{_WISHES})\w+ )?(?!{_WISHES})\w+) to be "
         r"(?=(?:left |kept )?(?:shut|closed|open|opened)\b)",
-        r"\1\2 should be ",
+        _to_be_so,
     ),
     # "Two of the bolts are for the customer, put them in the bin", "this one we keep, it goes …"
     (

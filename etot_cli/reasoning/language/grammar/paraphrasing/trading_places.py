@@ -57,7 +57,7 @@ TRADING_PLACES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # "Move the cup and the jar so that each ends up in the other's place"
     (
         rf"\b(?:{_VERB}|make|have|(?:i|we) (?:want|would like)) "
-        rf"({_THING},? and {_THING}|{_THING}(?<=s)|them|both of them)[,:]?"
+        rf"({_THING},? and {_THING}|{_THING}(?<=[^s]s)|them|both of them)[,:]?"
         rf"(?: (?:so(?: that)?|such that))?(?: {_EACH})?(?: to| must| should| has to)?"
         rf"(?: (?:end up|ends up|is|are|be|goes|go|stands?|lies?|comes to (?:stand|lie)))? "
         rf"{_ITS_OTHER}{_ENDS}",

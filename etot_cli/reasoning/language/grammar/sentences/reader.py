@@ -166,7 +166,8 @@ def _asked(
     at = 2 if words[1:2] == ("then",) else 1
     does, what = (*words[at : at + 2], "", "")[:2]
     acts = singular(does) in _DOING_TO - {does} and (what,) in known.BEFORE_NOUNS
-    words = ("the", "robot", *words[1:]) if continued and acts and words[0] == "it" else words
+    if continued and acts and words[0] == "it" and "robot" not in vocabulary:
+        words = ("the", "robot", *words[1:])
     starts = range(_MOST_BEFORE + 1 if words[:1] in (("in",), ("for",)) else 1)
     found = ((at, said) for at in starts for said in _TOLD if words[at : at + len(said)] == said)
     start, told = next(found, (0, ()))
