@@ -15,13 +15,12 @@ from etot_cli.reasoning.builtin.goal import (
     Goal,
     Keep,
     Pick,
-    Place,
     Put,
     Relation,
     Thing,
     things_in,
 )
-from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
+from etot_cli.reasoning.builtin.relations import bearers, carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import InTheWay
 from etot_cli.reasoning.language.goals.turns import Timed
@@ -265,7 +264,7 @@ def check_one_of_several(said: Sequence[Timed], discourse: Discourse) -> None:
     """Whether one of several things that go somewhere goes elsewhere by another sentence, where no
     word says which comes first, nor that it is taken from there: it may be meant to go there alone.
     """
-    gone: list[tuple[Timed, set[Thing], tuple[Place, ...]]] = []
+    gone: list[tuple[Timed, set[Thing], set[str]]] = []
     taken = set[int]()
     for item, step in ((each, step) for each in said for step in each.steps):
         if isinstance(step, Pick):
@@ -277,14 +276,19 @@ def check_one_of_several(said: Sequence[Timed], discourse: Discourse) -> None:
         if {*step.what} & taken or any(it.options[1:] for it in referents):
             continue
         things = {*things_in(option for it in referents for option in it.options)}
-        at = {*discourse.things(*(p.where for p in step.places if p.where is not None))}
-        back = any(n.relation is Nearby.AT_POINT for p in step.places for n in p.beside)
+        at = {t.name for p in step.places if p.where is not None for t in discourse.things(p.where)}
+        near = [near for place in step.places for near in place.beside]
+        marks = {t.name for item in near for t in discourse.things(*item.landmarks)}
+        at = at or {at for name in marks for at in bearers(discourse.scene, name) or (DESK,)}
+        back = any(item.relation is Nearby.AT_POINT for item in near)
         for other, several, places in gone if item.order is Order.SAID and not back else ():
-            some = (things < several or several < things) and not at & several
-            if some and other.sentence != item.sentence and step.places != places:
+            some = (things < several or several < things) and not (at | marks) & {
+                it.name for it in several
+            }
+            if some and other.sentence != item.sentence and not (at <= places or places <= at):
                 why = "say 'then', or leave it out where the others go"
                 raise ReferenceProblem(referents[0].text, why, 4)
-        gone.append((item, things, step.places))
+        gone.append((item, things, at))
 
 
 def check_swept_away(goal: Goal, swept: Collection[int]) -> None:
