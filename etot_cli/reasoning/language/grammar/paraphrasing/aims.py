@@ -33,11 +33,11 @@ AIMS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf" (?:in|into|to)) (?:a|an|the) (?:\w+ )?{_STATE},? (?:in which|where|such that|so that) ",
         r"\1\2make sure that ",
     ),
-    # What is held until it is needed is held when all is done
+    # What is held until it is needed is held in the end; what is done then would be waited for
     (
         r"\b((?:hold|hang on ?to|keep hold of|take|pick up|grab|grasp) [^.,;:!?]*?)"
-        r"(?: for (?:me|us))? (?:until|till) (?:i|we) (?:need|want|ask for|come for|take) it"
-        r"(?=(?:,? please)?[.!?]*$)",
+        r"(?: for (?:me|us))? (?:until|till) (?:i|we) (?:(?:need|want|ask for|come for|take) it"
+        r"|say (?:so|otherwise)|tell you(?: to| otherwise)?)(?=(?:,? please)?[.!?]*$)",
         r"\1",
     ),
     (
