@@ -273,8 +273,9 @@ def check_one_of_several(said: Sequence[Timed], discourse: Discourse) -> None:
             taken |= {*step.what} if isinstance(step, Put) else set[int]()
             continue
         referents = [discourse.referents[index] for index in step.what]
-        if {*step.what} & taken or any(it.options[1:] for it in referents):
+        if {*step.what} & taken:
             continue
+        chosen = any(it.options[1:] for it in referents)
         things = {*things_in(option for it in referents for option in it.options)}
         at = {t.name for p in step.places if p.where is not None for t in discourse.things(p.where)}
         near = [near for place in step.places for near in place.beside]
@@ -282,13 +283,13 @@ def check_one_of_several(said: Sequence[Timed], discourse: Discourse) -> None:
         at = at or {at for name in marks for at in bearers(discourse.scene, name) or (DESK,)}
         back = any(item.relation is Nearby.AT_POINT for item in near)
         for other, several, places in gone if item.order is Order.SAID and not back else ():
-            some = (things < several or several < things) and not (at | marks) & {
-                it.name for it in several
-            }
+            part = things < several or (chosen and things == several)
+            some = part or (several < things and not chosen)
+            some = some and not (at | marks) & {it.name for it in several}
             if some and other.sentence != item.sentence and not (at <= places or places <= at):
                 why = "say 'then', or leave it out where the others go"
                 raise ReferenceProblem(referents[0].text, why, 4)
-        gone.append((item, things, at))
+        gone += [] if chosen else [(item, things, at)]
 
 
 def check_swept_away(goal: Goal, swept: Collection[int]) -> None:
