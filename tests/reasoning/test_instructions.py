@@ -349,6 +349,9 @@ def test_full_hand_at_the_start() -> None:
     assert plans("Pick up the mug.", state) == ["[PUT ON, desk] [PICK UP, mug]"]
     assert plans("Put what you're holding into the mug.", state) == ["[PUT INTO, mug]"]
     assert plans("What's in your hand goes in the mug.", state) == ["[PUT INTO, mug]"]
+    assert plans("Place the grasped plum in the mug.", state) == ["[PUT INTO, mug]"]
+    with pytest.raises(InstructionError, match="the hand holds plum"):
+        plans("Place the grasped mug in the chest.", state)
     with pytest.raises(InstructionError, match="something else by then"):
         plans("Pick up the mug and put what you are holding in the drawer.", state)
 

@@ -17,7 +17,9 @@ _HOLDING = (
     rf"|(?: ?['’]s|is|lies) (?:(?:now|currently|already) )?{_HAND}(?: right now| now)?)"
 )
 _HELD = Expression(
-    rf"\b(?:what(?:ever)?|the (?:thing|object|item)(?: that| which)?) ?{_HOLDING}(?!\w)",
+    rf"\b(?:(?:what(?:ever)?|the (?:thing|object|item)(?: that| which)?) ?{_HOLDING}"
+    r"|the (?:grasped|gripped|held) (?P<noun>\w+)(?= (?:in|on|into|onto|to|down|back|next|beside"
+    r"|behind|between|inside|there|at)\b|[.,;!?]|$))(?!\w)",
     re.IGNORECASE,
 )
 _CHANGED = Expression(
@@ -38,8 +40,15 @@ def with_held_named(instruction: str, scene: SceneState) -> str:
     found = _HELD.search(instruction)
     if found is None or _ASKED.search(instruction):
         return instruction
+    noun = (found["noun"] or "object").casefold()
+    changed = _CHANGED.search(instruction[: found.start()])
+    if found["noun"] and changed:
+        return instruction  # it was picked up before
     if scene.holding is None:
         raise ReferenceProblem(found[0], "the hand is empty", 3)
-    if _CHANGED.search(instruction[: found.start()]):
+    if changed:
         raise ReferenceProblem(found[0], "the hand may hold something else by then; name it", 3)
+    called = {*scene.holding.split("_"), *scene.infos[scene.holding].label.split()}
+    if noun not in {"object", "thing", "item", *called}:
+        raise ReferenceProblem(found[0], f"the hand holds {scene.holding}", 3)
     return _HELD.sub(f"the {scene.holding.replace('_', ' ')}", instruction)

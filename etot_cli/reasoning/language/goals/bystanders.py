@@ -134,41 +134,46 @@ def _check_describes(
 
     Raises:
         ReferenceProblem: it does, or (AmbiguousReference) "the cup on the tray with the pen in it"
-            may also be about the cup.
+            may also be about the cup, and "the cup next to the bowl with a pen in it" about either.
     """
     where = {p.where for places in places_of.values() for p in places if p.where is not None}
     places = [place for place in context.discourse.things(*where) if place.name != DESK]
     below = {place.name for place in places}
     if not all(np.pronoun for item in condition.destinations for np in item.targets):
         return
+    inside = any(item.toward is Toward.INSIDE for item in condition.destinations)
+    vessels = [
+        item.name
+        for item in context.discourse.things(*places_of)
+        if inside and can_be(item, Role.CONTAINER, context.scene)
+    ]
+    near = [i for found in places_of.values() for p in found for n in p.beside for i in n.landmarks]
+    beside = [
+        item.name
+        for item in context.discourse.things(*near)
+        if vessels and can_be(item, Role.CONTAINER, context.scene)
+    ]
     for index in (index for index in subjects if index not in context.discourse.put):
-        for thing in context.discourse.things(index):
-            beside = [
+        named = context.discourse.things(index)
+        around = {owner_of(context.scene.states[item.name].inside or "") for item in named}
+        if around & {*vessels}:
+            continue  # it comes along
+        if beside:
+            raise AmbiguousReference("in it", [*vessels, *beside])
+        for thing in named:
+            standing = [
                 Whereabouts(item.relation, (name,))
                 for where in condition.destinations
                 for item in where.beside
                 for name in below
                 if item.relation.landmarks == 1
             ]
-            there = any(holds(item, thing.name, context.scene) for item in beside)
+            there = any(holds(item, thing.name, context.scene) for item in standing)
             borne = bearers(context.scene, thing.name)
             on = context.scene.states[thing.name].on  # what stands on another board is not there
             here = [p for p in places if p.board is None or p.address in on]
             if there or any(place.name in borne for place in here):
                 text = context.discourse.referents[index].text
-                inside = any(item.toward is Toward.INSIDE for item in condition.destinations)
-                vessels = [
-                    item
-                    for item in context.discourse.things(*places_of)
-                    if inside and can_be(item, Role.CONTAINER, context.scene)
-                ]
-                around = {
-                    owner_of(context.scene.states[item.name].inside or "")
-                    for item in context.discourse.things(index)
-                }
-                if around & {item.name for item in vessels}:
-                    continue  # it comes along
                 if vessels:
-                    named = [item.name for item in vessels]
-                    raise AmbiguousReference("in it", [*named, *sorted(below)])
+                    raise AmbiguousReference("in it", [*vessels, *sorted(below)])
                 raise ReferenceProblem(text, "it is there already; say where what is", 3)

@@ -10,8 +10,17 @@ from dataclasses import replace
 
 from msgspec import structs
 
-from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Pick, Put, Relation, Thing, things_in
-from etot_cli.reasoning.builtin.relations import carriers, is_open, parts_of
+from etot_cli.reasoning.builtin.goal import (
+    Close,
+    Goal,
+    Keep,
+    Pick,
+    Put,
+    Relation,
+    Thing,
+    things_in,
+)
+from etot_cli.reasoning.builtin.relations import bearers, carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import InTheWay
 from etot_cli.reasoning.language.goals.turns import Timed
@@ -249,6 +258,38 @@ def check_stays(said: Sequence[Timed], discourse: Discourse) -> None:
             if thing in staying and not staying[thing] & there:
                 why = "it cannot stay where it is said to and go elsewhere; say 'then'"
                 raise ReferenceProblem(thing.name, why, 4)
+
+
+def check_one_of_several(said: Sequence[Timed], discourse: Discourse) -> None:
+    """Whether one of several things that go somewhere goes elsewhere by another sentence, where no
+    word says which comes first, nor that it is taken from there: it may be meant to go there alone.
+    """
+    gone: list[tuple[Timed, set[Thing], set[str]]] = []
+    taken = set[int]()
+    for item, step in ((each, step) for each in said for step in each.steps):
+        if isinstance(step, Pick):
+            taken.add(step.what)
+        if not isinstance(step, Put) or step.removal or step.aside:
+            taken |= {*step.what} if isinstance(step, Put) else set[int]()
+            continue
+        referents = [discourse.referents[index] for index in step.what]
+        if {*step.what} & taken:
+            continue
+        chosen = any(it.options[1:] for it in referents)
+        things = {*things_in(option for it in referents for option in it.options)}
+        at = {t.name for p in step.places if p.where is not None for t in discourse.things(p.where)}
+        near = [near for place in step.places for near in place.beside]
+        marks = {t.name for item in near for t in discourse.things(*item.landmarks)}
+        at = at or {at for name in marks for at in bearers(discourse.scene, name) or (DESK,)}
+        back = any(item.relation is Nearby.AT_POINT for item in near)
+        for other, several, places in gone if item.order is Order.SAID and not back else ():
+            part = things < several or (chosen and things == several)
+            some = part or (several < things and not chosen)
+            some = some and not (at | marks) & {it.name for it in several}
+            if some and other.sentence != item.sentence and not (at <= places or places <= at):
+                why = "say 'then', or leave it out where the others go"
+                raise ReferenceProblem(referents[0].text, why, 4)
+        gone += [] if chosen else [(item, things, at)]
 
 
 def check_swept_away(goal: Goal, swept: Collection[int]) -> None:

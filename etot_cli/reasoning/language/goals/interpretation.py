@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.goals.checks import (
     check_everything,
     check_held,
     check_kept,
+    check_one_of_several,
     check_run,
     check_shut,
     check_shut_away,
@@ -77,6 +78,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     _check_remarks(goal, state.context.discourse)
     check_turns(state.timed, state.context.discourse)
     check_stays(state.timed, state.context.discourse)
+    check_one_of_several(state.timed, state.context.discourse)
     goal = without_ruled_out(without_places(goal, state.context.discourse), scene)
     goal = settled(goal, scene, state.context.turned)
     check_held(state.timed, goal, scene)

@@ -73,7 +73,7 @@ def _is_bare(where: Destination) -> bool:
 def told_needlessly(context: Context, reading: Sequence[Spoken]) -> int:
     """How many things that go to the middle, to the left or the like are told by where they are for
     no reason: in "put the ball in the cup in the middle", with one ball and several cups, it is the
-    cup that is in the middle.
+    cup that is in the middle. So is what a sentence asks for alone said to come first or last.
 
     Args:
         context: before the reading.
@@ -82,7 +82,7 @@ def told_needlessly(context: Context, reading: Sequence[Spoken]) -> int:
     puts = [said.clause for said in reading if isinstance(said.clause, PutClause)]
     groups = (group for put in puts for group in put.groups)
     bare = (group for group in groups if all(map(_is_bare, group.destinations)))
-    needless = 0
+    needless = sum(said.order in (Order.FIRST, Order.LAST) for said in reading if not reading[1:])
     for np in (np for group in bare for np in group.things.phrases):
         held = [m.phrases for m in np.modifiers if m.prep in (Prep.IN, Prep.ON)]
         if len(held) != len(np.modifiers) or [*map(len, held)] != [1]:

@@ -194,7 +194,7 @@ def _and_contents(
 
 def _is_the_one(np: NounPhrase) -> bool:
     """Whether a phrase names a thing, be it any such ("a mug with a pencil in it")."""
-    named = np.determiner in ("a", "an") and not np.is_elliptic
+    named = np.determiner in ("a", "an", "one", "any", "one of the") and not np.is_elliptic
     return (named or quantity_of(np.determiner).definite) and bool(np.words)
 
 

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from msgspec.structs import replace
-
 from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, SwapClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Toward
 from etot_cli.reasoning.language.reference.geometry.space import carries, rests_on
 
 
@@ -47,14 +44,6 @@ def _turn_over(context: Context, placed: PutClause, upper: Thing, lower: Thing, 
             raise ReferenceProblem(text, "that is not each where the other one is", 3)
 
 
-def _says_again(placed: PutClause) -> bool:
-    """Whether it is said of each of two things that it goes where the other is."""
-    each = [np.determiner for group in placed.groups for np in group.things.phrases]
-    ats = [at for group in placed.groups for at in group.destinations]
-    there = [np.determiner for at in ats if at.toward is Toward.WITH for np in at.targets]
-    return each == ["each"] and there == ["the other"] and len(ats) == 1
-
-
 def _at(context: Context, place: Place) -> tuple[Thing, ...]:
     return () if place.where is None else context.discourse.things(place.where)
 
@@ -69,8 +58,6 @@ def swap(context: Context, clause: SwapClause) -> None:
         raise ReferenceProblem(text, "two things can be swapped, no more and no less", 2)
     if any(index in gone for index in themes):
         raise ReferenceProblem(text, "they have been put elsewhere; say where each one is to go", 3)
-    if clause.placed and _says_again(clause.placed):
-        clause = replace(clause, placed=None)
     homes = [context.home(thing) for thing in things]
     upper, lower = things if rests_on(things[0], things[1], context.scene) else things[::-1]
     if clause.placed and rests_on(upper, lower, context.scene):

@@ -143,7 +143,6 @@ KEPT_HELD = """
     (and|but) do not put (it|them) anywhere [yet]
 """
 """Behind what is picked up, which is held anyway."""
-UNTIL_TOLD = "(till|until) (i|we) (tell you otherwise|say so|say otherwise|tell you [to])"
 _HAND = "(hand|gripper|grasp|grip|[two|gripper] fingers|robot hand|claw|[gripper] jaws)"
 IN_HAND = f"""
     [held|ready] (in|inside|into|between) [the|your|its|one|the robot 's] {_HAND}

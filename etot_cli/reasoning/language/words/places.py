@@ -243,11 +243,13 @@ ON_IT = "on"
 SAME_PLACE = "(in|on|to|at|into|onto) the same (place|spot)"
 THEREIN = "inside, in there [with (it|them|him|her)], in, into it"
 HERE = f"{THEREIN}, on there, there, on top"
-HOME = """
+_OLD = "original|initial|starting|old|previous|former"
+_SPOT = "(place|places|position|positions|spot|spots|location|locations)"
+HOME = f"""
     back [to its place],
-    [back] to (its|their|the) [original|old|previous] (place|places|position|spot),
-    back in (its|their) [original|old|previous] (place|places|position|spot),
-    in (its|their) (original|old|previous) (place|places|position|spot),
+    [back] to (its|their|the) [{_OLD}] {_SPOT},
+    back (in|at) (its|their) [{_OLD}] {_SPOT},
+    (in|at) (its|their) ({_OLD}) {_SPOT},
     [back] [to] where (it|they) (was|were) [before], [back] [to] where (it|they) came from,
     back where (it|they) belong[s]
 """

@@ -60,7 +60,7 @@ _MUST = """
     should|must|shall|has to|have to|needs to|need to|ought to|is to|are to|had (better|best)|
     (is|are) (supposed|meant) to, will (have|need) to
 """
-_IN_FACT = "still|really|just|simply|definitely|eventually|ultimately|preferably|now"
+_IN_FACT = "still|really|actually|just|simply|definitely|eventually|ultimately|preferably|now"
 _SIMPLY = f"[simply|[just] as well|just|also|please|best|{_IN_FACT}|in the end]"
 _TO_STAND = "stand|sit|lie|rest|live|sleep"
 """How what goes somewhere is there then."""

@@ -7,7 +7,7 @@ from etot_cli.reasoning.language.words.inflections import gerunds, participles, 
 PICK = """
     pick[ing] up, pick[ing] [out], grab[bing] [hold of], tak(e|ing) [hold of], lift[ing] [up],
     fetch[ing] [up], get[ting] [hold of], grasp[ing], grip[ping], hold[ing] [up|on to|onto],
-    seiz(e|ing),
+    hang[ing] (on to|onto), keep[ing] hold of, seiz(e|ing),
     collect[ing], hand[ing] me, rais(e|ing), choose and pick up, bring me, giv(e|ing) me,
     pass[ing] [me|over], retriev(e|ing), gather[ing] [up],
     (fetch|fetching|get|getting|grab|find|take) me,

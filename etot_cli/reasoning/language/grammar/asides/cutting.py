@@ -107,7 +107,7 @@ class _Place(Struct, frozen=True):
         polite = all(item.is_polite for item in self.clauses[self.at + 1 :])
         first = (self.behind.split() or [""])[0]
         goes_on = first == "with" and not any(map(self.is_name, self.said.split()))
-        return polite or is_doing(first) or goes_on
+        return polite or is_doing(first) or self.behind.startswith("do not ") or goes_on
 
     @property
     def trails(self) -> bool:

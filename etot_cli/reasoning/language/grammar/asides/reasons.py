@@ -53,7 +53,7 @@ _SO_NOTHING = Expression(
     r"|nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
     r"|(?:nobody|no one) [^~]+"
     r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"
-    r"|cool|wobble|leak|melt|dry|rot|topple|burn)\b[^~]*)$"
+    r"|cool|wobble|leak|melt|dry|rot|topple|burn|lie (?:around|about))\b[^~]*)$"
 )
 _OR_WILL = Expression(rf"^(?:{PEOPLE}|it|they) \w+")
 _COMMENT = Expression(r"^(?:is|are|was|were|has|have) ")

@@ -90,7 +90,8 @@ _BESIDE = r"next to|beside|by|near|around|behind|in front of|(?:to the )?(?:left
 _WHERE = (
     r"(?: (?:left|to (?:work|write|cook|eat|play|breathe)|(?:over |in )?here|there"
     r"|now|later(?: on)?|soon"
-    rf"|(?:in|on|for|{_BESIDE}) (?:the|a|an|my|our|this|some|another) (?:\w+ ){{0,2}}?\w+"
+    rf"|(?:in|on|at|for|{_BESIDE}) (?:the|a|an|my|our|this|some|another) (?:\w+ ){{0,2}}?\w+"
+    r"(?: of (?:the|my|our) \w+)?"
     r"|for (?:something|other things|more things|(?:something|anything) else|\w+ing)))*"
 )
 _LACKING = Expression(

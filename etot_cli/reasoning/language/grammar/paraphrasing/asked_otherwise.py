@@ -318,12 +318,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"|for ({_ONE}(?: and {_ONE})?))[.;:,!] (?:so )?(?:please )?put (?:them|it) there\b",
         lambda said: f"put {said[3] or said[4]} in {said[1]} or {said[2]}",
     ),
-    (
-        rf"^({ASKED})make (?:some |more |a little |a bit of )?(?:room|space) (?:on|at|in) "
-        r"the (?:left|right|front|back)(?: side| half| part)?(?: of (?:the|my) \w+)? "
-        r"by (?=\w+ing\b)",
-        r"\1make room on the desk by ",
-    ),
     # "Store each pen separately: one in the mug, one in the basket"
     (
         rf"^({ASKED})(?:put|store|place|keep|stow) each (?:of the )?((?:\w+ )?\w+?)s? "

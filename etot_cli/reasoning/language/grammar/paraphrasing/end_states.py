@@ -173,7 +173,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     # "The blue one, though, should lie there"
     (
         r", (?:though|however|on the other hand|in turn|for (?:its|their) part),"
-        rf"(?= (?:{_MUST}|goes|go|belongs?)\b)",
+        rf"(?= (?:{_MUST}|goes|go|belongs?|(?:i|we) (?:want|need|would like))\b)",
         "",
     ),
     (

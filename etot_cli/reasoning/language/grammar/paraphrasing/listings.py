@@ -227,21 +227,23 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"(?=[.;!]|,? (?:so|please)\b|$)",
         _places_for,
     ),
-    # "White bottle: store in the drawer", "brown vial expired - discard in the bin"
+    # "White bottle: store in the drawer", "brown vial expired - discard in the bin", "cup: move to
+    # the tray"
     (
         rf"(^|[.;!\n] ?)({_LABEL}) ({_SPOILT})(?=(?: ?[:,;]| {_DASH}) )",
         r"\1\2 is \3",
     ),
     (
         rf"((?:^|[.;,!\n] ?){_LABEL}(?: is {_SPOILT})?(?: ?[:;]| {_DASH}) ?)"
-        r"(?:store|stow|keep|transfer|move|discard) (?=(?:in|into|on|onto|to|inside|next to) "
-        r"(?!it\b|them\b|there\b))",
-        r"\1put ",
+        r"(?:store|stow|keep|transfer|move|discard) (?=(?:in|into|on|onto|inside|next to"
+        r"|(?P<to>to)) (?!it\b|them\b|there\b))",
+        lambda said: f"{said[1]}{'' if said['to'] else 'put '}",
     ),
     # "Do the following: open it, close it"
     (
-        rf"(^|[.;!\n] )({ASKED})(?:do|perform|carry out|execute|proceed|act) (?:(?:exactly )?"
-        r"(?:the following|these)(?: (?:steps|actions|things|operations))?|as follows)"
+        rf"(^|[.;!\n] |\bif [^.,;:!?]*, (?=[^.;!?\n]*[.!]?$))({ASKED})"
+        r"(?:do|perform|carry out|execute|proceed|act) (?:(?:exactly )?(?:the following|these)"
+        r"(?: (?:steps|actions|things|operations))?|as follows)"
         r"(?: in (?:this|the given) order)?[:.] ?(?=\w)",
         r"\1\2",
     ),

@@ -153,6 +153,14 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
             f"{said[1].rsplit(' ', 2)[0]} where {'it is' if 'its' in said[1] else 'they are'}"
         ),
     ),
+    (
+        r"\b((?:leave|keep|let)\b[^.,;:!?]*?) how (?=(?:it|they|everything) (?:is|are)\b)",
+        r"\1 as ",
+    ),
+    (
+        r"\bback\b([^.;:!?]*?),? (?:exactly |just )?(?:the )?same as (?=(?:it was|they were)\b)",
+        lambda said: f"back{said[1]}, as " if said[1] else "back where ",
+    ),
     # "The models you let stand", "let the models stand"
     (r"\byou let (?=(?:where|as) (?:it|they)\b|alone\b|untouched\b)", "you leave "),
     (rf"\b(?P<what>{NAMED} {_THING}) you let (?:stand|lie|be){_END}", _stay),

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.asides.going import GOING
 from etot_cli.reasoning.language.grammar.asides.people import PEOPLE
+from etot_cli.reasoning.language.grammar.paraphrasing.aims import AIMS
 from etot_cli.reasoning.language.grammar.paraphrasing.asked_otherwise import ASKED_OTHERWISE
 from etot_cli.reasoning.language.grammar.paraphrasing.contrasts import CONTRASTS
 from etot_cli.reasoning.language.grammar.paraphrasing.corners import CORNERS_AND_SIDES, TABLE
@@ -87,6 +88,7 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
     (_MINDED, lambda said: f"could you {DOING_OF[said[1]]} " if said[1] in DOING_OF else said[0]),
     *OTHER_TONGUES,
     *YOU_DO,
+    *AIMS,
     *FORBIDDING,
     *CONTRASTS,
     *END_STATES,

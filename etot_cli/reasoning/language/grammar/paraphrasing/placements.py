@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 
 from etot_cli.reasoning.language.grammar.paraphrasing.listings import ASKED
+from etot_cli.reasoning.language.grammar.paraphrasing.trading_places import TRADING_PLACES
 from etot_cli.reasoning.language.grammar.paraphrasing.turns_of_phrase import TURNS_OF_PHRASE
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import NUMBERS, singular
@@ -46,7 +47,6 @@ _GOES = (
 )
 """What asks where a thing is to be; "should be in the box" may say where it is by now."""
 _AT = "into|in|onto|on|inside|to|at|near|between|in front of|next to|beside|behind"
-_FLAT = frozenset({"tray", "plate", "saucer", "mat", "board", "shelf", "book", "tile", "coaster"})
 _ENDS = r"(?=[.,;!?]|$)"
 _ONCE_DONE = Expression(
     rf"^({'|'.join(PAST)}) (?=(?:up |out )?(?:the|a|an|all|both|every|my)\b)([^.:;!?\n]*)[.!]?$"
@@ -71,21 +71,13 @@ def _to_do(told: re.Match[str]) -> str:
     return f"{PAST[told[1]]} {done}"
 
 
-def _swapped(said: re.Match[str]) -> str:
-    """What takes each other's place, told by what both are in or on."""
-    begun, place = said[1], singular(said[6])
-    where = (
-        f"that is {'on' if place in _FLAT else 'in'} {'an' if place[0] in 'aeiou' else 'a'} {place}"
-    )
-    return f"{begun}swap {said[2] or said[4]} {where} and {said[3] or said[5]} {where}"
-
-
 def _all_of(what: str) -> str:
     """What comes along with a thing."""
     return what if what.startswith("the ") else "everything"
 
 
 PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    *TRADING_PLACES,
     # "The smaller one underneath, on the bottom board" beside one on the board above that
     *(
         (
@@ -120,6 +112,12 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?:,| and|, and)(?: then| please)* {_PUT}) (?:him|her) "
         rf"(?=(?:(?:to the )?(?:left|right) (?:of|from)|{_AT}) )",
         r"\1 it ",
+    ),
+    # "Put the pen, and after that also the book, in the box"
+    (
+        r"(?<=\w), and (?:then|after (?:that|this)|afterwards|thereafter),? (?:also )?"
+        rf"({NAMED} (?:\w+ ){{0,2}}?\w+), (?=(?:in|into|on|onto|at|next|beside|behind|to)\b)",
+        r", then \1, ",
     ),
     # What is taken "out onto the desk" goes there, out of whatever it is in
     (
@@ -278,10 +276,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?={NAMED}|a\b|an\b)([^.:;]*)",
         r"\1bring \3 to \2",
     ),
-    (
-        rf"(^|[.;!] )({NAMED} [^.,:;]*?) should (?:trade|swap|switch|change|exchange) places: ",
-        r"\1swap \2: ",
-    ),
     # "The cup and the jar go in the box. The former must be put in last"
     (
         r"\b((?:the|my) [^.,;:]*? and (?:the|my) [^.,;:]*? (?:go|belong|should go|must go) "
@@ -289,14 +283,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:goes|(?:must|should|has to|is to) (?:be put|go))(?: in| on| there)? "
         r"(first|last)(?=[.,;!]|$)",
         r"\1, \2 \3",
-    ),
-    # "Let the cup and the jar change trays": each has to be on one
-    (
-        rf"(^|[.;!] |\b(?:and|then) )"
-        rf"(?:(?:let|have|make) ({NAMED} [^.,:;]*?) and ({NAMED} [^.,:;]*?)"
-        rf"|({NAMED} [^.,:;]*?) and ({NAMED} [^.,:;]*?) (?:should|must|have to|are to)) "
-        rf"(?:change|swap|exchange|trade|switch) (?!places|positions|spots)(\w+s){_ENDS}",
-        _swapped,
     ),
     # "So red is in the cup and green on the tray"
     (

@@ -32,6 +32,22 @@ TOLD_BY_OTHERS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], st
         rf" and {_ONE} (?:{_BESIDE}|into|onto) )the (?:(?P<former>former)|latter){_END}",
         _of_the_two,
     ),
+    # "The pen goes on the tray, then the tray with it goes on the shelf": it comes along
+    (
+        r"(\b(?:in|into|on|onto) (?:the|my) (?P<told>\w+ )?(?P<what>\w+)(?:[.;]|,? and|,) "
+        rf"(?:(?:then|next|after that|afterwards),? )*(?:(?:{_PUT}|bring) )?"
+        r"the (?:(?P=told))?(?P=what)) with "
+        r"(?:it|them|that)(?: (?:in|on) (?:it|there))? "
+        r"(?=(?:goes|should|must|has to|belongs|in|on|to|into|onto|next|beside|behind)\b)",
+        r"\1 ",
+    ),
+    # "Pick up the cup. Put the grasped object on the tray"
+    (
+        rf"(\b(?:pick up|grasp|grab|lift|take|grip) {_ONE}(?:(?!\b(?:{_PUT}|drop|bring)\b)[^!?])*?"
+        rf"(?:[.;,]|,? and) (?:(?:and|then|now|next|please),? )*(?:{_PUT}|drop|bring|insert)) the "
+        r"(?:grasped|gripped|held|lifted|picked(?: up)?) (?:(?P<it>object|item|thing)|(?=\w))",
+        lambda said: f"{said[1]} {'it' if said['it'] else 'that '}",
+    ),
     # "After that comes the duck, same place"
     (
         rf"(^|[.;!] )(?:(?:(?:after that|then|next),? comes? |then )?({_ONE}), )"

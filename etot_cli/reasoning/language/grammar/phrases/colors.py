@@ -35,7 +35,8 @@ def _colors_alone(given: Input, at: int) -> list[Result]:
     return [
         (end, tuple(NounPhrase(words=(color, "ones"), text=color) for color in colors))
         for end, colors in _COLORS.find(given, at)
-        if given.ahead[end] in _BEHIND_COLORS and given.words[end + 1 : end + 2] != ("top",)
+        if (given.ahead[end] in _BEHIND_COLORS and given.words[end + 1 : end + 2] != ("top",))
+        or given.words[end : end + 2] in (("left", "of"), ("right", "of"))
     ]
 
 
@@ -43,7 +44,7 @@ _COLORS = separated(_COLOR, LIST, most=4)
 _BEFORE_COLORS = {COMMA, COLON, "and", "but", "then", *words_of((verbs.PLACE, verbs.KEEP))}
 _BEHIND_COLORS = word_set(
     "in inside into on onto to at where go goes belong belongs stay stays remain remains "
-    "should untouched unmoved"
+    "should untouched unmoved behind beside next between"
 )
 COLORS_ALONE = Parser(_colors_alone, lambda: _COLORS.first)
 _GOES_ON = frozenset({COMMA, "and", "then", NO_WORD})

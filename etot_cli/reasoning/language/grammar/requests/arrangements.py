@@ -39,7 +39,6 @@ from etot_cli.reasoning.language.words import (
     forbidden,
     frames,
     manner,
-    places,
     predicates,
     small_words,
     verbs,
@@ -301,13 +300,6 @@ HAVING_TURNED = either(
 )
 """What has been turned by then ("having turned it, …", "after a rotation of the pen, …")."""
 """What stands by then ("once it is upright, …")."""
-_IN_ITS_PLACE = sequence(
-    noun_phrase,
-    "[to] where",
-    noun_phrase,
-    places.IS_THERE,
-    build=lambda one, other: (one, other),
-)
 
 
 def _replaced(old: NounPhrase, new: NounPhrase) -> PutClause:
@@ -363,13 +355,6 @@ SWAP = either(
         "with",
         noun_phrase,
         build=lambda one, other: SwapClause(Things((one, other))),
-    ),
-    sequence(
-        verbs.SET_DOWN,
-        _IN_ITS_PLACE,
-        OPTIONAL_COMMA,
-        "and vice versa, and the other way (round|around)",
-        build=lambda pair: SwapClause(Things(pair)),
     ),
     sequence(
         "swap[ping], exchang(e|ing), switch[ing]",

@@ -178,9 +178,7 @@ GRASPED = sequence(
     ),
 )
 """Behind what is picked up."""
-KEPT_SO = silent(
-    optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD, optional(manner.UNTIL_TOLD)), "")
-)
+KEPT_SO = silent(optional(sequence(OPTIONAL_COMMA, manner.KEPT_HELD), ""))
 """The same, for how long, which asks for nothing else."""
 HELD_SO = either(
     sequence(f"us(e|ing), try[ing], coming [in|down], {manner.HAND_COMES}", POSES),

@@ -17,8 +17,9 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     some,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import COMMA, LIST, OPTIONAL_COMMA
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
-from etot_cli.reasoning.language.grammar.phrases.states import STATE, states
+from etot_cli.reasoning.language.grammar.phrases.being_so import ensured
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, THINGS
+from etot_cli.reasoning.language.grammar.phrases.states import ALL_SO, STATE, states
 from etot_cli.reasoning.language.grammar.requests.emptying import (
     IS_EMPTY,
     NOTHING_THERE,
@@ -110,11 +111,22 @@ END_STATES = either(
         build=add,
     ),
     sequence(
-        # "Set up the shelf so that the cans are on the upper board"
+        # "Set up the shelf so that the cans are on the upper board", "sort the pens so that the red
+        # one ends up in the cup and the others on the tray"
         verbs.ARRANGE,
         NAMED,
         small_words.SO_THAT,
-        plain(sequence(states, build=EnsureClause)),
+        plain(
+            either(
+                sequence(states, build=EnsureClause),
+                sequence(
+                    NP_LIST,
+                    f"{predicates.BE}, {predicates.LIES}, go[es], belong[s]",
+                    ALL_SO,
+                    build=lambda nps, said: ensured(*said(nps)),
+                ),
+            )
+        ),
         build=add,
     ),
     sequence(

@@ -48,6 +48,9 @@ _TOLD = sorted(
 _MOST_BEFORE = 5
 """Words before it ("for the next trial, …")."""
 _DOING = words_of((verbs.OPEN, verbs.CLOSE, LOOK_FOR)) | known.VERB_WORDS
+_DOING_TO = _DOING - {"hold", "take", "keep", "fit", "need", "have", "contain", "rest", "carry"}
+"""What a thing does to no other thing."""
+_NARRATED = ("the robot ", "the arm ", "the gripper ")
 _JOINTS = (COMMA, "and", "then", "first")
 SHOWN_WORDS = 4
 MAX_READINGS = 112
@@ -127,12 +130,14 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
     spelled = vocabulary | {f"{word}s" for word in vocabulary}
     sentences: list[Sentence] = []
     corrections: dict[Correction, None] = {}
+    narrated = False
     for part in parts:
         if len(parts) > 1 and says_nothing(part.removesuffix(QUESTION).strip()):
             continue
         before = ". ".join(parts[: len(sentences)])
         words: list[str] = []
-        plain = _asked(words_in(part), vocabulary)
+        plain = _asked(words_in(part), vocabulary, continued=narrated)
+        narrated |= part.startswith(_NARRATED)
         for word in plain:
             # What stands before "the" is a verb, and no noun of the scene.
             verb = not words and plain[1:2] in known.BEFORE_NOUNS
@@ -152,10 +157,17 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
     return Read(tuple(sentences), tuple(corrections))
 
 
-def _asked(words: tuple[str, ...], vocabulary: frozenset[str]) -> tuple[str, ...]:
+def _asked(
+    words: tuple[str, ...], vocabulary: frozenset[str], *, continued: bool
+) -> tuple[str, ...]:
     """What is told of the robot as what it is to do ("the robot picks the cup up and lifts it"),
-    perhaps when ("in this trial the robot …").
+    perhaps when ("in this trial the robot …"); behind such a sentence, of "it" ("it then opens …").
     """
+    at = 2 if words[1:2] == ("then",) else 1
+    does, what = (*words[at : at + 2], "", "")[:2]
+    acts = singular(does) in _DOING_TO - {does} and (what,) in known.BEFORE_NOUNS
+    if continued and acts and words[0] == "it" and "robot" not in vocabulary:
+        words = ("the", "robot", *words[1:])
     starts = range(_MOST_BEFORE + 1 if words[:1] in (("in",), ("for",)) else 1)
     found = ((at, said) for at in starts for said in _TOLD if words[at : at + len(said)] == said)
     start, told = next(found, (0, ()))

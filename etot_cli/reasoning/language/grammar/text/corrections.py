@@ -66,6 +66,13 @@ _REASON = Expression(
     rf" (?:(?:{_AGAIN}|sorry),? )*"
 )
 """Why something is taken back ("the big bell, no, that one is broken, I mean the small one")."""
+_REASON_BEHIND = Expression(
+    r"(?:,| because| since| as) (?P<so>(?:the|that) (?P<what>\w+)(?: \w+)? (?:has an? \w+"
+    r"|(?:is|are)(?: (?:already|still|almost|nearly|very))* (?:empty|full|broken|cracked|damaged"
+    r"|defective|faulty|dirty|dry|wet|hot|cold|expired|rotten|missing|used(?: up)?|too \w+"
+    r"|not (?:clean|empty|ready|needed))))[.!]*$"
+)
+"""Likewise, behind what is said instead."""
 _NEARLY = Expression(
     r"^(?P<nearly>i (?:was|am) (?:just )?(?:going|about) to (?:say|suggest|ask (?:you )?for)"
     r"(?: ?:)? [^.:;!?]*?(?=,? but )|i said [^.:;!?]*?(?=,? (?:(?:but|no),? )?i meant?\b))"
@@ -140,6 +147,9 @@ def taken_back(text: str, mark: re.Match[str]) -> Iterator[TakenBack]:
     text = _MEANT.sub("", text) if _MEANT.search(text, mark.end()) else text
     why = _REASON.match(text[mark.end() :])
     begin = mark.end() + (why.end() if why else 0)
+    behind = _REASON_BEHIND.search(text, begin)
+    if behind and not why and behind["what"] in text[: mark.start()].split():
+        why, text = behind, text[: behind.start()]  # "No, the yellow one, the blue is empty"
     if _MARK.search(text, begin) or begin == len(text):
         return
     before, after = (tuple(_TOKEN.findall(part)) for part in (text[: mark.start()], text[begin:]))
