@@ -278,7 +278,9 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         raise UnreadableError(instruction, "")  # "put both on the book: the pen on the left, …"
     on_desk = bool({*DESK_NOUNS} & {*words})
     named = any(is_name(word, vocabulary) for word in words if word not in DESK_NOUNS)
-    # "Wipe the table: …", "polish up the cups: …" would have to be done besides.
+    # "Wipe the table: …", "polish up the cups: …", "clean the cup: …" are something else to do.
+    if named and words[:1] == ("clean",) and words[1:2] != ("up",):
+        raise UnreadableError("clean", "")
     parts = word_set("up down off out" if words[0] in OTHER_VERBS else "up down")
     deed = {*words[1:2]} & (BEFORE_NAMES | parts) and words[0] not in BEFORE_NAMES
     for joint, verb, behind in zip(words, words[1:], words[2:], strict=False):
