@@ -67,7 +67,7 @@ WITHOUT_MEANING = f"""
     ~comma (any|either) [one] [of (them|these|those)],
     [i] (do not|don t) (care|mind) [one|{_WHICH}|which of the (two|three|four) [it is]],
     whichever [[comes|goes] first],
-    if you can,
+    if you (can|like|wish),
     [whether] (together or (apart|separately)|(apart|separately) or together),
     (whichever|whatever) [one] (is|seems|works|fits|suits you) [{_EASIER}],
     (whichever|whatever) [one|of (them|these|the two)]

@@ -129,7 +129,7 @@ FRAMES = f"""
     (all|what|the only thing) [that] (i|we) [really|just|only]
     (want|need|would like|ask [for|of you]) is (to|for you to|that you),
     (i|we) [only] (want|need|would like|d like) you to,
-    i would like [that you], i want, i would (rather|prefer) you [to], let us, try to,
+    i would like [that you], i want, i would (rather|prefer) you [to], let us, try [to],
     please [~comma] to,
     (find|work out|figure out|think of|come [up] with) (a|some|any) way (to|of),
     (work|figure|find) out how to,
@@ -145,7 +145,7 @@ FRAMES = f"""
     (let (me|us)|(i|we) (want|would (like|love)) to|(may|can|could) (i|we)) (see|watch) you,
     (let (me|us) see|show (me|us)) (if|whether|how|that) you [(can|could|would)],
     i (wonder|was wondering|am wondering) (if|whether) you (could|would|can|might),
-    i (was|am) hoping [that] you (could|would),
+    i (hope [that] you (can|could|will)|(was|am) hoping [that] you (could|would)),
     (would|is) it [be] possible [for you] to,
     it would be (good|great|nice|kind|lovely|better) [of you] to,
     i [would|must|have to|would like to] ask you to, your job is, it is time to,

@@ -171,7 +171,7 @@ ONCE_MORE = plain(sequence(THINGS, build=_once_more))
 _ONCE_MORE_OR_NARRATED = either(ONCE_MORE, plain(NARRATED))
 _NEXT_ONE = either(LED_CLAUSE, ONCE_MORE, HEADLINE)
 JOINED = either(
-    joint("and", either(COMMA, LIST), LEFT_SO),
+    joint("verbless and", either(COMMA, LIST), LEFT_SO),
     joint("and", OPTIONAL_COMMA, plain(WITH_A_GRASP)),
     WITH_MORE_SO,
     joint("mere and", "and", LED_CLAUSE),

@@ -225,6 +225,8 @@ def chained(first: Reading, more: Joined) -> Reading | None:
             if isinstance(further, EnsureClause) and further.far_fetched == OF_SEVERAL:
                 return None  # "the cup on the tray and the pen in it go in the box"
             done = _maybe_denied(done, clause)
+        if said == "verbless and" and _is_denied(before):
+            return None  # "the cup should not be on the tray and the pen in the box": nor the pen?
         if said == "before" and _is_denied(before):
             return None  # "do not put it there before …" rather asks for both
         if said == "before" and (ahead := ahead_of(clause, done)):

@@ -191,7 +191,7 @@ WHOLE = either(
         EMPTY_WORDS,
         plain(either(KEEP_STILL, ENSURE)),
         some(JOINED, most=6),
-        joint("and", LIST, PLACED),
+        joint("verbless and", LIST, PLACED),
         some(JOINED, most=6),
         _END,
         build=lambda first, more, placed, rest: chained(first, (*more, _aside(placed), *rest)),
