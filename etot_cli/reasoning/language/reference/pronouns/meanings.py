@@ -185,11 +185,16 @@ class Meanings(LentNouns):
         quantity = quantity_of(phrase.determiner)
         if quantity.other and quantity.definite and (quantity.count or 1) > 1:
             # "One cup … the other two": which they are depends on the one.
+            rest = None
             with suppress(ReferenceProblem):
-                rest = replace(phrase, determiner="all other")
-                rest_of = others(self.with_noun(rest, role, noun_before), discourse)
-                if all(len(option) == quantity.count for option in rest_of.options):
-                    return rest_of
+                every = replace(phrase, determiner="all other")
+                rest = self.with_noun(every, role, noun_before)
+            left = rest and others(rest, discourse)
+            if left and all(len(option) == quantity.count for option in left.options):
+                return left
+            if left and left != rest:
+                why = f"so many are left: {len(left.options[0])}"
+                raise ReferenceProblem(phrase.text, why, 3)
         resolved = self.with_noun(phrase, role, noun_before)
         if resolved.other and resolved.every:
             return others(resolved, discourse)
