@@ -21,6 +21,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
     some,
+    spanned,
     word,
 )
 from etot_cli.reasoning.language.grammar.parsers.common import (
@@ -233,11 +234,14 @@ _modifier = either(
         not_ahead("from"),
         build=lambda far: Modifier(Prep.QUALITY, words=(far,)),
     ),
-    sequence(
-        nouns.RELATIVE_NOT,
-        either(DESCRIBED, ANY_QUALITY),
-        optional(small_words.ANY_MORE),
-        build=denied,
+    spanned(
+        sequence(
+            nouns.RELATIVE_NOT,
+            either(DESCRIBED, ANY_QUALITY),
+            optional(small_words.ANY_MORE),
+            build=denied,
+        ),
+        lambda said, modifier: replace(modifier, of_several=said.split()[1] in ("are", "do")),
     ),
     sequence(
         nouns.RELATIVE_NOT, separated(noun_phrase, "or, nor, and not", most=3), build=other_than

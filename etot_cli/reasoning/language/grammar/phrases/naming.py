@@ -47,6 +47,7 @@ from etot_cli.reasoning.language.grammar.phrases.levels import LEVEL
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS, ONE_SUCH
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.words import nouns, small_words
+from etot_cli.reasoning.language.words.categories import is_category
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
     NUMBERS,
@@ -76,6 +77,10 @@ def _named(determiner: str, words: tuple[str, ...], modifiers: Any) -> NounPhras
         return None  # it is not on the left
     if determiner.startswith("whichever of ") and singular(words[-1]) == words[-1]:
         return None  # "whichever of the cup and the mug": of one alone it is none
+    single = determiner in ("the", "a", "an") and singular(words[-1]) == words[-1]
+    plain_noun = not (matches_any(words[-1], THING_NOUNS) or is_category(words[-1]))
+    if single and plain_noun and any(item.of_several for item in modifiers):
+        return None  # "the cups on the tray that are not red" tells which cups
     number = words[-1] == "one" and not (determiner and len(words) == 1)
     plain = number and not (len(words) > 1 and singular(words[-2]) == words[-2])
     return None if plain else NounPhrase(determiner, words, modifiers)

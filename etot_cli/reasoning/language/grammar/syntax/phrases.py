@@ -29,6 +29,8 @@ class Modifier(Struct, frozen=True):
     """Where on the desk."""
     direct: bool = False
     """Nothing lies in between ("the blocks directly on the tray")."""
+    of_several: bool = False
+    """It is said of more than one thing ("that are not on the tray")."""
 
 
 class NounPhrase(Struct, frozen=True):
