@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 
 from etot_cli.errors import InstructionError
 from etot_cli.reasoning.builtin.goal import Goal
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
-from etot_cli.reasoning.language.grammar.sentences.reader import UnreadableError, normalized
+from etot_cli.reasoning.language.grammar.sentences.reader import (
+    UnreadableError,
+    normalized,
+    slips_in,
+)
 from etot_cli.reasoning.language.grammar.text.corrections import mark_in
 from etot_cli.reasoning.language.in_hand import with_held_named
 from etot_cli.reasoning.language.owners import without_owners
@@ -56,6 +62,13 @@ def _otherwise(said: str, text: str, scene: SceneState, vocabulary: Vocabulary) 
                 text, mark, lambda text: _otherwise(text, text, scene, vocabulary)
             )
         return read_plainly(normalized(said), scene, vocabulary, common=True)
+    if slips := slips_in(text, vocabulary.words()):
+        # Rewritings that go by a noun only find it where it is spelled as it should be
+        plain = re.sub(r"[a-z]+", lambda word: slips.get(word[0], word[0]), text)
+        with suppress(UnreadableError, ReferenceProblem):
+            goal = read_plainly(normalized(plain), scene, vocabulary)
+            notes = (f'read "{word}" as "{meant}"' for word, meant in slips.items())
+            return replace(goal, notes=(*notes, *goal.notes))
     # Reading asides is a tenth of the grammar, which few instructions need.
     from etot_cli.reasoning.language.otherwise import read_otherwise
 

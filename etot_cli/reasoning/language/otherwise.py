@@ -55,6 +55,8 @@ from etot_cli.reasoning.protocol import ReasonerStopped
 from etot_cli.world.state import SceneState
 
 _HEADING = re.compile(r"((?:\b(?:Mr|Mrs|Ms|Dr)\. |[^.:;!?\n])+):\s+(\S.*)", re.DOTALL)
+_NUMBERED = Expression(r"\s*([^.:;!?\n]+)[.\n]\s*(\(?1[.)]\s+\S.*)", re.DOTALL)
+"""A title before numbered steps, which a full stop may end."""
 _POLITE = Expression(rf"^(?:so,? )?(?:(?:it is )?(?:high )?time (?:to|for) )?{ASKED}")
 _AS_FOLLOWS = Expression(r",? as follows\s*$", re.IGNORECASE)
 _TABLE_SET = Expression(
@@ -84,7 +86,7 @@ _DEPENDING = word_set(
     "if when unless once until till after before while as except without but not never no none "
     "neither nor only instead first last end then do t "
     "forbidden prohibited banned unwanted undesired avoid wrong bad current currently "
-    "initial original initially starting present previous old so far example "
+    "initial original initially starting present previous yesterday old so far example "
     "optional maybe perhaps alternatively "
     "go goes belong belongs stay stays remain remains reverse reversed cancel cancelled canceled "
     "undo void rejected completed finished done"
@@ -198,14 +200,23 @@ def _below_references(instruction: str, scene: SceneState, vocabulary: Vocabular
     if not said or asking or things or codes != sorted(codes):
         raise UnreadableError(instruction, "")
     rest = _REFERENCE.sub(lambda found: found["before"], instruction)
-    try:
-        goal = read_plainly(normalized(rest), scene, vocabulary)
-    except UnreadableError:
-        if (found := read_otherwise(rest, scene, vocabulary)) is None:
-            raise
-        goal = found
+    goal = _anyhow(rest, scene, vocabulary)
     notes = (f"{code!r} is a heading: what stands below it is done" for code in said)
     return replace(goal, notes=(*notes, *goal.notes))
+
+
+def _anyhow(text: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
+    """What is asked for below a heading, where something may be told as well.
+
+    Raises:
+        UnreadableError, ReferenceProblem: it is not read.
+    """
+    try:
+        return read_plainly(normalized(text), scene, vocabulary)
+    except UnreadableError:
+        if (found := read_otherwise(text, scene, vocabulary)) is None:
+            raise
+        return found
 
 
 def _from_start(instruction: str, scene: SceneState, vocabulary: Vocabulary) -> Goal:
@@ -265,6 +276,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         UnreadableError, ReferenceProblem: there is no such heading, or nothing to read below it.
     """
     said = _HEADING.match(instruction) or _TABLE_SET.match(instruction)
+    title = None if said else _NUMBERED.match(instruction)
+    said = said or title
     if said is None and (found := _FOR.match(instruction)):
         strange = [word.casefold() for word in found[2].split()]
         if not any(word in all_words() or is_name(word, vocabulary) for word in strange):
@@ -293,6 +306,8 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
     )
     what = words[: words.index("for")] if "for" in words[1:] and not named else words
     job = {*what[-1:]} <= _JOBS and not {"by", "with", *_WITHIN} & {*words}
+    if title and (named or not job or BEFORE_NAMES & {*what[1:]}):
+        raise UnreadableError(said[1], "")  # "Wear gloves. 1. …", "Wipe the list. 1. …" ask for it
     planned = _PLAN.match(normalized(said[1])) if not named else None
     heading |= planned is not None and _is_purpose(words_in(planned["purpose"] or ""))
     heading |= job or (words[0] == "for" and not named and _is_purpose(words))
@@ -311,9 +326,10 @@ def _below_heading(instruction: str, scene: SceneState, vocabulary: Vocabulary) 
         raise UnreadableError(said[2], "")
     if reads(said[1], scene, vocabulary):
         raise UnreadableError(said[1], "", "say it in a sentence of its own")
-    asked = normalized(said[2])
-    asked = _IS_DONE.sub(r"\1 \2 to be ", asked) if _PROCEDURE & {*words} else asked
-    goal = read_plainly(asked, scene, vocabulary)
+    asked = said[2]
+    if _PROCEDURE & {*words}:
+        asked = _IS_DONE.sub(r"\1 \2 to be ", normalized(asked))
+    goal = _anyhow(asked, scene, vocabulary)
     note = f"{said[1].strip()!r} is a heading: what stands below it is done"
     return replace(goal, notes=(note, *goal.notes))
 

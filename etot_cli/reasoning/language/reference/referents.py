@@ -106,6 +106,7 @@ class Referents(MeaningsByNow):
         several = resolved.every and not whole
         mass = several and phrase.head not in ("", *GENERAL)
         mass = mass and singular(phrase.head) == phrase.head
+        mass |= several and phrase.pronoun == "it"  # of "the grey wool", which is all of it
         index = self.discourse.add(
             resolved, phrase.text, role, several=several, whatever=whole, collective=mass
         )

@@ -42,7 +42,7 @@ WITHOUT_MEANING = f"""
     pls, plz, pleas, thx, ty, lol, haha, hehe, btw, fyi, (would|will|could|can) you,
     any way you like, either way, in (any|either) case,
     at the moment, at present, for now, this time, (this|for) once,
-    mate, buddy, pal, today, tonight, this (morning|afternoon|evening),
+    mate, buddy, pal, today, tonight, overnight, this (morning|afternoon|evening),
     (when|once) you have [got] (it|them),
     [[and] that] is (it|all|everything)
     [{_I_ASK}|[that] there is [to it]|for (today|tonight|the (day|moment))],

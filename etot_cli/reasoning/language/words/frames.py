@@ -71,6 +71,9 @@ GREETINGS = f"""
     madam) ~comma, (quick|hurry [up]) ~comma,
     [hey|hello|hi|dear|yo] (robot [arm]|arm ~comma|gripper ~comma),
     [hey|hello|hi|dear|yo] [my] [little|good|dear|clever] helper ~comma,
+    [to] (whoever|anyone who|everyone who|anybody who) (reads|finds|sees|is reading) this
+    [note|message|list] ~comma,
+    [to] whoever is [next] (on duty|on shift|in|around|here|free) [(today|tonight|tomorrow)] ~comma,
     hand on heart, honestly, to be honest, in all honesty,
     hey, yo, ok, okay, hello, hi, sorry, excuse me, well, oh,
     oh (dear|my), dear me, no (rush|hurry|pressure), (like|as) i (said|told you),

@@ -196,7 +196,8 @@ SWAP = """
 SWAPPED_ROUND = "around, round, over, about"
 """Behind what swaps places."""
 TAKE_THE_PLACE = """
-    [should|must|shall|can|may|has to|have to|needs to|is to|are to] [then|now] take[s]
+    [should|must|shall|can|may|has to|have to|needs to|is to|are to] [then|now] take[s],
+    (can|may) [then|now] have
 """
 """Before the place of what goes elsewhere."""
 CHANGE_PLACES = """

@@ -27,7 +27,8 @@ from etot_cli.reasoning.language.words.patterns import Begun
 
 _DOING = "|".join(sorted(VERB_WORDS | {"open", "close", "shut"}))
 _SOME_TIME = (
-    rf"(?:{'|'.join(sorted(NUMBERS))}|noon|midnight|\w+day|breakfast|lunch|dinner|last \w+)"
+    rf"(?:{'|'.join(sorted(NUMBERS))}|noon|midnight|\w+day|breakfast|lunch|dinner|last \w+"
+    r"|(?:the )?(?:spring|summer|autumn|winter|morning|weekend|holidays?|christmas|easter))"
     rf"(?: o 'clock)?(?:$| {COMMA})"
 )
 _WITHIN = Expression(

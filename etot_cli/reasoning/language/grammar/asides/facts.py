@@ -33,6 +33,7 @@ from etot_cli.reasoning.language.grammar.asides.told_of_things import is_told_ap
 from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.known import OTHER_VERBS, VERB_WORDS, all_words
 from etot_cli.reasoning.language.words.lexicon import (
+    DESK_NOUNS,
     LEVELS,
     SIDES,
     STATES,
@@ -57,7 +58,7 @@ PAST = word_set(
     froze rose spoke stole tore woke wore ate drank bought brought made lost found saw slept spilt
     felt sent spent sold told taught thought understood forgot knew won met fed heard hid bit shook
     built used stuck swam threw wrote dropped slipped sat stood swore chose drew dreamt learnt lit
-    rode sang
+    rode sang rang rolled toppled slid
     """
 )
 """Irregular forms that are no nouns and no present tense."""
@@ -281,6 +282,10 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
     if any(map(is_name, did[on_terms:])):
         return False  # "I will be happy once the cup is on the tray"
     named = any(map(is_name, did))
+    if told.denied and then in ("sure", "certain", "know", "remember"):
+        # "I am not sure how Ann left the cabinet"
+        unsure = bool({"how", "whether", "if"} & {*more[1:2]}) and not {"to", "you"} & {*more}
+        return unsure and not _is_placed(more, is_name)
     if first in _HAVE:
         if _is_participle(then):
             return not is_asked_for(more[:1]) and then not in HOLDING_TRUE
@@ -303,7 +308,9 @@ def _is_done(told: _Doing, is_name: IsName) -> bool:
         return able and bool(then) and (bears or not asked)
     if is_past(first):
         return first not in HOLDING_TRUE
-    return _is_habit(told, first, then) and not _is_placed(more, is_name)
+    # "Everyone drips on the table" tells of no thing of the scene
+    things = any(is_name(word) and word not in DESK_NOUNS for word in more) or REFERRING & {*more}
+    return _is_habit(told, first, then) and not (things and _is_placed(more, is_name))
 
 
 def _is_complement(more: Sequence[str], is_name: IsName) -> bool:

@@ -111,7 +111,8 @@ _WISHED = rf"{_I} (?:want|need|like|would like|prefer)(?: to have)?"
 _DESK = rf"(?:{'|'.join(DESK_NOUNS)})"
 _TIDY_DESK = Expression(
     rf"(?:{_WISHED} (?:the|my|our) {_DESK} (?:to be )?{_TIDY}|{_WISHED} an? {_TIDY} {_DESK}"
-    rf"|(?:the|my|our) {_DESK} (?:should|must|has to|needs to) be {_TIDY})"
+    rf"|(?:the|my|our) {_DESK} (?:should|must|has to|needs to) "
+    rf"(?:be {_TIDY}|look (?:{_TIDY}|decent|nice|presentable|good|respectable)))"
 )
 
 

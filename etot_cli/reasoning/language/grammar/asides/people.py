@@ -5,7 +5,7 @@ from __future__ import annotations
 from etot_cli.reasoning.language.words.expressions import Expression
 
 _RELATIONS = (
-    "kids?|children|guests?|visitors?|boss|sister|brother|mother|mom|mum|father|dad|wife|husband|"
+    "kids?|children|guests?|visitors?|boss|sister|brother|mother|mom|mum|father|dad|wife|husband|hubby|"
     "friends?|colleagues?|students?|neighbou?rs?|team|cat|dog|baby|family|customers?|clients?|"
     "lads?|lass(?:es)?|kidd(?:y|ies|os?)|folks?|guys|girls|boys|chaps?|patients?|grand(?:ma|pa)|granny|grandad|uncle|aunt|cousin|niece|nephew|parents|toddler|grandchild(?:ren)?|lady|ladies|gentlem[ae]n|wom[ae]n|son|daughter|grand(?:mother|father|son|daughter)|flatmate|teacher|doctor|nurse|roommate"
 )
@@ -17,7 +17,7 @@ OWN = (
 PEOPLE = (
     r"(?:i|we|you|he|she|nobody|no one|somebody|someone|anybody|anyone|everybody|everyone|people"
     r"|guests|visitors|customers|friends|colleagues|students"
-    r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy"
+    r"|grand(?:ma|pa)|granny|grandad|nan|mum|mom|dad|mummy|mommy|daddy|hubby"
     r"|(?:mr|mrs|ms|dr|miss|prof|professor|aunt|auntie|uncle) \w+"
     rf"|(?:(?:my|our|your|his|her|the|an?|one|another) )"
     rf"(?:(?:old|little|young|elder|dear|poor|older|younger|first|next|last|new) )?"

@@ -50,6 +50,7 @@ _HOME = Expression(
 )
 _SO_NOTHING = Expression(
     r"^(?:(?:it|they) (?:stays?|keeps?|remains?) (?!open$|closed$|shut$|put$)\w+"
+    r"(?: from (?:the )?\w+(?: (?:and|or) \w+)?)?"
     r"|nothing (?:gets|can get|is|will be) (?:lost|broken|spilt|spilled|wet|dirty)"
     r"|(?:nobody|no one) [^~]+"
     r"|(?:it|they) (?:do|does|will|can|could|would) not (?:roll|fall|tip|spill|break|get|slip|slide"

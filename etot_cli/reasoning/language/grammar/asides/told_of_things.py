@@ -79,6 +79,8 @@ _NO_PLACE = Expression(
     r"(?:off|over|away|down|around|everywhere|out)(?: (?:again|easily|constantly))?$"
     rf"|^(?:is|are) (?:going|turning) (?:{TURNED})$"
     rf"|^{_NOT_STAYING}$"
+    r"|^(?:stick|jam|squeak|creak|rattle|wobble|leak|drip|stain|scratch|chip|crack|break)"
+    r"(?: (?:easily|badly|a (?:bit|little|lot)))?$"
     r"|^(?:is|are) not for \w+ing (?:things|stuff|anything|something) (?:in|on|into|onto|under)$"
     r"|^(?:must|should) (?:stay|keep|remain|be kept) (?:warm|cold|cool|fresh)$"
     r"|^(?:needs?|has|have) to (?:stay|keep|remain|be kept) "

@@ -45,5 +45,12 @@ SCENE_SETTING = (
         rf"(?:(?!\b{_ASKS}\b)[^.;:!?\n])*?)(?: on (?:it|top))?(?=[.;!]\s*\S)",
         _there,
     ),
+    # Where it is told that it is: "you are a household robot in front of a counter"
+    (
+        r"(^|[.;!] )(you are (?:the|an?|our) (?:[\w-]+ ){0,3}?(?:robot|assistant|helper|manipulator"
+        rf"|arm)),? (?:(?:standing|mounted|placed|working) )?(?:{_BEFORE} {_SURFACE}|in an? \w+)"
+        r"(?=[.;!]\s*\S)",
+        r"\1\2",
+    ),
 )
 """Rewritings, in order."""

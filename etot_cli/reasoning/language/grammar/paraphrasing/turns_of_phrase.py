@@ -20,6 +20,8 @@ _FINE = r"(?:fine|acceptable|ok|okay|all right|alright|no problem)"
 _KEPT = r"(?:(?:can |to )?(?:stays?|remains?|is|are|be)(?: (?:left|kept))?)"
 _LEFT = r"(?:hanging|standing|sitting|left|still|just)"
 _WELL = r"(?:warm|cold|cool|dry|fresh|clean|safe|crisp|hot)"
+_HARM = r"(?:the )?(?!(?:the|falling|it|them|being)\b)\w+(?: (?:and|or) \w+)?"
+_FROM = rf"(?: from {_HARM})?"
 _AFTERWARDS = (
     r"(?:afterwards|after that|(?:at|in) the end|(?:when|once|after) you are (?:done|finished)"
     r"|(?:when|once) you have finished)"
@@ -237,18 +239,34 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         rf"(?:put|lay|place|set|bring) (it|them) there{_END}",
         r"\1, so \3bring \4 to \2",
     ),
+    # "So in the tin it goes"
+    (
+        rf"(^|[.;!,] |\bso )((?:in|into|on|onto) {NAMED} (?:(?!that\b|which\b|and\b)\w+ ){{1,3}})"
+        rf"(it goes|they go|{NAMED} (?:\w+ )??\w+ goe?s?){_END}",
+        lambda said: f"{said[1]}{said[3]} {said[2].strip()}",
+    ),
     # A reason between two requests
     (
         rf"(,? so (?:that )?(?:it|they) (?:stays?|keeps?|remains?) {_WELL})(?= and (?:then )?\w+)",
         r"\1,",
     ),
-    # A reason ahead of a request
+    # A reason ahead of a request, or behind it
     (
-        rf"(^|[.;!] )(?:in order |so as )?to keep (it|them) ({_WELL}), {_ASKED_FOR}",
+        rf"\bto (?:protect|shield|guard|save) (it|them|{NAMED} (?:\w+ )??\w+) (?:against|from) "
+        rf"(?={_HARM}(?:[.,;!?]|$))",
+        r"to keep \1 safe from ",
+    ),
+    (
+        rf"(\b(?:{_PREPOSITIONS}|open|close|shut) {NAMED} (?:\w+ )??"
+        rf"(?!(?:is|are|has|needs?|have)\b)\w+),? to keep (it|them) ({_WELL}{_FROM}){_END}",
+        lambda said: f"{said[1]}, so that {_STAYS[said[2]]} {said[3]}",
+    ),
+    (
+        rf"(^|[.;!] )(?:in order |so as )?to keep (it|them) ({_WELL}{_FROM}), {_ASKED_FOR}",
         lambda said: f"{said[1]}{said[4]}, so that {_STAYS[said[2]]} {said[3]}",
     ),
     (
-        rf"(^|[.;!] )(?:in order |so as )?to keep ({NAMED} (?:\w+ )??\w+?(s?)) ({_WELL}), "
+        rf"(^|[.;!] )(?:in order |so as )?to keep ({NAMED} (?:\w+ )??\w+?(s?)) ({_WELL}{_FROM}), "
         rf"((?:please )?(?:put|place|store|move|set|leave) )?(it|them) {_ASKED_FOR}",
         lambda said: (
             f"{said[1]}{said[5] or ''}{said[2]} {said[7]}, so that {_STAYS[said[6]]} {said[4]}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from functools import lru_cache
 
@@ -142,10 +143,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
             # What stands before "the" is a verb, and no noun of the scene.
             verb = not words and plain[1:2] in known.BEFORE_NOUNS
             strange = not (singular(word) in _NOUNS or is_known(word, vocabulary))
-            meant = None
-            if strange and not verb:
-                meant = pet_form(word, spelled) or corrected(word, spelled)
-                meant = meant or shortened(word, spelled)
+            meant = _meant(word, spelled) if strange and not verb else None
             if common and meant is None and strange:
                 meant = exchanged(word, known.all_words()) or corrected(word, known.all_words())
             if meant is not None:
@@ -155,6 +153,26 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
     if common and not corrections:
         raise UnreadableError(text[:40], "", "no word of it is misspelt")
     return Read(tuple(sentences), tuple(corrections))
+
+
+def _meant(word: str, spelled: frozenset[str]) -> str | None:
+    """The word of the scene that a strange one is a slip of the pen for, or short for."""
+    return pet_form(word, spelled) or corrected(word, spelled) or shortened(word, spelled)
+
+
+def slips_in(text: str, vocabulary: frozenset[str]) -> dict[str, str]:
+    """Strange words of a normalized text, and the words of the scene that are meant by them; what
+    stands before "the" may be a verb.
+    """
+    spelled = vocabulary | {f"{word}s" for word in vocabulary}
+    strange = (
+        word
+        for word in dict.fromkeys(
+            re.findall(r"\b[a-z]+\b(?! (?:the|my|our|an?|all|both|it|them)\b)", text)
+        )
+        if not (singular(word) in _NOUNS or is_known(word, vocabulary))
+    )
+    return {word: meant for word in strange if (meant := _meant(word, spelled))}
 
 
 def _asked(
