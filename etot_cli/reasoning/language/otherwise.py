@@ -89,7 +89,8 @@ _DEPENDING = word_set(
     "initial original initially starting present previous yesterday old so far example "
     "optional maybe perhaps alternatively "
     "go goes belong belongs stay stays remain remains reverse reversed cancel cancelled canceled "
-    "undo void rejected completed finished done"
+    "undo void rejected completed finished done skip skipped postponed deferred obsolete omitted "
+    "mistake mistakes error errors else"
 )
 """A heading with such a word says something of what stands below it."""
 _REFERRING = word_set(

@@ -60,6 +60,13 @@ _BY_THEN = Expression(rf"(?: {COMMA})? (?:by|before) then$")
 """All is done by any time that was told."""
 IsSentence = Callable[[str], bool]
 """Whether the grammar reads a sentence."""
+_OFF = word_set("cancelled canceled skipped forbidden prohibited banned postponed deferred undone")
+"""Of tasks, or of what is listed below, it takes them back."""
+_ANNOUNCING = word_set(
+    "this these following else mistake mistakes error errors task tasks step steps action "
+    "actions job jobs item items"
+)
+"""Before a colon it says something of what stands behind that, which is no remark beside it."""
 _MYSELF = word_set("myself ourselves himself herself themselves")
 _SWEEPING = word_set("everything all both each every rest other others")
 _OF_SEVERAL = word_set("they them those these")
@@ -212,7 +219,10 @@ def _as_told(aside: Clause, part: _Parted) -> str:
 
 def _parted(sentence: str, is_name: IsName, is_sentence: IsSentence) -> _Parted:
     """A sentence and its asides."""
-    said = (word for word in words_in(sentence) if word != QUESTION)
+    said = [word for word in words_in(sentence) if word != QUESTION]
+    ahead = said[: said.index(COLON)] if COLON in said else []
+    if _OFF & {*said} or _ANNOUNCING & {*ahead} or ahead[:1] == ["what"]:
+        return _Parted(sentence)
     told = clauses_of(" ".join(said).replace(COLON, COMMA))
     clauses = list(circumstances_apart(told, is_name))
     if (QUESTION in sentence and is_wondering(sentence)) or (
