@@ -147,6 +147,8 @@ class Meanings(LentNouns):
             things = discourse.things(*indices)
             options = tuple((thing,) for thing in things)
             return Resolved(options, noun=noun, again=True)
+        if phrase.pronoun and (found := self._put_there(phrase, role)) is not None:
+            return found
         if phrase.pronoun:  # "those on the desk"
             noun = discourse.last_noun(role) or "object"
             spoken = phrase.pronoun in ("it", "them", "they")
@@ -205,6 +207,42 @@ class Meanings(LentNouns):
         # No drawer bears anything: "on the drawer" is on top of what is called so as a whole.
         upon = role is Role.SURFACE and self.resolver.is_called(resolved.noun)
         return of_spoken_owner(spoken_part(resolved, discourse, own_name=upon), discourse)
+
+    def _put_there(self, phrase: NounPhrase, role: Role) -> Resolved | None:
+        """What was put where it is taken from now ("put the pen in the cup, then take it out of the
+        cup"), be there another one at the start; else None.
+
+        Raises:
+            AmbiguousReference: it was put elsewhere.
+        """
+        discourse = self.discourse
+        told = [item for item in phrase.modifiers if item.prep is Prep.FROM and not item.denied]
+        if len(told) != 1 or phrase.modifiers[1:] or phrase.pronoun not in ("it", "them"):
+            return None
+        (said,) = told[0].phrases
+        named = self.pronoun_things(said) if said.pronoun else None
+        ways = self.meaning(said, Role.ANY).options if named is None else named
+        around = {thing.address for thing in things_in(ways)}
+        places = {
+            index: [at for t in discourse.things(index) for at in discourse.placed.get(t, ())]
+            for index in dict.fromkeys(mention.referent for mention in discourse.mentions)
+            if index in discourse.put
+        }
+        there = {
+            index
+            for index, referent in enumerate(discourse.referents)
+            if {thing.address for thing in things_in(referent.options)} & around
+        }
+        inner = [i for i, ats in places.items() if ats and all(p and p.where in there for p in ats)]
+        if inner:
+            meant = inner if phrase.pronoun == "them" else inner[-1:]
+            things = discourse.things(*meant)
+            noun, several = discourse.last_noun(role) or "", len(things) > 1
+            return Resolved((things,), noun=noun, again=True, every=several)
+        used = {i for ats in places.values() for at in ats if at for i in at.referents()}
+        if places and discourse.mentions[-1].referent in {*places, *used, *there}:
+            raise AmbiguousReference(phrase.text, ["what was put elsewhere", "what is there"])
+        return None
 
     def _told_otherwise(self, phrase: NounPhrase, role: Role) -> Resolved:
         """What "the other battery, the one in the drawer" is told by, of several batteries, or "the
