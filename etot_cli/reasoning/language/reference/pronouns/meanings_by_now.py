@@ -57,7 +57,7 @@ class MeaningsByNow(Meanings):
         with suppress(ReferenceProblem):
             resolved = self.meaning(phrase, role)
         if not fitting.every or len(fitting.options) != 1:
-            return self.meaning(phrase, role)
+            return self._one_by_now(phrase, plain, role)
         there = resolved.options[0] if resolved is not fitting else ()
         np = item.phrases[0]
         ways = self.pronoun_things(np) if np.pronoun else self.meaning(np, Role.ANY).options
@@ -79,6 +79,26 @@ class MeaningsByNow(Meanings):
         if not found and there:
             raise NothingThere(phrase.text, "it has been moved away by then", 2)
         return replace(resolved, options=tuple(found)) if found else self.meaning(phrase, role)
+
+    def _one_by_now(self, phrase: NounPhrase, plain: NounPhrase, role: Role) -> Resolved:
+        """The one thing that is somewhere by now, where others have been put there, or it away.
+
+        Raises:
+            AmbiguousReference: several are there by now, or none is.
+        """
+        resolved = self.meaning(phrase, role)
+        quantity = quantity_of(plain.determiner)
+        single = quantity.definite and quantity.count in (None, 1) and not quantity.other
+        if not single or len(resolved.options) != 1 or len(resolved.options[0]) != 1:
+            return resolved
+        now: tuple[Thing, ...] = ()
+        with suppress(ReferenceProblem):
+            now = things_in(self.by_now(replace(plain, determiner="all"), role).options)
+        if not now or {*now} == {*resolved.options[0]}:
+            return resolved
+        if len(now) > 1:
+            raise AmbiguousReference(phrase.text, [thing.name for thing in now])
+        return replace(resolved, options=(now,))
 
     def _empty(self, phrase: NounPhrase, role: Role) -> Resolved | None:
         """What is empty or full, where that is no more what it was at the start; else None.
@@ -109,7 +129,8 @@ class MeaningsByNow(Meanings):
         return Resolved(((fitting[0],),), definite=True, noun=called.noun, notes=(note,))
 
     def _open(self, phrase: NounPhrase, role: Role) -> Resolved | None:
-        """All that is open, where that is no more what it was at the start; else None.
+        """All that is open, or the one place that is, where that is no more what it was at the
+        start; else None.
 
         Raises:
             ReferenceProblem: there are more of them, or fewer.
@@ -120,7 +141,9 @@ class MeaningsByNow(Meanings):
         said = {STATES.get(word, "") for word in words} & {"open", "closed"}
         quantity = quantity_of(phrase.determiner)
         plural = quantity.every or singular(phrase.head) != phrase.head
-        if len(said) != 1 or not (plural and self.discourse.turned and role is Role.PART):
+        # "Close the open drawer and open the closed one" speaks of how they are at the start.
+        asked = role is Role.PART if plural else role is not Role.PART and quantity.definite
+        if len(said) != 1 or not (self.discourse.turned and asked) or quantity.other:
             return None
         rest = tuple(word for word in phrase.words if STATES.get(word) not in said)
         told = tuple(m for m in phrase.modifiers if m not in states)
@@ -135,7 +158,9 @@ class MeaningsByNow(Meanings):
             thing for thing in things if state_holds("open", thing, self.scene) == wanted
         }:
             return None
-        if not wanted:
+        if not plural and len(now) == 1:
+            return replace(called, options=(now,), definite=True, every=False)
+        if not (wanted and plural):
             raise AmbiguousReference(phrase.text, [thing.address for thing in things])
         if quantity.count not in (None, len(now)) or not now:
             raise ReferenceProblem(phrase.text, f"{len(now)} are so by then", 2)
