@@ -57,6 +57,9 @@ class MeaningsByNow(Meanings):
         with suppress(ReferenceProblem):
             resolved = self.meaning(phrase, role)
         if not fitting.every or len(fitting.options) != 1:
+            moved = {*things_in(fitting.options)} & {*self.discourse.placed}
+            if not moved or plain.pronoun or role is Role.ANY:
+                return self.meaning(phrase, role)
             return self._one_by_now(phrase, plain, role)
         there = resolved.options[0] if resolved is not fitting else ()
         np = item.phrases[0]
@@ -88,7 +91,7 @@ class MeaningsByNow(Meanings):
         """
         resolved = self.meaning(phrase, role)
         quantity = quantity_of(plain.determiner)
-        single = quantity.definite and quantity.count in (None, 1) and not quantity.other
+        single = quantity.definite and quantity.count in (None, 1) and not quantity.every
         if not single or len(resolved.options) != 1 or len(resolved.options[0]) != 1:
             return resolved
         now: tuple[Thing, ...] = ()
