@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from etot_cli.reasoning.builtin.goal import Thing, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.geometry import space
 from etot_cli.reasoning.language.reference.memory.antecedents import (
     AmbiguousReference,
@@ -43,6 +43,8 @@ class MeaningsByNow(Meanings):
             return changed
         if (changed := self._open(plain, role)) is not None:
             return changed
+        for modifier in plain.modifiers if role is not Role.ANY else ():
+            self._check_beside(phrase, modifier, role)
         held = [m for m in plain.modifiers if m.prep in (Prep.ON, Prep.IN, Prep.FROM)]
         item = held[0] if len(held) == 1 else None
         now = item is not None and not item.denied and HERE_BEFORE not in item.words
@@ -102,6 +104,27 @@ class MeaningsByNow(Meanings):
         if len(now) > 1:
             raise AmbiguousReference(phrase.text, [thing.name for thing in now])
         return replace(resolved, options=(now,))
+
+    def _check_beside(self, phrase: NounPhrase, modifier: Modifier, role: Role) -> None:
+        """Whether a thing that is told by what it is beside may be one that was put there.
+
+        Raises:
+            AmbiguousReference: it may.
+        """
+        came = {
+            thing: near.landmarks
+            for thing, places in self.discourse.placed.items()
+            for place in places
+            for near in (place.beside if place else ())
+            if near.relation.name == modifier.prep.name and not near.denied
+        }
+        if not came or modifier.denied:
+            return
+        ways = [t for np in modifier.phrases for t in things_in(self.meaning(np, Role.ANY).options)]
+        there = [t for t, marks in came.items() if {*ways} & {*self.discourse.things(*marks)}]
+        found = things_in(self.meaning(phrase, role).options) if there else ()
+        if {*there} - {*found}:
+            raise AmbiguousReference(phrase.text, [thing.name for thing in (*found, *there)])
 
     def _empty(self, phrase: NounPhrase, role: Role) -> Resolved | None:
         """What is empty or full, where that is no more what it was at the start; else None.
