@@ -162,7 +162,11 @@ class MeaningsByNow(Meanings):
             ReferenceProblem: there are more of them, or fewer.
             AmbiguousReference: what is closed by now may be meant, or what was so at the start.
         """
-        states = [m for m in phrase.modifiers if m.prep is Prep.QUALITY and not m.denied]
+        states = [
+            m
+            for m in phrase.modifiers
+            if m.prep is Prep.QUALITY and {*map(STATES.get, m.words)} & {"open", "closed"}
+        ]
         words = (*phrase.words, *(word for m in states for word in m.words))
         said = {STATES.get(word, "") for word in words} & {"open", "closed"}
         quantity = quantity_of(phrase.determiner)
@@ -178,7 +182,8 @@ class MeaningsByNow(Meanings):
             every = replace(phrase, words=rest, modifiers=told, determiner="all")
             called = self.meaning(every, role)
         things = things_in(called.options) if called else ()
-        wanted = said == {"open"}
+        denied = any(m.denied for m in states)
+        wanted = (said == {"open"}) != denied
         now = tuple(thing for thing in things if open_by_now(thing, self.discourse) == wanted)
         if called is None or {*now} == {
             thing for thing in things if state_holds("open", thing, self.scene) == wanted
