@@ -37,7 +37,7 @@ RUN_BY_CI = {
     "calibrate": "it simulates for minutes",
     "check-tasks": "it simulates for minutes",
     "check-random": "it plans for minutes",
-    "check-reading": "it reads for minutes, and a fourth of it is read here",
+    "check-reading": "it reads for minutes, and an eighth of it is read here",
     "check-execute": "it executes for an hour",
     "check-reconstruct": "it renders and fits for minutes",
     "schemas": "tests/reporting compares the schemas with the models",

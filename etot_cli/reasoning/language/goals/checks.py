@@ -10,16 +10,7 @@ from dataclasses import replace
 
 from msgspec import structs
 
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Goal,
-    Keep,
-    Pick,
-    Put,
-    Relation,
-    Thing,
-    things_in,
-)
+from etot_cli.reasoning.builtin.goal import Close, Goal, Keep, Pick, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.context import InTheWay

@@ -89,17 +89,21 @@ class MeaningsByNow(Meanings):
         """The one thing that is somewhere by now, where others have been put there, or it away.
 
         Raises:
-            AmbiguousReference: several are there by now, or none is.
+            AmbiguousReference: several are there by now.
+            NothingThere: it has been moved away.
         """
         resolved = self.meaning(phrase, role)
         quantity = quantity_of(plain.determiner)
         single = quantity.definite and quantity.count in (None, 1) and not quantity.every
         if not single or len(resolved.options) != 1 or len(resolved.options[0]) != 1:
             return resolved
-        now: tuple[Thing, ...] = ()
-        with suppress(ReferenceProblem):
+        try:
             now = things_in(self.by_now(replace(plain, determiner="all"), role).options)
-        if not now or {*now} == {*resolved.options[0]}:
+        except NothingThere:
+            raise
+        except ReferenceProblem:
+            return resolved
+        if {*now} == {*resolved.options[0]}:
             return resolved
         if len(now) > 1:
             raise AmbiguousReference(phrase.text, [thing.name for thing in now])
@@ -121,9 +125,13 @@ class MeaningsByNow(Meanings):
         if not came or modifier.denied:
             return
         ways = [t for np in modifier.phrases for t in things_in(self.meaning(np, Role.ANY).options)]
-        there = [t for t, marks in came.items() if {*ways} & {*self.discourse.things(*marks)}]
-        found = things_in(self.meaning(phrase, role).options) if there else ()
-        if {*there} - {*found}:
+        there = {t for t, marks in came.items() if {*ways} & {*self.discourse.things(*marks)}}
+        if not there:
+            return
+        every = replace(phrase.without_modifier(modifier), determiner="all")
+        there &= {*things_in(self.meaning(every, role).options)}
+        found = things_in(self.meaning(phrase, role).options)
+        if there - {*found}:
             raise AmbiguousReference(phrase.text, [thing.name for thing in (*found, *there)])
 
     def _empty(self, phrase: NounPhrase, role: Role) -> Resolved | None:
