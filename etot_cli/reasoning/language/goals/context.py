@@ -100,9 +100,9 @@ class Context:
         self.sentence = ""
         """The text of the sentence that is being read."""
 
-    def single(self, thing: Thing, text: str) -> int:
-        """A referent for one thing."""
-        alone = Resolved(((thing,),), definite=True, noun=thing.name)
+    def single(self, thing: Thing, text: str, noun: str = "") -> int:
+        """A referent for one thing, for which "one" may stand by its name or another noun."""
+        alone = Resolved(((thing,),), definite=True, noun=noun or thing.name)
         return self.discourse.add(alone, text, Role.THEME)
 
     def tell_others(self, things: Things, destinations: Sequence[Destination]) -> None:

@@ -10,6 +10,7 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, SwapClause
 from etot_cli.reasoning.language.reference.geometry.space import carries, rests_on
+from etot_cli.reasoning.language.words.lexicon import singular
 
 
 def _placed(context: Context, clause: PutClause, goal: Mapping[Thing, Place], text: str) -> None:
@@ -72,7 +73,9 @@ def swap(context: Context, clause: SwapClause) -> None:
         if homes[0].relation is not Relation.ON:
             raise ReferenceProblem(text, "they are in the same place", 2)
         homes = [context.spot(thing, place) for thing, place in zip(things, homes, strict=True)]
-    first, second = (context.single(thing, thing.name) for thing in things)
+    discourse = context.discourse
+    called = {t: m.noun for m in discourse.mentions for t in discourse.things(m.referent)}
+    first, second = (context.single(t, t.name, singular(called[t])) for t in things)
     context.steps += [
         Put((first,), (context.places.on_the_desk(),), aside=True),
         Put((second,), (homes[0],)),

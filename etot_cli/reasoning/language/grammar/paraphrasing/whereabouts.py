@@ -79,6 +79,13 @@ def _back_there(said: re.Match[str]) -> str:
 
 
 WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    # "The pot that is leftmost after that" tells which one, and not when
+    (
+        r"\b(that|which) (?:is|will be) (?:then )?((?:(?:on|in) the )?\w+) "
+        r"(?:after that|afterwards|by then|then)(?=[.,;!]|$| (?:and|in|on|into|onto|to)\b)",
+        r"\1 is now \2",
+    ),
+    (r"\b(that|which) (?:is|will be) (?:by )?then\b", r"\1 is now"),
     (
         rf"(^|[.;!] ){_TOOK} (?P<what>{NAMED} [^.,;:!?]*?) (?P<off>out of|from|off)(?: of)? "
         rf"(?P<place>{NAMED} (?:\w+ ){{0,2}}?\w+?){_A_WHILE_AGO}(?:[.;,!] | and |, so )"

@@ -95,6 +95,10 @@ class Resolver:
         self._known: dict[tuple[object, ...], Resolved | ReferenceProblem] = {}
         """What phrases without pronouns mean: readings of one sentence share most of them."""
 
+    def about(self, scene: SceneState) -> Resolver:
+        """The same for a scene in which the same things are elsewhere."""
+        return Resolver(scene, self._vocabulary)
+
     def colors_of(self, thing: Thing) -> frozenset[str]:
         """The basic colours that a thing is called by, or the one that it has."""
         entry = self._vocabulary.entries().get(thing)

@@ -6,11 +6,14 @@ from msgspec import Struct
 
 from etot_cli.reasoning.builtin.goal import Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase
+from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.memory.antecedents import Mention
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.lexicon import OF_TWO, ORDINALS, same_noun
+from etot_cli.reasoning.language.words.places import Prep
 
+_FROM = Expression(r"\bfrom (?:the )?(left|right|front|back|top|bottom|above|below)\b")
 _MOVED = (Role.THEME, Role.PART)
 
 
@@ -64,6 +67,22 @@ def in_turn(phrase: NounPhrase, role: Role, discourse: Discourse) -> InTurn | No
     index = ORDINALS[number]
     meant = named[index] if index < len(named) else None
     return InTurn(meant, named, sure=not nouns and named == together)
+
+
+def counted_likewise(phrase: NounPhrase, discourse: Discourse) -> NounPhrase:
+    """A number counts from the side that another one was counted from before it ("the second cup
+    from the right on the first").
+    """
+    number, *nouns = phrase.words or ("",)
+    if number not in ORDINALS or phrase.modifiers or nouns[1:]:
+        return phrase
+    for mention in reversed(discourse.mentions):
+        alike = not nouns or nouns == ["one"] or same_noun(nouns[0], mention.noun)
+        if alike and {*mention.adjectives} & {*ORDINALS}:
+            side = _FROM.search(discourse.referents[mention.referent].text)
+            told = Modifier(Prep.SIDE, words=("from", side[1])) if side else None
+            return phrase.told_by(told) if told else phrase
+    return phrase
 
 
 def _named_together(mentions: list[Mention], discourse: Discourse) -> tuple[Thing, ...]:

@@ -20,7 +20,7 @@ from etot_cli.reasoning.language.reference.pronouns.coreference import (
     PLURAL_PRONOUNS,
     antecedents,
 )
-from etot_cli.reasoning.language.reference.pronouns.in_turn import in_turn
+from etot_cli.reasoning.language.reference.pronouns.in_turn import counted_likewise, in_turn
 from etot_cli.reasoning.language.reference.pronouns.lent_nouns import LentNouns
 from etot_cli.reasoning.language.reference.pronouns.narrowing import (
     as_rest,
@@ -85,6 +85,7 @@ class Meanings(LentNouns):
         Raises:
             AmbiguousReference: it may be counted in space as well.
         """
+        phrase = counted_likewise(phrase, self.discourse)
         turn = in_turn(phrase, role, self.discourse)
         if turn is None:
             return self._told_by_words(phrase, role)

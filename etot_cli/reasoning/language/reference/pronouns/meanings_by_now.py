@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from copy import copy
+from itertools import chain
 
 from msgspec.structs import replace
 
@@ -20,24 +22,74 @@ from etot_cli.reasoning.language.reference.memory.by_now import (
     open_by_now,
     there_by_now,
 )
+from etot_cli.reasoning.language.reference.memory.rearranged import exchanged
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
 from etot_cli.reasoning.language.reference.naming.usual_form import usual_form
 from etot_cli.reasoning.language.reference.pronouns.meanings import Meanings
-from etot_cli.reasoning.language.words.lexicon import STATES, singular
+from etot_cli.reasoning.language.words.expressions import Expression
+from etot_cli.reasoning.language.words.lexicon import SIDES, STATES, singular
 from etot_cli.reasoning.language.words.places import Prep
+
+_BY_NOW = Expression(r"\b(?:(?:by |right )?now|by then|then|after that|afterwards)\b")
 
 
 class MeaningsByNow(Meanings):
     """Resolves phrases, of which some say how things are by now."""
 
     def by_now(self, phrase: NounPhrase, role: Role) -> Resolved:
-        """What a phrase means; all that is somewhere is what is there by now.
+        """What a phrase means; all that is somewhere is what is there by now, and of things that
+        have taken each other's place the left one is the one that is left then.
 
         Raises:
             NothingThere: it has all been moved away.
+            AmbiguousReference: it may mean how things were, or are by now.
         """
+        scene = exchanged(self.discourse) if role is not Role.ANY else None
+        if scene is None:
+            return self._as_at_the_start(phrase, self._there_by_now(phrase, role), role)
+        before: Resolved | None = None
+        with suppress(ReferenceProblem):
+            before = self._there_by_now(phrase, role)
+        after = copy(self)
+        after.scene, after.resolver = scene, self.resolver.about(scene)
+        resolved = after._there_by_now(phrase, role)
+        meant = things_in(resolved.options)
+        if before is None or {*meant} == (was := {*things_in(before.options)}):
+            return resolved
+        told = {*phrase.text.split()} - {*phrase.determiner.split(), resolved.noun, "one", "ones"}
+        spoken = {mention.referent for mention in self.discourse.mentions}
+        said = (self.discourse.referents[index].text.split() for index in spoken)
+        now = _BY_NOW.search(phrase.text)
+        if not now and told.intersection(chain.from_iterable(said)):
+            raise AmbiguousReference(phrase.text, [thing.address for thing in (*was, *meant)])
+        note = f"{phrase.text!r}: {' and '.join(thing.address for thing in meant)} by then"
+        return replace(resolved, notes=(*resolved.notes, note))
+
+    def _as_at_the_start(self, phrase: NounPhrase, resolved: Resolved, role: Role) -> Resolved:
+        """What is told by the side that it is on, which is where it was at the start; that is noted
+        where all of them have been moved ("put both cups on the tray and the nut in the left one").
+
+        Raises:
+            ReferenceProblem: it is told by where it is by now, which nobody knows.
+        """
+        plain, placed = usual_form(phrase), self.discourse.placed.keys()
+        told = {*plain.words, *(word for item in plain.modifiers for word in item.words)}
+        if not placed or not told & SIDES.keys():
+            return resolved
+        meant, alike = things_in(resolved.options), set[Thing]()
+        with suppress(ReferenceProblem):
+            every = NounPhrase("all", words=(resolved.noun,), text=resolved.noun)
+            alike = {*things_in(self.meaning(every, role).options)} - {*meant}
+        if _BY_NOW.search(phrase.text) and placed & {*meant, *alike}:
+            raise ReferenceProblem(phrase.text, "where that is by then is not known; name it", 3)
+        if alike and placed >= {*meant, *alike}:
+            note = f"{phrase.text!r}: {' and '.join(t.address for t in meant)}, as at the start"
+            return replace(resolved, notes=(*resolved.notes, note))
+        return resolved
+
+    def _there_by_now(self, phrase: NounPhrase, role: Role) -> Resolved:
         plain = usual_form(phrase)
         if (changed := self._empty(plain, role)) is not None:
             return changed
