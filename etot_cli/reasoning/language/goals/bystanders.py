@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 
-from etot_cli.reasoning.builtin.goal import Place, things_in
+from etot_cli.reasoning.builtin.goal import Place, Relation, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.choosing import choose_by_place
@@ -46,6 +46,8 @@ def place_bystanders(
         with suppress(AmbiguousReference):
             places = context.places.of(condition.destinations, subjects)
         along = {index for place in places for index in place.referents()} & set(themes)
+        if not along:
+            _check_holders(context, condition, themes, places)
         elsewhere = not along and _goes_elsewhere(context, condition, subjects, places, places_of)
         crowd = subjects[1:] and any(place.beside for place in places)
         if crowd or not (along or elsewhere):
@@ -60,6 +62,25 @@ def place_bystanders(
         places = with_stance(context, subjects, places, stance)
     for subject in subjects:
         places_of[subject] = places
+
+
+def _check_holders(
+    context: Context, condition: State, themes: Sequence[int], places: Sequence[Place]
+) -> None:
+    """Whether it is clear what "inside" is, behind several things that hold others.
+
+    Raises:
+        AmbiguousReference: one of them may be meant as well as where they go.
+    """
+    unsaid = all(np.pronoun for item in condition.destinations for np in item.targets)
+    roles = {Relation.INSIDE: Role.CONTAINER, Relation.ON: Role.SURFACE}
+    holders = [
+        thing.address
+        for thing in context.discourse.things(*themes)
+        if any(can_be(thing, roles[place.relation], context.scene) for place in places)
+    ]
+    if unsaid and len(context.discourse.things(*themes)) > 1 and holders:
+        raise AmbiguousReference("in or on it", holders)
 
 
 def _goes_elsewhere(

@@ -28,6 +28,7 @@ from etot_cli.reasoning.language.grammar.phrases.noun_phrases import NP_LIST, TH
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING
 from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    TOP,
     Destination,
     NounPhrase,
     Things,
@@ -41,6 +42,12 @@ def _undisturbed(things: Things) -> AvoidClause | None:
     """What is not to be moved; "without pushing it off the desk" says where it stays."""
     off = any(item.prep is Prep.FROM for np in things.phrases for item in np.modifiers)
     return None if off else AvoidClause(Avoid.MOVE, things)
+
+
+def _not_brought(things: Things, where: tuple[Destination, ...]) -> AvoidClause | None:
+    """Where things are not to be moved; "without moving the cup on top of it" is about that cup."""
+    on_top = any(destination.word == TOP for destination in where)
+    return None if on_top else AvoidClause(Avoid.PUT, things, where)
 
 
 def _left_stacked(things: Things) -> AvoidClause | None:
@@ -172,7 +179,7 @@ FORBIDDEN = either(
         DESTINATIONS,
         build=lambda things, where: AvoidClause(Avoid.PUT, things, where, not_left=True),
     ),
-    sequence(phrase(verbs.SHIFT, Avoid.PUT), THINGS, DIRECTED, build=AvoidClause),
+    sequence(verbs.SHIFT, THINGS, DIRECTED, build=_not_brought),
     sequence(f"{verbs.UNSTACK}, {verbs.DISMANTLE}", THINGS, build=_left_stacked),
     sequence("tak(e|ing), pull[ing]", THINGS, "apart", build=_left_stacked),
     sequence(verbs.USE, NP_LIST, optional(sequence("for", THINGS), None), build=_unused),

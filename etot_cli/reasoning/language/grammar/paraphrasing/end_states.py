@@ -131,7 +131,22 @@ def _as_condition(said: re.Match[str]) -> str:
 
 
 _ANYTHING = rf"{_SOME}|it|they|there|(?:any|some|no)(?:thing| \w+)"
+_SOME_OF = r"((?:an?|one|two|three|four|some) (?:(?!of\b)\w+ ){0,2}?\w+)"
+
+
 END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Both bowls on the tray, each with a nut inside", "with a nut in each"
+    *(
+        (
+            rf",? (?:and )?{said}(?: of (?:them|these))?(?=[.,;!]|$| (?:and|then)\b)",
+            rf", \1 {where} each of them",
+        )
+        for where, inside in (("in", "in(?:side)?"), ("on", "on(?: top)?(?: of)?"))
+        for said in (
+            rf"each (?:one )?with {_SOME_OF} {inside}(?: (?:it|them))?",
+            rf"with {_SOME_OF} {inside} each",
+        )
+    ),
     # "Only if the drawer is open should the cup go in it", "should it be open, close it"
     (
         rf"(\bonly if [^.,;:!?]*?),? (?:should|must|shall) ({_SOME}|it|they) (?=(?:{_BE})\b)",

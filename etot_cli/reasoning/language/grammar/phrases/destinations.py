@@ -85,6 +85,11 @@ def _toward(toward: Toward) -> Callable[[tuple[NounPhrase, ...]], Destination | 
     return build
 
 
+def _onto(said: str, targets: tuple[NounPhrase, ...]) -> Destination | None:
+    where = _toward(Toward.ON)(targets)
+    return replace(where, word=TOP) if where is not None and TOP in said else where
+
+
 def _upon(said: str, targets: tuple[NounPhrase, ...]) -> Destination | None:
     """On what things go; "on the way" tells when."""
     when = any(np.text == "the way" for np in targets)
@@ -286,7 +291,7 @@ DESTINATIONS = Rule(
 )
 _directed = either(
     sequence(places.INTO_DIRECTED, TARGETS, build=_toward(Toward.INSIDE)),
-    sequence(places.ONTO_DIRECTED, TARGETS, build=_toward(Toward.ON)),
+    sequence(phrase(places.ONTO_DIRECTED), TARGETS, build=_onto),
     _to,
     _free,
 )
