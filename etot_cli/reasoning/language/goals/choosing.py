@@ -12,14 +12,20 @@ from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup, RemoveClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Things
+from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL
+from etot_cli.reasoning.language.words.expressions import Expression
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.state import DESK
+from etot_cli.world.state import DESK, owner_of
 
+_ALONG = Expression(
+    r"\b(?:(?:together|along) with|contents"
+    r"|(?:what|whatever|everything|all|the \w+(?: \w+)?) (?:is |that is )?(?:in|on) (?:it|them))\b"
+)
+"""How what is said to go somewhere is told by what it is in or on, which goes there, too."""
 _LONGEST_DETERMINER = 3
 """Words that may say how many things are meant ("all of the cups", "the other two cups")."""
 
@@ -185,9 +191,10 @@ def tell_apart(
         )
 
 
-def without_riders(context: Context, themes: list[int]) -> list[int]:
-    """Things to be put somewhere, but for what was just put in or on another of them: it comes
-    along ("put the pear on the plate and both on the tray").
+def without_riders(context: Context, group: PutGroup, themes: list[int]) -> list[int]:
+    """Things to be put somewhere, but for what comes along with another of them: what was just put
+    in or on that ("put the pear on the plate and both on the tray"), and stays there, or what is
+    told by being there ("the bowl and what is in it on the shelf").
     """
     riders = {
         index
@@ -195,7 +202,27 @@ def without_riders(context: Context, themes: list[int]) -> list[int]:
         if isinstance(step, Put) and len(step.places) == 1 and step.places[0].where in themes
         for index in step.what
     }
+    named = any(np.words for np in group.things.phrases)
+    told = named and _ALONG.search(f"{context.sentence} ; {group.things.text}")
+    inside = any(item.toward is Toward.INSIDE for item in group.destinations)
+    things = {index: context.discourse.things(index) for index in themes}
+    for index in themes if told and not inside else ():
+        own = {item.name for i in themes if i != index for item in things[i]}
+        if own and all(owner_of(at) in own for t in things[index] for at in _holding(context, t)):
+            riders.add(index)
+            context.within += [
+                Put((context.single(thing, thing.name),), (context.home(thing),))
+                for thing in things[index]
+            ]
     return [index for index in themes if index not in riders]
+
+
+def _holding(context: Context, thing: Thing) -> tuple[str, ...]:
+    """What a thing is directly in or on at the start; itself where that is no more so."""
+    state = context.scene.states.get(thing.name)
+    if state is None or thing in context.discourse.placed:
+        return (thing.name,)
+    return (state.inside,) if state.inside else state.on
 
 
 def is_off_desk(context: Context, things: Things) -> bool:

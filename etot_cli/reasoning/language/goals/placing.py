@@ -210,15 +210,16 @@ def cover(context: Context, clause: CoverClause) -> None:
     if clause.cover is None:
         for index in themes:
             context.only(index, "say with what: 'cover … with …'")
+    covered = [i for np in clause.things.phrases for i in _covered(context, np, themes)]
     places = tuple(
         place
-        for phrase in clause.things.phrases
-        for index in _covered(context, phrase, themes)
+        for index in covered
         for place in in_or_on(context.discourse, Toward.ON, index, themes)
     )
     if any(place.relation is Relation.INSIDE for place in places):
         raise ReferenceProblem(lids.text, "it is no lid of that; say into or onto it", 3)
     add_put(context, themes, places, Grouping.ANY)
+    context.discourse.is_about(covered)
 
 
 def _covered(context: Context, phrase: NounPhrase, lids: Sequence[int]) -> tuple[int, ...]:

@@ -161,7 +161,7 @@ def put(
         away = [*context.places.no_themes(group.destinations), *never_there(context, group)]
         replaced = replaced_by(context, group)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
-        themes = without_riders(context, themes)
+        themes = without_riders(context, group, themes)
         if group.along and {*context.discourse.put} & {*themes}:
             raise ReferenceProblem(group.things.text, "it was put elsewhere; say where it goes", 3)
         tell_apart(context, group, before, themes)
