@@ -72,7 +72,9 @@ def _check_holders(
     Raises:
         AmbiguousReference: one of them may be meant as well as where they go.
     """
-    unsaid = all(np.pronoun for item in condition.destinations for np in item.targets)
+    where = condition.destinations
+    unsaid = all(np.pronoun for item in where for np in item.targets)
+    unsaid = unsaid and not any(item.beside for item in where)
     roles = {Relation.INSIDE: Role.CONTAINER, Relation.ON: Role.SURFACE}
     holders = [
         thing.address

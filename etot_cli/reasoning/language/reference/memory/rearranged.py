@@ -8,7 +8,7 @@ from itertools import combinations
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
 from etot_cli.reasoning.language.reference.geometry.space import below
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
-from etot_cli.world.state import ObjectState, SceneState
+from etot_cli.world.state import DESK, ObjectState, SceneState
 
 
 def exchanged(discourse: Discourse) -> SceneState | None:
@@ -48,4 +48,5 @@ def _is_where(thing: Thing, other: Thing, discourse: Discourse) -> bool:
         return state.inside in there
     points = [near.point for near in place.beside]
     (x, y, _) = state.position
-    return bool(there & {*state.on}) and points in ([], [(round(x, 3), round(y, 3))])
+    exactly = points == [(round(x, 3), round(y, 3))]
+    return bool(there & {*state.on}) and (exactly or not (points or DESK in there))

@@ -46,7 +46,7 @@ class MeaningsByNow(Meanings):
             NothingThere: it has all been moved away.
             AmbiguousReference: it may mean how things were, or are by now.
         """
-        scene = exchanged(self.discourse) if role is not Role.ANY else None
+        scene = exchanged(self.discourse)
         if scene is None:
             return self._as_at_the_start(phrase, self._there_by_now(phrase, role), role)
         before: Resolved | None = None
