@@ -154,7 +154,10 @@ class Understanding:
                 if further or at in named
             )
             _check_instead(spoken, self.context.last, room=room)
-            if isinstance(spoken.clause, MoveClause) and not spoken.clause.opens and ahead(spoken):
+            closing = isinstance(spoken.clause, MoveClause) and not spoken.clause.opens
+            told = isinstance(spoken.clause, EnsureClause)
+            told |= is_emptying(spoken.clause)
+            if (closing or told) and ahead(spoken):
                 # "Open the bottom drawer after closing the top one and put the pen inside"
                 self.context.discourse.step_back(said)
             last = self.context.last

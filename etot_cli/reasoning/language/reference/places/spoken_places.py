@@ -205,6 +205,8 @@ def places_here(discourse: Discourse, word: str, themes: Sequence[int]) -> tuple
             raise
     if word == "on top" and place in discourse.last_places:
         raise ReferenceProblem(word, "say on top of what", 2)  # of that, or of what is there
+    if word == "there" and place.where in discourse.lifted:
+        raise ReferenceProblem(word, "say where: in what is held, or where that was", 2)
     if relation is Relation.INSIDE or place.where is None:
         out = {thing for index in themes for thing in discourse.left_out.get(index, ())}
         if place.where is not None and out.issuperset(discourse.things(place.where)):

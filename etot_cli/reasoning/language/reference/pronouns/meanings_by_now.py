@@ -9,7 +9,7 @@ from itertools import chain
 from msgspec.structs import replace
 
 from etot_cli.reasoning.builtin.goal import Thing, things_in
-from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
 from etot_cli.reasoning.language.reference.geometry import space
@@ -187,32 +187,39 @@ class MeaningsByNow(Meanings):
             raise AmbiguousReference(phrase.text, [thing.name for thing in (*found, *there)])
 
     def _empty(self, phrase: NounPhrase, role: Role) -> Resolved | None:
-        """What is empty or full, where that is no more what it was at the start; else None.
+        """What is empty or full, where that is no more what it was at the start; else None. "The
+        empty one" is one of the vessels that were spoken of, where there are several.
 
         Raises:
             AmbiguousReference: several are, or none is.
         """
-        said = [word for word in phrase.words if STATES.get(word) in ("empty", "full")]
-        if not said or not self.discourse.placed:
+        told = _told_by_state(phrase, "empty", "full")
+        if told is None or phrase.pronoun or not self.discourse.placed:
             return None
-        rest = tuple(word for word in phrase.words if word not in said)
-        noun = self.discourse.last_noun(role) or "object"
-        rest = (noun,) if rest in ((), ("one",), ("ones",)) else rest
-        called: Resolved | None = None
-        with suppress(ReferenceProblem):
-            called = self.meaning(replace(phrase, words=rest, determiner="all"), role)
-        things = [t for t in things_in(called.options) if t == Thing(t.name)] if called else []
+        wanted, rest = told
+        things, noun = self._vessels_spoken_of(), ""
+        if rest.words not in ((), ("one",), ("ones",)) or len(things) < 2:
+            if rest.words in ((), ("one",), ("ones",)):
+                rest = replace(rest, words=(self.discourse.last_noun(role) or "object",))
+            with suppress(ReferenceProblem):
+                called = self.meaning(replace(rest, determiner="all"), role)
+                things, noun = things_in(called.options), called.noun
+        things = tuple(thing for thing in things if thing == Thing(thing.name))
         empty = [thing for thing in things if is_empty_by_now(thing, self.discourse)]
-        if called is None or {*empty} == {
-            thing for thing in things if state_holds("empty", thing, self.scene)
-        }:
+        if {*empty} == {thing for thing in things if state_holds("empty", thing, self.scene)}:
             return None
-        wanted = STATES[said[0]] == "empty"
         fitting = [thing for thing in things if (thing in empty) == wanted]
         if len(fitting) != 1:
             raise AmbiguousReference(phrase.text, [thing.address for thing in things])
         note = f"{phrase.text!r}: {fitting[0].address} by then"
-        return Resolved(((fitting[0],),), definite=True, noun=called.noun, notes=(note,))
+        noun = noun or self.discourse.noun_of(fitting[0])
+        return Resolved(((fitting[0],),), definite=True, noun=noun, notes=(note,))
+
+    def _vessels_spoken_of(self) -> tuple[Thing, ...]:
+        """Vessels that were spoken of, each by itself or with others."""
+        spoken = dict.fromkeys(mention.referent for mention in self.discourse.mentions)
+        things = self.discourse.things(*spoken)
+        return tuple(thing for thing in things if can_be(thing, Role.CONTAINER, self.scene))
 
     def _open(self, phrase: NounPhrase, role: Role) -> Resolved | None:
         """All that is open, or the one place that is, where that is no more what it was at the
@@ -222,28 +229,18 @@ class MeaningsByNow(Meanings):
             ReferenceProblem: there are more of them, or fewer.
             AmbiguousReference: what is closed by now may be meant, or what was so at the start.
         """
-        states = [
-            m
-            for m in phrase.modifiers
-            if m.prep is Prep.QUALITY and {*map(STATES.get, m.words)} & {"open", "closed"}
-        ]
-        words = (*phrase.words, *(word for m in states for word in m.words))
-        said = {STATES.get(word, "") for word in words} & {"open", "closed"}
+        told = _told_by_state(phrase, "open", "closed")
         quantity = quantity_of(phrase.determiner)
         plural = quantity.every or singular(phrase.head) != phrase.head
         # "Close the open drawer and open the closed one" speaks of how they are at the start.
         asked = role is Role.PART if plural else role is not Role.PART and quantity.definite
-        if len(said) != 1 or not (self.discourse.turned and asked) or quantity.other:
+        if told is None or not (self.discourse.turned and asked) or quantity.other:
             return None
-        rest = tuple(word for word in phrase.words if STATES.get(word) not in said)
-        told = tuple(m for m in phrase.modifiers if m not in states)
+        wanted, rest = told
         called: Resolved | None = None
         with suppress(ReferenceProblem):
-            every = replace(phrase, words=rest, modifiers=told, determiner="all")
-            called = self.meaning(every, role)
+            called = self.meaning(replace(rest, determiner="all"), role)
         things = things_in(called.options) if called else ()
-        denied = any(m.denied for m in states)
-        wanted = (said == {"open"}) != denied
         now = tuple(thing for thing in things if open_by_now(thing, self.discourse) == wanted)
         if called is None or {*now} == {
             thing for thing in things if state_holds("open", thing, self.scene) == wanted
@@ -256,3 +253,20 @@ class MeaningsByNow(Meanings):
         if quantity.count not in (None, len(now)) or not now:
             raise ReferenceProblem(phrase.text, f"{len(now)} are so by then", 2)
         return replace(called, options=(now,))
+
+
+def _told_by_state(phrase: NounPhrase, state: str, other: str) -> tuple[bool, NounPhrase] | None:
+    """Whether something is told by a state or by the opposite one, and the phrase without that."""
+    states = [
+        item
+        for item in phrase.modifiers
+        if item.prep is Prep.QUALITY and {*map(STATES.get, item.words)} & {state, other}
+    ]
+    words = (*phrase.words, *(word for item in states for word in item.words))
+    said = {STATES.get(word) for word in words} & {state, other}
+    if len(said) != 1:
+        return None
+    rest = tuple(word for word in phrase.words if STATES.get(word) not in said)
+    modifiers = tuple(item for item in phrase.modifiers if item not in states)
+    denied = any(item.denied for item in states)
+    return (said == {state}) != denied, replace(phrase, words=rest, modifiers=modifiers)
