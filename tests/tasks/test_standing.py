@@ -114,3 +114,21 @@ def test_what_is_too_tall_to_stand_on_a_board_is_tried_there_once(tmp_path: Path
     assert result.status is SearchStatus.INFEASIBLE
     (cause,) = [node.verdict.cause for node in result.tree if node.verdict.cause]
     assert cause.text == "bottle does not fit on shelf.low"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("diameter", [0.055, 0.065])
+def test_what_a_vessel_would_lean_on_is_taken_out_first(diameter: float, tmp_path: Path) -> None:
+    """A bowl that leans on a lemon in a larger bowl topples when an orange is put into it."""
+    objects = {
+        "large": {"kind": "bowl", "at": [0.42, 0.20], "diameter": 0.20, "height": 0.07,
+                  "mass": 0.5},
+        "small": {"kind": "bowl", "at": [0.38, -0.10], "diameter": 0.11, "height": 0.05,
+                  "mass": 0.2},
+        "lemon": {"kind": "sphere", "inside": "large", "diameter": diameter, "mass": 0.1},
+        "orange": {"kind": "sphere", "at": [0.48, -0.25], "diameter": 0.068, "mass": 0.15},
+    }  # fmt: skip
+    goal = [{"inside": ["small", "large"]}, {"inside": ["orange", "small"]}]
+    plan, lean = planned(objects, goal, tmp_path)
+    assert plan[0] == "[PICK UP, lemon]"
+    assert lean["small"] < STANDS_WITHIN

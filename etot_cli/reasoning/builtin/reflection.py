@@ -37,6 +37,7 @@ from etot_cli.reasoning.builtin.reordering import (
     filled_before,
     leaving_later,
     out_of_the_way,
+    steadied,
     taken_before_moved,
     taken_out_first,
 )
@@ -160,7 +161,8 @@ def _of_put(case: FailedCase) -> Iterator[Correction]:
     pick = next((i for i in range(index, -1, -1) if case.actions[i].verb is Verb.PICK_UP), None)
     toppled = case.cause.objects if case.cause.kind is CauseKind.TOPPLED else ()
     if toppled and owner_of(toppled[0]) == owner:
-        return  # the container does not stand what is put into it
+        yield from steadied(case, owner)
+        return  # or the container does not stand what is put into it
     yield from other_boards(case.failed)
     if case.cause.lasting:
         return

@@ -11,7 +11,7 @@ from etot_cli.reasoning.builtin.company import coming_beside
 from etot_cli.reasoning.builtin.failed_case import FailedCase
 from etot_cli.reasoning.builtin.keepouts import kept_away
 from etot_cli.reasoning.builtin.loads import supports_of
-from etot_cli.reasoning.builtin.relations import bearers, carriers, has_front
+from etot_cli.reasoning.builtin.relations import bearers, carriers, contents, has_front
 from etot_cli.reasoning.builtin.relocation import Correction, put_first, relocated, set_aside
 from etot_cli.reasoning.builtin.revision import (
     Actions,
@@ -193,6 +193,26 @@ def taken_out_first(case: FailedCase, before: int, name: str) -> Iterator[Correc
     put = set_aside(case.failed, target)[1]
     change = f"{target} is taken out before {name} is {'moved' if along else 'in the way'}"
     yield from put_first(case.failed, other, target, put, change)
+
+
+def steadied(case: FailedCase, vessel: str) -> Iterator[Correction]:
+    """What a vessel that topples as it is filled leans or stands on waits elsewhere from before the
+    branch brings the vessel there: what it shares a larger one with, too.
+    """
+    placed = placed_by(case.actions, vessel, case.index)
+    if placed is None:
+        return
+    state = case.scene.states[vessel]
+    around = contents(case.scene, state.inside) if state.inside is not None else ()
+    target = owner_of(case.actions[placed + 1].target)
+    for name in dict.fromkeys((*map(owner_of, state.on), *around)):
+        info = case.scene.infos.get(name)
+        loose = info is not None and info.movable and name not in (target, vessel)
+        own = any(action.target == name for action in case.actions)
+        if loose and not own and vessel not in carriers(case.scene, name):
+            put = set_aside(case.failed, name)[1]
+            change = f"{name} is taken out before {vessel} is put there"
+            yield from put_first(case.failed, placed, name, put, change)
 
 
 def leaving_later(case: FailedCase) -> list[str]:

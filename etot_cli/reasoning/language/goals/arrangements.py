@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.goals.layers import any_of, end_of
 from etot_cli.reasoning.language.goals.putting import put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, TowerClause
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
-from etot_cli.reasoning.language.reference.geometry.space import below, carries
+from etot_cli.reasoning.language.reference.geometry.space import below
 from etot_cli.reasoning.language.reference.geometry.stacks import stack_of
 from etot_cli.reasoning.language.reference.geometry.vessels import lies_on
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
@@ -221,7 +221,8 @@ def _upward(
     if rest and clause.middle and len(ordered) != len(_LAYERS_WITH_A_MIDDLE):
         raise ReferenceProblem(text, f"say where {rest[0].name} goes", 2)
     lowest, uppermost = named.get("bottom"), named.get("top")
-    if rest and not listed and lowest and uppermost and carries(lowest, uppermost, context.scene):
+    so = lowest and uppermost and lowest.name in below(uppermost, context.scene)
+    if so and rest and not listed and lowest and uppermost:
         # What these two are already, nobody asks for; or are they meant alone?
         raise AmbiguousReference(text, [t.name for t in (lowest, *rest, uppermost)])
     if len(rest) > 1 or (rest and not named):
@@ -236,8 +237,8 @@ def _upward(
     if "middle" in named:
         named |= zip((end for end in _LAYERS_WITH_A_MIDDLE if end not in named), rest, strict=True)
         return [named[end] for end in _LAYERS_WITH_A_MIDDLE]
-    below = [named["bottom"]] if "bottom" in named else []
-    return [*below, *rest, *([named["top"]] if "top" in named else [])]
+    lowest_one = [named["bottom"]] if "bottom" in named else []
+    return [*lowest_one, *rest, *([named["top"]] if "top" in named else [])]
 
 
 _LAST = {"bottom": 0, "top": -1}
