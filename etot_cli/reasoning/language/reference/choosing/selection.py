@@ -231,12 +231,14 @@ def _by_size(
     if word == "long":  # A pan is wider than a carrot, and not long.
         sides = {thing: sorted(scene.infos[thing.name].size) for thing in things}
         things = [t for t, size in sides.items() if size[2] >= ELONGATED * size[1]] or things
-    if word == "flat" and count is None and len(things) > 1:
+    if word == "flat" and len(things) > 1:
         # What is lower than others is not flat.
         flat = [thing for thing in things if space.is_flat(scene.infos[thing.name])]
-        if not flat:
+        if count is None and not flat:
             raise ReferenceProblem(phrase, "none of them is flat", 2, word=word)
-        return flat
+        if count is None:
+            return flat
+        things = flat or things
     measure = _measure(word, scene, things)
     ordered = sorted(things, key=measure)
     groups = _groups(ordered, [abs(measure(thing)) for thing in ordered], SIZES[word][0])

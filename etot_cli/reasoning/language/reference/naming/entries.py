@@ -52,6 +52,9 @@ from etot_cli.reasoning.language.words.lexicon import (
 )
 from etot_cli.world.state import ObjectInfo
 
+CUBIC = 2.0
+"""What is so many times longer than high, or higher, is no cube, whatever it is called for."""
+
 EXACT, HEAD, GENERIC, CONTENT = range(4)
 """How well a phrase's noun fits, best first: it is the very name; the name's own noun; a noun for
 its kind; what it is a pack or box of. A word before the noun (the "paper" of a paper clip) tells
@@ -124,7 +127,7 @@ class Entry(Struct, frozen=True):
             # Reading glasses are rather no glass.
             return GENERIC if self.is_pair() and is_plural_of(self.heads[0], (noun,)) else HEAD
         if matches_any(noun, self.generic):
-            return GENERIC
+            return GENERIC if self.info is None or _may_be(noun, self.info) else None
         if matches_any(noun, self.content):
             return CONTENT
         return None
@@ -406,3 +409,8 @@ def _level_entry(info: ObjectInfo, owner: Entry, thing: Thing, nouns: tuple[str,
         info=info,
         owner=owner.own,
     )
+
+
+def _may_be(noun: str, info: ObjectInfo) -> bool:
+    """Whether what is of a kind looks as its noun says: a cube is about as long as high."""
+    return not matches_any(noun, ("cube",)) or max(info.size) <= CUBIC * min(info.size)

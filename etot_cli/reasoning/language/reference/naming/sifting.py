@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
@@ -147,7 +148,8 @@ def sift(sifted: Sifted, word: str, vocabulary: Vocabulary) -> None:
             if not any(own in PURPOSES and not matches_any(own, [noun]) for own in item[0].own)
             and (not used or (item[0].holds() and not matches_any(sifted.noun, item[0].content)))
         ]
-        if not apt:
+        lettered = re.fullmatch(r"\w_?", sifted.noun)  # "jar B" is no tube B
+        if not apt or lettered:
             sifted.unknown.append(word)
             return
         sifted.graded = apt
