@@ -37,6 +37,7 @@ from etot_cli.reasoning.builtin.reordering import (
     filled_before,
     leaving_later,
     out_of_the_way,
+    put_there_later,
     steadied,
     taken_before_moved,
     taken_out_first,
@@ -249,9 +250,12 @@ def _of_articulation(case: FailedCase) -> Iterator[Correction]:
         return
     if case.action.verb is Verb.OPEN:
         yield from without_reopening(case.actions, case.index, case.start)
+    outside = [name for name in case.culprits() if not is_inside(case.scene, name, part.address)]
+    if case.action.verb is Verb.CLOSE:
+        yield from put_there_later(case, outside)
     for name in case.culprits():
         placed = placed_by(case.actions, name, case.index)
-        within = is_inside(case.scene, name, part.address)
+        within = name not in outside
         if placed is not None:
             put_there = case.actions[placed + 1].target == part.address
             if within:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import chain, pairwise
 
@@ -18,6 +18,7 @@ from etot_cli.reasoning.builtin.revision import (
     Cycle,
     brought_before,
     cycle_of,
+    cycles,
     inserted,
     placed_by,
     reachable_throughout,
@@ -159,6 +160,31 @@ def done_earlier(case: FailedCase, before: int, name: str) -> Iterator[Correctio
         other = cycle_of(case.actions, before).start
         waiting = inserted(earlier, other, set_aside(case.failed, name))
         yield Correction(waiting, f"{name} waits elsewhere until {case.action} is done")
+
+
+def put_there_later(case: FailedCase, names: Sequence[str]) -> Iterator[Correction]:
+    """The branch with what it puts in the way of a part that it closes put there once that is
+    closed, and what comes on top of that, too.
+    """
+    index = case.index
+    found = (placed_by(case.actions, name, index) for name in names)
+    put = [
+        at for at in found if at is not None and case.actions[at + 1].target != case.action.target
+    ]
+    first = min(put, default=index)
+    upon = {
+        at
+        for at in range(first, index - 1)
+        if case.actions[at].verb is Verb.PICK_UP and case.actions[at + 1].target in names
+    }
+    later = [cycle for cycle in cycles(case.actions) if {cycle.start} & {*put, *upon}]
+    if not later or any(index in cycle for cycle in later):
+        return
+    kept = [action for at, action in enumerate(case.actions[:index])
+            if not any(at in cycle for cycle in later)]  # fmt: skip
+    behind = [action for cycle in later for action in case.actions[cycle.start : cycle.end]]
+    actions = (*kept, case.action, *behind, *case.actions[index + 1 :])
+    yield Correction(actions, f"{names[0]} goes there after {case.action}")
 
 
 def filled_before(case: FailedCase) -> Iterator[Correction]:
