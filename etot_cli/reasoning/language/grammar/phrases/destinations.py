@@ -202,6 +202,12 @@ _place = either(
         either(phrase(places.HERE), phrase("(up|down) there", "there")),
         lambda text: Destination(Toward.HERE, word=text),
     ),
+    sequence(
+        phrase("there [too|also|as well]", "there"),
+        OPTIONAL_COMMA,
+        BESIDES,
+        build=lambda text, found: Destination(Toward.HERE, word=text, beside=found),
+    ),
     valued(phrase(places.SAME_PLACE), lambda _: Destination(Toward.HERE, word="the same place")),
     valued(phrase(places.HOME), lambda text: Destination(Toward.HOME, word=text)),
     _beside_something,

@@ -134,6 +134,8 @@ class Places:
                 therein = stays and destination.word in spellings(THEREIN)
                 there = where_they_are(self.discourse, Relation.INSIDE, themes) if therein else ()
                 found = list(there or self._here(destination, themes))
+                if destination.beside:
+                    found = self._spots.narrowed(found, destination, themes)
             elif destination.toward is Toward.BESIDE and (
                 around := self._spots.around(destination.beside, themes)
             ):

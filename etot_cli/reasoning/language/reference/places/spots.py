@@ -49,7 +49,7 @@ class Spots:
         Raises:
             ReferenceProblem: there is no such part, or it is not plain of which of several.
         """
-        text = " or ".join(phrase.text for phrase in destination.targets)
+        text = " or ".join(phrase.text for phrase in destination.targets) or destination.word
         surfaces = [place for place in places if place.relation is Relation.ON]
         slides = JOINT_NOUNS["slide"][:1]  # "to the drawer in the middle" is into it
         drawer = any(matches_any(np.words[-1], slides) for np in destination.targets if np.words)
@@ -80,7 +80,8 @@ class Spots:
                 self._discourse.referents[place.where] = replace(referent, options=((*bearing,),))
         if len(things) > 1 or (part and stacked and things[0].board is None):
             raise ReferenceProblem(text, "say which one of them", 2)
-        near = self._surroundings.near(destination.beside, themes, {thing.name for thing in things})
+        below = {thing.name for thing in things or upon}
+        near = self._surroundings.near(destination.beside, themes, below)
         return [replace(place, beside=near) for place in surfaces]
 
     def _bearing(self, things: Sequence[Thing], beside: Sequence[Beside]) -> list[Thing]:
