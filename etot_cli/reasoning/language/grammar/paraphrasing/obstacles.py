@@ -110,8 +110,9 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"\1 \2 out of the way of \2",
     ),
     (
-        rf"\b(?:clear|free(?: up)?) the "
-        rf"(?:way to|path to|(?:space|area|spot|room) in front of) ({_WHAT}){_ENDS}",
+        rf"\b(?:clear|free(?: up)?|unblock) "
+        rf"(?:the (?:way to|path to|(?:space|area|spot|room) in front of) (?={_WHAT}{_ENDS})"
+        rf"|(?=(?:the|my|our) (?:\w+ ){{0,2}}door(?: of {_WHAT})?{_ENDS}))({_WHAT}){_ENDS}",
         r"move everything that is blocking \1 out of the way of \1",
     ),
     (
