@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 
-from etot_cli.reasoning.builtin.goal import Place, things_in
+from etot_cli.reasoning.builtin.goal import Place, Relation, things_in
 from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role, can_be
 from etot_cli.reasoning.language.goals.choosing import choose_by_place
@@ -39,6 +39,9 @@ def place_bystanders(
             why = "name what is to be there; what is there already comes along"
             raise ReferenceProblem(phrase.text, why, 3)
     subjects = _bystanders(context, condition)
+    if lidded := _lidded(context, condition, subjects, places_of):
+        places_of.update(dict.fromkeys(subjects, (Place(Relation.ON, lidded),)))
+        return
     _check_describes(context, condition, subjects, places_of)
     if not set(subjects) & set(themes):
         # "It" is rather what the bystander is in or on.
@@ -60,6 +63,26 @@ def place_bystanders(
         places = with_stance(context, subjects, places, stance)
     for subject in subjects:
         places_of[subject] = places
+
+
+def _lidded(
+    context: Context,
+    condition: State,
+    subjects: Sequence[int],
+    places_of: dict[int, tuple[Place, ...]],
+) -> int | None:
+    """What things go into whose lid, which is on it by now, is to be on it again then."""
+    things, referents = context.discourse.things, context.discourse.referents
+    ((relation, where), *more) = {(p.relation, p.where) for at in places_of.values() for p in at}
+    on = all(at.toward is Toward.ON or at.word == "on top" for at in condition.destinations)
+    lids = on and all(matches_any(np.head, LIDS) for np in condition.subjects)
+    if not lids or where is None or more or relation is not Relation.INSIDE:
+        return None
+    told = [np for at in condition.destinations for np in at.targets if not np.pronoun]
+    named = things_in(o for np in told for o in context.phrases.meaning(np, Role.ANY).options)
+    below = {name for thing in things(*subjects) for name in bearers(context.scene, thing.name)}
+    one = len(referents[where].options) == 1 and {*named} <= {*things(where)}
+    return where if one and below == {thing.name for thing in things(where)} else None
 
 
 def _goes_elsewhere(
