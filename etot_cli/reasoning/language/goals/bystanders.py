@@ -73,10 +73,11 @@ def _lidded(
 ) -> int | None:
     """What things go into whose lid, which is on it by now, is to be on it again then."""
     things, referents = context.discourse.things, context.discourse.referents
-    ((relation, where), *more) = {(p.relation, p.where) for at in places_of.values() for p in at}
+    found = {(p.relation, p.where) for at in places_of.values() for p in at}
+    where = next((at for relation, at in found if relation is Relation.INSIDE), None)
     on = all(at.toward is Toward.ON or at.word == "on top" for at in condition.destinations)
     lids = on and all(matches_any(np.head, LIDS) for np in condition.subjects)
-    if not lids or where is None or more or relation is not Relation.INSIDE:
+    if not lids or where is None or len(found) > 1:
         return None
     told = [np for at in condition.destinations for np in at.targets if not np.pronoun]
     named = things_in(o for np in told for o in context.phrases.meaning(np, Role.ANY).options)
