@@ -44,7 +44,7 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     (r"\btherein\b", "in it"),
     (
         r"\b(?:(?:upon|on|after|at the end of) (?:the )?(?:completion|execution)"
-        r"(?: of (?:this|the) (?:task|job|work|step|plan))?|after (?:the|this|your) (?:task|run|job))"
+        r"(?: of (?:this|the) (?:task|job|work|step|plan))?|after (?:the|this) (?:task|run|job))"
         r"(?=[.,;!]|$| (?:close|shut|open|put|the|all|both|every|no|nothing|only)\b)",
         "in the end",
     ),
