@@ -27,9 +27,16 @@ _LEAVES_ITS_PLACE = {("instead of",), ("rather than",)}
 
 
 def check_taken(
-    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+    context: Context,
+    group: PutGroup,
+    themes: Sequence[int],
+    places: Sequence[Place],
+    *,
+    in_the_end: bool = False,
 ) -> None:
-    """Whether "the red one", where something goes, is what it is taken from: another may be."""
+    """Whether "the red one", where something goes, is what it is taken from: another may be.
+    ``in_the_end``: it is said how it is to be, so that what is not to be there is taken away.
+    """
     taken = any(
         isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
         for step in context.done[-1:]
@@ -57,7 +64,7 @@ def check_taken(
             every = quantity_of(phrase.determiner).every and np.head != phrase.head
             if prep is Prep.CONTRAST and there and not every:
                 off = None
-                if said.words in _LEAVES_ITS_PLACE and len(told) == 1:
+                if (in_the_end or said.words in _LEAVES_ITS_PLACE) and len(told) == 1:
                     out = context.phrases.things(Things((np,)), Role.THEME)
                     off = Put(tuple(out), (context.places.on_the_desk(),), removal=True)
                     context.steps.append(off)

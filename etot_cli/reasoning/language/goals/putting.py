@@ -305,7 +305,7 @@ def _check_places(
         in_the_end=said.in_the_end,
         nothing_else=said.alone,
     )
-    check_taken(context, group, themes, places)
+    check_taken(context, group, themes, places, in_the_end=said.wherever and not said.going)
     note_described(context, group, places, told=said.wherever)
     check_poured(context, group, themes, places)
 
