@@ -36,8 +36,8 @@ def place_bystanders(
     """Gives some of the things a place of their own ("… with the plum inside the mug")."""
     for phrase in condition.subjects:
         if phrase.words == ("everything",):
-            why = "name what is to be there; what is there already comes along"
-            raise ReferenceProblem(phrase.text, why, 3)
+            why = "what is there already comes along; it may mean"
+            raise AmbiguousReference(phrase.text, ["that", "what is elsewhere"], why)
     subjects = _bystanders(context, condition)
     if lidded := _lidded(context, condition, subjects, places_of):
         places_of.update(dict.fromkeys(subjects, (Place(Relation.ON, lidded),)))

@@ -145,6 +145,17 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"\1",
     ),
     (r"\b(one [^.;]*? and )(?=other one\b)", r"\1the "),
+    # "Move the tray next to the box together with the cup on it": that goes along on it
+    (
+        rf"\b((?:move|bring|carry|take|put) {NAMED} (?:\w+ ){{0,2}}?\w+),? (?:together|along) "
+        rf"(with [^.,;:]*? (?:on|in|inside) it),?( {WHERE}[^.,;:]*?)(?=[.,;!]|$| (?:and|then)\b)",
+        r"\1\3 \2",
+    ),
+    (
+        rf"\b((?:move|bring|carry|take|put) {NAMED} [^.,;:]*? {WHERE}[^.,;:]*?),? "
+        r"(?:together|along) (?=with [^.,;:]*? (?:on|in|inside) it(?:[.,;!]|$| (?:and|then)\b))",
+        r"\1 ",
+    ),
     # "Behind the bin there is room for the bear, put it there"
     (
         r"(\bthere is (?:still |enough |some )?(?:room|space) [^.,;!?]*)[.,;!] "
