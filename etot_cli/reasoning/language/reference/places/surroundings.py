@@ -88,7 +88,10 @@ class Surroundings:
                 not any(space.can_be_at(item.relation, thing, name, self._scene) for name in below)
                 for thing in away
             ):
-                raise ReferenceProblem(names, f"it is far from {' and '.join(sorted(below))}", 2)
+                on = " and ".join(sorted(below))
+                side = item.relation in OPPOSITE
+                why = f"no place on {on} is {item.relation} it" if side else f"it is far from {on}"
+                raise ReferenceProblem(names, why, 2)
         return near
 
     def _check_upon(self, found: Sequence[tuple[Beside, Sequence[Near]]]) -> None:
