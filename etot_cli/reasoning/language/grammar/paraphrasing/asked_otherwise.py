@@ -133,6 +133,7 @@ def _goes_along(said: re.Match[str]) -> str:
     return f"{please}{asked} with the {rider}{rest} and {kept}"
 
 
+_WITH_IT = rf"with {NAMED} (?:\w+ ){{0,2}}?(?!ones?\b)\w+ (?:on|in|inside) it"
 ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "Please kindly to put one in the box and other one on the tray", by who speaks another tongue
     (
@@ -148,12 +149,12 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
     # "Move the tray next to the box together with the cup on it": that goes along on it
     (
         rf"\b((?:move|bring|carry|take|put) {NAMED} (?:\w+ ){{0,2}}?\w+),? (?:together|along) "
-        rf"(with [^.,;:]*? (?:on|in|inside) it),?( {WHERE}[^.,;:]*?)(?=[.,;!]|$| (?:and|then)\b)",
+        rf"({_WITH_IT}),?( {WHERE}[^.,;:]*?)(?=[.,;!]|$| (?:and|then)\b)",
         r"\1\3 \2",
     ),
     (
         rf"\b((?:move|bring|carry|take|put) {NAMED} [^.,;:]*? {WHERE}[^.,;:]*?),? "
-        r"(?:together|along) (?=with [^.,;:]*? (?:on|in|inside) it(?:[.,;!]|$| (?:and|then)\b))",
+        rf"(?:together|along) (?={_WITH_IT}(?:[.,;!]|$| (?:and|then)\b))",
         r"\1 ",
     ),
     # "Behind the bin there is room for the bear, put it there"
