@@ -2040,3 +2040,27 @@ def reel_table() -> SceneState:
         item("flannel_shirt", "box", (0.50, -0.15), size=(0.1, 0.1, 0.03), label="flannel shirt"),
         item("kidney_dish", "bowl", (0.45, -0.35), size=(0.2, 0.2, 0.06), label="kidney dish"),
     )
+
+
+def covered_pot() -> SceneState:
+    """A pot under its lid, a mug on a plate, an open locker with a cup in it and one before it that
+    holds a nut, a closed drawer with a marker in it, another with a key, a ball.
+    """
+    return scene(
+        cabinet("locker", (0.64, 0.32), 1.0, color="gray"),
+        drawers("chest", (0.64, -0.38), {"top": 0.0, "bottom": 0.0}, color="brown"),
+        item("pot", "bowl", (0.44, -0.05), size=(0.20, 0.20, 0.10), color="black"),
+        item("lid", "cylinder", (0.44, -0.05), size=(0.20, 0.20, 0.02), on="pot", z=0.24,
+             color="gray"),
+        item("plate", "box", (0.24, -0.10), size=(0.18, 0.18, 0.015), color="white"),
+        cup("green_mug", (0.24, -0.10), on="plate", z=0.185, color="green"),
+        cup("red_cup", (0.62, 0.30), inside="locker", on="", z=0.18, color="red"),
+        cup("blue_cup", (0.36, 0.36), color="blue"),
+        item("nut", "cylinder", (0.36, 0.36), size=(0.02, 0.02, 0.02), inside="blue_cup", on="",
+             z=0.15, color="gray"),
+        item("marker", "pen", (0.62, -0.38), size=(0.13, 0.015, 0.015), inside="chest.top", on="",
+             z=0.22, color="black"),
+        item("key", "box", (0.62, -0.36), size=(0.06, 0.02, 0.005), inside="chest.bottom", on="",
+             z=0.16, color="yellow"),
+        ball("ball", (0.28, -0.32), color="yellow"),
+    )  # fmt: skip

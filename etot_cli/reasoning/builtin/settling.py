@@ -51,7 +51,9 @@ def settled(goal: Goal, scene: SceneState, turned: Sequence[int] = ()) -> Goal:
         if isinstance(step, Pick) and _is_moved(goal, step.what, later):
             if _must_be_out(goal, step.what, later, scene):
                 desk = len(goal.referents)
-                goal = replace(goal, referents=(*goal.referents, _ON_THE_DESK))
+                note = f"{goal.referents[step.what].text}: onto the desk until the hand is free"
+                referents, notes = (*goal.referents, _ON_THE_DESK), (*goal.notes, note)
+                goal = replace(goal, referents=referents, notes=notes)
                 place = Place(Relation.ON, desk)
                 steps.append(Put((step.what,), (place,), poses=step.poses, removal=True))
             continue

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing
+from etot_cli.reasoning.builtin.goal import Goal, Grouping, Place, Put, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
@@ -56,10 +56,14 @@ def check_alone(
         if info.movable and name not in own and touches(Thing(name), at, context.scene)
         if not (upon and context.scene.states[name].inside)  # a chest is no less alone for that
     ]
+    if nothing_else:
+        context.alone += [(thing, frozenset(own)) for thing in context.discourse.things(*where)]
+    if nothing_else and not there:
+        context.discourse.notes.append("nothing else is there by now")
     put = [t.name for t in put_at(context.discourse.things(*where), context.discourse)]
     besides = " and ".join(name for name in put if name not in own)
     for phrase in phrases if in_the_end and besides else ():
-        if is_only(phrase.determiner) and phrase.words:
+        if is_only(phrase.determiner):
             why = f"{besides} was put there, too; say where that goes in the end"
             raise ReferenceProblem(phrase.text, why, 4, word=phrase.determiner.split()[0])
     for phrase in phrases if there else ():
@@ -200,13 +204,31 @@ def so_many_turned(
     return so, tuple(thing for thing in every if thing not in so)
 
 
+def check_alone_at_last(context: Context, goal: Goal) -> None:
+    """Whether anything else goes in the end where something is to be with nothing else.
+
+    Raises:
+        ReferenceProblem: it does.
+    """
+    things = context.discourse.things
+    last = {t: step for step in goal.steps if isinstance(step, Put) for t in things(*step.what)}
+    for thing, step in last.items():
+        where = things(*(place.where for place in step.places if place.where is not None))
+        if any(at in where and thing.name not in own for at, own in context.alone):
+            why = f"{thing.name} goes there, too; say where that goes in the end"
+            raise ReferenceProblem("nothing else", why, 4)
+
+
 def _goes(context: Context, name: str, where: Sequence[int]) -> bool:
     """Whether what else is asked for takes a thing away from somewhere."""
     things = context.discourse.things
-    puts = [step for step in (*context.done, *context.steps) if isinstance(step, Put)]
-    last = next((p for p in reversed(puts) if name in {t.name for t in things(*p.what)}), None)
+    puts = (step for step in (*context.puts, *context.steps) if isinstance(step, Put))
+    last = next((p for p in reversed([*puts]) if name in {t.name for t in things(*p.what)}), None)
     if last is None:
         return False
+    if any(len(context.discourse.referents[index].options) > 1 for index in last.what):
+        text = context.discourse.referents[last.what[0]].text
+        raise ReferenceProblem(text, f"say whether it is {name}, which is not to be there", 4)
     to = {
         thing.address
         for place in last.places

@@ -36,9 +36,12 @@ def place_bystanders(
     """Gives some of the things a place of their own ("… with the plum inside the mug")."""
     for phrase in condition.subjects:
         if phrase.words == ("everything",):
-            why = "name what is to be there; what is there already comes along"
-            raise ReferenceProblem(phrase.text, why, 3)
+            why = "what is there already comes along; it may mean"
+            raise AmbiguousReference(phrase.text, ["that", "what is elsewhere"], why)
     subjects = _bystanders(context, condition)
+    if lidded := _lidded(context, condition, subjects, places_of):
+        places_of.update(dict.fromkeys(subjects, (Place(Relation.ON, lidded),)))
+        return
     _check_describes(context, condition, subjects, places_of)
     if not set(subjects) & set(themes):
         # "It" is rather what the bystander is in or on.
@@ -83,6 +86,27 @@ def _check_holders(
     ]
     if unsaid and len(context.discourse.things(*themes)) > 1 and holders:
         raise AmbiguousReference("in or on it", holders)
+
+
+def _lidded(
+    context: Context,
+    condition: State,
+    subjects: Sequence[int],
+    places_of: dict[int, tuple[Place, ...]],
+) -> int | None:
+    """What things go into whose lid, which is on it by now, is to be on it again then."""
+    things, referents = context.discourse.things, context.discourse.referents
+    found = {(p.relation, p.where) for at in places_of.values() for p in at}
+    where = next((at for relation, at in found if relation is Relation.INSIDE), None)
+    on = all(at.toward is Toward.ON or at.word == "on top" for at in condition.destinations)
+    lids = on and all(matches_any(np.head, LIDS) for np in condition.subjects)
+    if not lids or where is None or len(found) > 1:
+        return None
+    told = [np for at in condition.destinations for np in at.targets if not np.pronoun]
+    named = things_in(o for np in told for o in context.phrases.meaning(np, Role.ANY).options)
+    below = {name for thing in things(*subjects) for name in bearers(context.scene, thing.name)}
+    one = len(referents[where].options) == 1 and {*named} <= {*things(where)}
+    return where if one and below == {thing.name for thing in things(where)} else None
 
 
 def _goes_elsewhere(

@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.usual_form import GENERAL
 from etot_cli.reasoning.language.words.categories import is_eaten, is_keeping, is_poured
@@ -26,9 +27,16 @@ _LEAVES_ITS_PLACE = {("instead of",), ("rather than",)}
 
 
 def check_taken(
-    context: Context, group: PutGroup, themes: Sequence[int], places: Sequence[Place]
+    context: Context,
+    group: PutGroup,
+    themes: Sequence[int],
+    places: Sequence[Place],
+    *,
+    in_the_end: bool = False,
 ) -> None:
-    """Whether "the red one", where something goes, is what it is taken from: another may be."""
+    """Whether "the red one", where something goes, is what it is taken from: another may be.
+    ``in_the_end``: it is said how it is to be, so that what is not to be there is taken away.
+    """
     taken = any(
         isinstance(step, Pick) or (isinstance(step, Put) and step.removal)
         for step in context.done[-1:]
@@ -56,7 +64,7 @@ def check_taken(
             every = quantity_of(phrase.determiner).every and np.head != phrase.head
             if prep is Prep.CONTRAST and there and not every:
                 off = None
-                if said.words in _LEAVES_ITS_PLACE and len(told) == 1:
+                if (in_the_end or said.words in _LEAVES_ITS_PLACE) and len(told) == 1:
                     out = context.phrases.things(Things((np,)), Role.THEME)
                     off = Put(tuple(out), (context.places.on_the_desk(),), removal=True)
                     context.steps.append(off)
@@ -70,6 +78,30 @@ def check_taken(
             above = context.discourse.things(*themes)
             if all(touches(one, other, context.scene) for one in above for other in below):
                 raise ReferenceProblem(phrase.text, "it is taken from there; name what is meant", 3)
+
+
+def check_nothing_on(context: Context, group: PutGroup, themes: Sequence[int]) -> None:
+    """Whether "the plate on the board with nothing on it", of a plate that bears something, says of
+    the board that it is bare.
+
+    Raises:
+        ReferenceProblem: it does, and tells no board from others by that.
+        AmbiguousReference: it may be meant.
+    """
+    for np in (np for where in group.destinations for np in where.targets):
+        told = [item for item in np.modifiers if item.words == ("empty",)]
+        moved = context.discourse.things(*(themes if _WITH_NOTHING.search(np.text) else ()))
+        others = [Thing(name) for name in context.scene.states]
+        if told and any(touches(one, at, context.scene) for one in others for at in moved):
+            bare = np.without_modifier(told[0])
+            ways = [context.phrases.meaning(it, Role.PLACE).options for it in (np, bare)]
+            if ways[0] != ways[1] or ways[1][1:]:
+                raise AmbiguousReference(np.text, [group.things.text, bare.text], "empty may be")
+            why = f"say whether that, or {group.things.text}, is to be empty"
+            raise ReferenceProblem(np.text, why, 4)
+
+
+_WITH_NOTHING = Expression(r"\bwith nothing\b")
 
 
 def check_also(

@@ -91,6 +91,8 @@ class Context:
         self.taken: frozenset[int] = frozenset()
         """What was taken off or out of something so far."""
         self.in_the_way: list[InTheWay] = []
+        self.alone: list[tuple[Thing, frozenset[str]]] = []
+        """Where nothing else is to be but some objects."""
         self.cleared: list[Put] = []
         """What the clause before took out of what it empties."""
         self.last: Clause | None = None

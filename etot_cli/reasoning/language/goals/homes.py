@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from contextlib import suppress
 
@@ -24,6 +25,7 @@ from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.known import REASONS
 from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, LIDS, matches_any
 from etot_cli.reasoning.language.words.places import ON_IT, WAS_THERE
+from etot_cli.world.state import DESK
 
 _ITS_PLACE = "back to its place"
 _WAS_THERE = "where it was"
@@ -144,7 +146,10 @@ def _gone(context: Context, theme: int, where: Destination, returned: bool) -> t
     """For "put the cup where it was", which has not been moved: the one thing that has gone from
     there; not where it is ``returned`` to, which only what was there can be.
     """
-    gone = tuple(dict.fromkeys(context.discourse.things(*context.discourse.put)))
+    # What is but lifted off the desk is not out of the way before the hand is free.
+    held = context.discourse.things(*context.discourse.lifted)
+    gone = tuple(t for t in held if context.home(t).relation is Relation.INSIDE)
+    gone = tuple(dict.fromkeys((*context.discourse.things(*context.discourse.put), *gone)))
     alike = len(context.discourse.things(theme)) == len(gone) == 1
     if returned or _WAS_THERE not in where.word or not alike:
         text = context.discourse.referents[theme].text
@@ -202,7 +207,12 @@ def where_is(
             return places  # where it is there is room beside it
         things = context.only(index, REASONS["where"])
         if not is_moved(index):  # where something is or was is free only once it has gone
-            context.in_the_way.append(InTheWay(where.word, frozenset(things), REASONS["where"]))
+            off = None
+            if f"{where.word.removesuffix(' now')} now" in context.sentence:  # and later elsewhere
+                off = _off((index,), context)
+                context.steps.append(off)
+            way = InTheWay(where.word, frozenset(things), REASONS["where"], off)
+            context.in_the_way.append(way)
         return _left_by(context, things, where.word, exact=True)
 
     with suppress(ReferenceProblem):  # "the cup where the can is and the can where the cup is"
@@ -219,6 +229,22 @@ def where_is(
     if others or len(held) != 1:
         raise ReferenceProblem(where.word, REASONS["where"], 3)
     return places
+
+
+def _off(themes: tuple[int, ...], context: Context) -> Put:
+    """What takes things from where another one is to be, be it to another spot on the desk.
+
+    Raises:
+        ReferenceProblem: it cannot be taken from there.
+    """
+    desk, (thing, *more) = context.places.on_the_desk(), context.discourse.things(*themes)
+    if not context.scene.infos[thing.name].movable:
+        raise ReferenceProblem(context.discourse.referents[themes[0]].text, "it stays there", 3)
+    if more or context.scene.states[thing.name].on != (DESK,):
+        return Put(themes, (desk,), removal=True)
+    spot = context.spot(thing, desk)
+    away = tuple(dataclasses.replace(near, denied=True) for near in spot.beside)
+    return Put(themes, (dataclasses.replace(spot, beside=away),))
 
 
 def _left_by(
@@ -270,7 +296,7 @@ def in_stead(
             raise ReferenceProblem(where.word, "that is not where it was", 3)
     surely = (i for i in discourse.put if len(discourse.referents[i].options) == 1)
     if not {*things} <= {*discourse.things(*surely)}:
-        off = Put(tuple(replaced), (context.places.on_the_desk(),), removal=True)
+        off = _off(tuple(replaced), context)
         owned = "'s" in where.word  # "in the cup's place" does not say that the cup goes away
         off_if = None if owned else off
         context.in_the_way.append(InTheWay(where.word, frozenset(things), off=off_if))

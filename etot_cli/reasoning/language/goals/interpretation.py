@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from etot_cli.reasoning.builtin.goal import Goal, Put, things_in
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.builtin.settling import settled
+from etot_cli.reasoning.language.goals.alone import check_alone_at_last
 from etot_cli.reasoning.language.goals.best_reading import best_reading
 from etot_cli.reasoning.language.goals.checks import (
     check_circle,
@@ -69,6 +70,7 @@ def interpret(sentences: Sequence[Sentence], scene: SceneState, vocabulary: Voca
     goal = carried_standing(state.context, state.goal(complete=True))
     goal = gone_along(state.context, goal)
     goal = with_room_made(goal, state.context.in_the_way)
+    check_alone_at_last(state.context, goal)
     check_kept(goal, scene)
     check_shut(goal, scene)
     check_shut_away(goal, scene)

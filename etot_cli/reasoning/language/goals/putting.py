@@ -25,6 +25,7 @@ from etot_cli.reasoning.language.goals.clashes import (
     check_contrasted,
     check_not_layer,
     check_not_there,
+    check_nothing_on,
     check_poured,
     check_swept,
     check_taken,
@@ -292,6 +293,7 @@ def _check_places(
     check_contrasted(context, group.things, themes, places)
     check_not_there(context, group, places)
     check_counted(context, group.things.phrases, places)
+    check_nothing_on(context, group, themes)
     # "Put just the apple there" is about what is put, not about what is there.
     only = [np for np in group.things.phrases if np.determiner.split()[:1] != ["just"]]
     check_alone(
@@ -303,7 +305,7 @@ def _check_places(
         in_the_end=said.in_the_end,
         nothing_else=said.alone,
     )
-    check_taken(context, group, themes, places)
+    check_taken(context, group, themes, places, in_the_end=said.wherever and not said.going)
     note_described(context, group, places, told=said.wherever)
     check_poured(context, group, themes, places)
 

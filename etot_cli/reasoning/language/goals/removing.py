@@ -18,9 +18,20 @@ from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.goals.prohibitions import avoid
 from etot_cli.reasoning.language.grammar.requests.emptying import ANYTHING, is_emptying
-from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClause, RemoveClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, Things, Toward
-from etot_cli.reasoning.language.reference.geometry.space import touches
+from etot_cli.reasoning.language.grammar.syntax.clauses import (
+    Avoid,
+    AvoidClause,
+    PutClause,
+    PutGroup,
+    RemoveClause,
+)
+from etot_cli.reasoning.language.grammar.syntax.phrases import (
+    Destination,
+    NounPhrase,
+    Things,
+    Toward,
+)
+from etot_cli.reasoning.language.reference.geometry.space import is_support, touches
 from etot_cli.reasoning.language.reference.memory.antecedents import EmptyAlready, NothingThere
 from etot_cli.reasoning.language.reference.memory.by_now import put_at
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -53,6 +64,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
     unnamed = it if not context.discourse.mentions else None
     if unnamed is not None:
         clause = replace(clause, source=None)  # out of what it is in, as nothing else was named
+    clause = _of_what_is_filled(context, clause)
     things = clause.things.taken_from(clause.source)
     if clause.by_then and _is_source_empty(context, clause):
         return
@@ -122,6 +134,26 @@ def remove(context: Context, clause: RemoveClause) -> None:
         text = " and ".join(np.text for np in clause.things.phrases)
         discourse.notes += [] if known else [f"{text!r} goes to the desk first"]
         _speak_of_emptied(context, clause)
+
+
+def _of_what_is_filled(context: Context, clause: RemoveClause) -> RemoveClause:
+    """In "stand the pen in the holder after emptying it" it is the holder: a pen holds nothing."""
+    (np, *_), last = clause.things.phrases, context.last
+    said = [it.pronoun for m in np.modifiers for it in m.phrases]
+    if not (clause.by_then and is_emptying(clause) and said == ["it"]):
+        return clause
+    match last:
+        case PutClause(
+            groups=(PutGroup(destinations=(Destination(targets=(NounPhrase("the") as place,)),)),)
+        ):
+            put = [i for step in context.done if isinstance(step, Put) for i in step.what]
+        case _:
+            return clause
+    for thing in context.discourse.things(*put):
+        if can_be(thing, Role.CONTAINER, context.scene) or is_support(thing, context.scene):
+            return clause
+    held = replace(np, modifiers=(replace(np.modifiers[0], phrases=(place,)),))
+    return replace(clause, things=Things((held,)))
 
 
 def _is_untouched(context: Context, themes: Sequence[int]) -> bool:

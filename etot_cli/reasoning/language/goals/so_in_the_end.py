@@ -185,6 +185,10 @@ def _and_contents(
         context.phrases.meaning(np, role)
         if held[0].prep is Prep.BEARING:
             return np, None  # it tells which
+        bare = np.without_modifier(held[0])
+        one = [len(option) for option in context.phrases.meaning(bare, role).options] == [1]
+        if role is Role.PART and one:
+            np = bare  # the one drawer, on which things may be put by that name
     except ReferenceProblem:
         np = np.without_modifier(held[0])
         if [len(option) for option in context.phrases.meaning(np, role).options] != [1]:

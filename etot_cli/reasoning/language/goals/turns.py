@@ -256,15 +256,15 @@ def in_order(said: Sequence[Timed], discourse: Discourse) -> list[Step]:
         along = ahead is not None and item.sentence == ahead.sentence and item.order is Order.SAID
         # A door that is named last is rather closed behind all of it.
         along = along and all(isinstance(step, Put) for step in item.steps)
+        that = ahead if along else said[number - 1] if number else None
+        queue = last if any(other is that for other in last) else done
         if item.order in (Order.BEFORE_THAT, Order.BETWEEN):
-            that = said[number - 1] if number else None
             if item.order is Order.BETWEEN:
                 _check_between(said[:number])
-            queue = last if any(other is that for other in last) else done
             here = (at for at, other in enumerate(queue) if other is that)
             queue.insert(next(here, max(len(queue) - 1, 0)), item)
         elif along:  # "…, but before that take the cup off and put the pen in the box"
-            done.insert(next(at for at, other in enumerate(done) if other is ahead) + 1, item)
+            queue.insert(next(at for at, other in enumerate(queue) if other is that) + 1, item)
         elif item.order is Order.FIRST:
             own = (at for at, other in enumerate(done) if other.sentence == item.sentence)
             done.insert(next(own, 0) if item.led else 0, item)

@@ -111,6 +111,7 @@ class Understanding:
         other.context.done, other.context.cleared = self.context.done, self.context.cleared
         other.context.taken, other.context.puts = self.context.taken, self.context.puts
         other.context.in_the_way = list(self.context.in_the_way)
+        other.context.alone = list(self.context.alone)
         other.context.constraints = list(self.context.constraints)
         other.timed = list(self.timed)
         other.conditional, other.undone = self.conditional, self.undone

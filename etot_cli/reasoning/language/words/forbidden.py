@@ -68,7 +68,7 @@ MET = "hit, touched, struck, bumped [into], knocked [into|over], pushed [over|aw
 NO_TOUCH = "[any|all] [physical] contact with, touching of"
 NO_HIT = "[any|all] (collision|collisions) with, (hitting|bumping|nudging) of"
 """The same as nouns, behind "no", "avoid" and "without"."""
-HARM = "damag(e|ing), harm[ing], crush[ing], squash[ing], break[ing], spill[ing]"
+HARM = "damag(e|ing), harm[ing], crush[ing], squash[ing], break[ing]"
 """What no plan may do to anything."""
 HARMED = "damaged|harmed|crushed|squashed|broken|spilled|spilt|lost"
 """What no plan may let become of anything."""

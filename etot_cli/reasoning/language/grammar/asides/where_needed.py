@@ -65,8 +65,13 @@ _IF_IN_THE_WAY = Expression(
     rf"(?:if {_SO}|(?:should {_THING}|were {_THING} to) (?:be|get|stand) in (?:the|your|its) way)"
 )
 _TAKE_IT_AWAY = Expression(rf"{_YOU}(?:{_TAKE} {_IT} {_OUT}|{_TOUCH} {_IT}){_FIRST}")
+_WHATEVER = (
+    r"(?:(?:first )?(?:move|remove|clear|take|shift)(?: away| aside)?"
+    rf" (?:whatever|what|(?:anything|everything)(?: that)?) {_IN_THE_WAY}(?: of {_THING})?"
+    rf"(?: {_OUT})?)"
+)
 _WHERE_NEEDED = Expression(
-    rf"(?:{_YOU}(?:{_TAKE_IT}|{_TAKING_IT}){_FIRST} {_NEEDED}"
+    rf"(?:{_YOU}{_WHATEVER}{_FIRST}|{_YOU}(?:{_TAKE_IT}|{_TAKING_IT}){_FIRST} {_NEEDED}"
     rf"|you (?:can|could) {_TAKE} {_THING} {_ELSEWHERE}{_FIRST}"
     rf"|{_ALLOWED} {_TAKE_IT}{_FIRST}(?: {_NEEDED})?"
     rf"|it (?:is|would be) {_FINE} (?:for you to|to|if you) {_TAKE_IT}{_AND_LEAVE_IT}"

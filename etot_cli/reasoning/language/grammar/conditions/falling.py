@@ -25,6 +25,12 @@ def not_dropped(things: Things) -> AvoidClause | None:
     return None if any(np.modifiers for np in things.phrases) else unharmed(things)
 
 
+def not_spilled(things: Things) -> AvoidClause | None:
+    """What is not to be spilled; "any paint" is what some thing holds, of which no scene tells."""
+    some = any(np.words and np.determiner in ("", "any", "some") for np in things.phrases)
+    return None if some else unharmed(things)
+
+
 def unhit(things: Things, said: str) -> AvoidClause:
     """What nothing is to knock down, or over, be it in the hand or not."""
     over = bool({"over", "topple", "toppling"} & {*said.split()})

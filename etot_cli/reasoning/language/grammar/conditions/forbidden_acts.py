@@ -9,6 +9,7 @@ from etot_cli.reasoning.language.grammar.conditions.falling import (
     NOTHING_HARMED,
     OFF_THE_DESK,
     not_dropped,
+    not_spilled,
     unharmed,
     unhit,
 )
@@ -136,6 +137,7 @@ FORBIDDEN = either(
     ),
     LET_MEET,
     sequence("drop[ping], los(e|ing)", THINGS, build=not_dropped),
+    sequence("spill[ing]", THINGS, build=not_spilled),
     sequence("let[ting]", THINGS, f"{forbidden.TO_THE_FLOOR}, {OFF_THE_DESK}", build=unharmed),
     sequence(
         "drop[ping], throw[ing], knock[ing], push[ing], roll[ing]",

@@ -133,6 +133,7 @@ def _goes_along(said: re.Match[str]) -> str:
     return f"{please}{asked} with the {rider}{rest} and {kept}"
 
 
+_WITH_IT = rf"with {NAMED} (?:\w+ ){{0,2}}?(?!ones?\b)\w+ (?:on|in|inside) it"
 ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     # "Please kindly to put one in the box and other one on the tray", by who speaks another tongue
     (
@@ -145,6 +146,17 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         r"\1",
     ),
     (r"\b(one [^.;]*? and )(?=other one\b)", r"\1the "),
+    # "Move the tray next to the box together with the cup on it": that goes along on it
+    (
+        rf"\b((?:move|bring|carry|take|put) {NAMED} (?:\w+ ){{0,2}}?\w+),? (?:together|along) "
+        rf"({_WITH_IT}),?( {WHERE}[^.,;:]*?)(?=[.,;!]|$| (?:and|then)\b)",
+        r"\1\3 \2",
+    ),
+    (
+        rf"\b((?:move|bring|carry|take|put) {NAMED} [^.,;:]*? {WHERE}[^.,;:]*?),? "
+        rf"(?:together|along) (?={_WITH_IT}(?:[.,;!]|$| (?:and|then)\b))",
+        r"\1 ",
+    ),
     # "Behind the bin there is room for the bear, put it there"
     (
         r"(\bthere is (?:still |enough |some )?(?:room|space) [^.,;!?]*)[.,;!] "

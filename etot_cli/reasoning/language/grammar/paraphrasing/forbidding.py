@@ -76,6 +76,8 @@ def _rather_there(said: re.Match[str]) -> str:
     return f"{said['put']} {said['what']} {said['where']}, not {said['beside']}{said['why'] or ''}"
 
 
+_KIND = r"(?!objects?\b|things?\b|items?\b|ones?\b)\w+"
+_MAY_BE = r"(?:may|must|should|can|shall|is to|are to|has to) be"
 FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], ...] = (
     (
         r"(?<=\w),? (?:but|(?:but|and) (?:please )?do (?:it|this|that|so)) without (?=\w+ing\b)",
@@ -199,6 +201,13 @@ FORBIDDING: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"(?(3)(?=(?:{'|'.join(_DONE_TO)}){_ENDS})|(?=(?:{'|'.join(_ASKED_TO_BE)})\b))",
         lambda said: f"{said[1]}{said[2]}must {'not ' if said[3] else ''}be ",
     ),
+    # "No other cup may be moved: put just the red one on the tray": others than that
+    (
+        rf"(^|[.;!] )no other ({_KIND}) {_MAY_BE} (move|touch|disturb)e?d[:.;,] "
+        r"(?:so |please )*([^.;:]*?\bthe (?:\w+ )?)one\b([^.;:]*)(?=[.;]|$)",
+        r"\1\4\2\5, and do not \3 any other \2",
+    ),
+    (rf"\bno other ({_KIND}) {_MAY_BE} (move|touch|disturb)e?d\b", r"do not \2 any other \1"),
     (
         rf"\bwithout ({_IT}) (?:moving|budging|stirring|leaving (?:{_SPOT})){_ENDS}",
         r"without moving \1",

@@ -219,6 +219,13 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"(?= [^.;:!?\n]*? (?:inside|in it|on it|in there)(?:[.;!,]|$| and\b))",
         r"\1\2:",
     ),
+    # "Pack the pot: the cheese first, then the butter, and finally the lid on top"
+    (
+        rf"(^|[.;\n] ?)(?:please )?(?:load|fill|pack|stock) ({NAMED} [^,.;:!?\n]+): (?:first )?"
+        rf"(?!(?:put|place|set|lay|move|take|add|open)\b)({_ITEM})(?: first)?,? (?:and )?then "
+        rf"(?={NAMED})(?!the (?:lid|cover)(?:[.;!]|$))",
+        r"\1put \3 in \2, then ",
+    ),
     (r"(^|[.;\n] ?)actions?: ?", r"\1"),
     (r"\b(?:acceptance|pass(?:ing)?|exit) criteri(?:on|a):", "success criterion:"),
     # "Bottom shelf for the cups, top shelf for the pens"

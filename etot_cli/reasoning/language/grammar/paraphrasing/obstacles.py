@@ -41,6 +41,7 @@ _SOMETHING = r"(?:something|a thing|an object)"
 _THERE = r"(?:is |stands )?(?:standing |sitting |lying )?(?:in front of it|in the way|blocking it)"
 
 
+_TURN = "(?:open|opening|close|closing|shut|shutting)"
 OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         # Where to is not said
@@ -53,6 +54,12 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (
         rf"\b(?:clear|take|get|bring) ({_WHAT}|it|them) (?=out of the way of\b)",
         r"move \1 ",
+    ),
+    (
+        # "Remove the ball in front of the oven and open it": as it stands there, it is in the way
+        rf"\b(?:remove|take away) (?=({_WHAT} (?:in front of|before|{_BLOCKS}) ({_WHAT}))"
+        rf",? (?:and |then |and then |before |so that you can )*{_TURN} (?:\2|it)\b)\1",
+        r"move \1 out of the way",
     ),
     (
         rf"\b(out of the way(?: of {_WHAT})?),? (?:and|then|and then) (?:set|put|place|lay)"
@@ -110,8 +117,9 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"\1 \2 out of the way of \2",
     ),
     (
-        rf"\b(?:clear|free(?: up)?) the "
-        rf"(?:way to|path to|(?:space|area|spot|room) in front of) ({_WHAT}){_ENDS}",
+        rf"\b(?:clear|free(?: up)?|unblock) "
+        rf"(?:the (?:way to|path to|(?:space|area|spot|room) in front of) (?={_WHAT}{_ENDS})"
+        rf"|(?=(?:the|my|our) (?:\w+ ){{0,2}}door(?: of {_WHAT})?{_ENDS}))({_WHAT}){_ENDS}",
         r"move everything that is blocking \1 out of the way of \1",
     ),
     (

@@ -158,6 +158,13 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"\1 ",
     ),
     (_ONCE_DONE, _to_do),
+    (rf"\b(empty(?:ing)?) ({NAMED} (?:\w+ )??\w+) ?'s contents\b", r"\1 the contents of \2"),
+    # "Everything in the drawer and in the locker goes into the crate"
+    (
+        rf"(^|[.;] )(everything|all)( (?:in|on|inside) {NAMED} (?:\w+ )??\w+) and "
+        rf"(?=(?:in|on|inside) {NAMED} (?:\w+ ){{1,2}}?(?:goes|go|belongs|should|must)\b)",
+        r"\1\2\3 and \2 ",
+    ),
     # "Empty the box and the bag; their contents go in the bin"
     (
         rf"\b((?:empty|unload) (?:(?!\band (?!{NAMED}))[^.;,:])*?)[.;,:] "

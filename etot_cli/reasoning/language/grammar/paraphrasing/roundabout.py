@@ -125,6 +125,12 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"({NAMED}(?: \w+){{1,4}}), (?=(?:goes|go|belongs?|should|must|has to|needs to)\b)",
         r"\1 and \2 ",
     ),
+    # "Red cup first: put it on the tray"
+    (
+        r"(^|[.;!] )(?:the )?((?!the\b|do\b|put\b|take\b|open\b)\w+(?: \w+){0,2}?)(?<!s) first: "
+        r"(put|place|move|bring|take|set|drop|store|pick|open|close|shut) it\b",
+        r"\1first \3 the \2",
+    ),
     # "Make sure that in the end the cup is on the tray and neither pen has been moved"
     (
         r"\b((?:(?:at|in) the end|make sure|ensure|see to it)\b[^.;!?]*?)(?:, and|,| and) "

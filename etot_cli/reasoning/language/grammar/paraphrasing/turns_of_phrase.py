@@ -43,8 +43,9 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
     (r"\bthereafter\b", "afterwards"),
     (r"\btherein\b", "in it"),
     (
-        r"\b(?:up)?on completion(?: of (?:this|the) (?:task|job|work|step))?"
-        r"(?=[.,;!]|$| (?:close|shut|open|put)\b)",
+        r"\b(?:(?:upon|on|after|at the end of) (?:the )?(?:completion|execution)"
+        r"(?: of (?:this|the) (?:task|job|work|step|plan))?|after (?:the|this) (?:task|run|job))"
+        r"(?=[.,;!]|$| (?:close|shut|open|put|the|all|both|every|no|nothing|only)\b)",
         "in the end",
     ),
     # "The operator takes the pen and lays it on the box"

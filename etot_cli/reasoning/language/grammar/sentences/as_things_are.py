@@ -89,7 +89,8 @@ def _held_by(nps: tuple[NounPhrase, ...], condition: Condition) -> Condition:
 
 def _of_what_was_named(said: tuple[Reading, Condition]) -> list[tuple[Reading, Condition]]:
     """A condition behind what is asked for, with what its pronoun may mean: whatever fits its
-    state, or what is to go elsewhere from where it is. "Its door" is that of whatever has one.
+    state, or what is to go elsewhere from where it is. "Its door" is that of whatever has one, and
+    "that drawer" the one that was named.
     """
     reading, condition = said
     clause = reading[0].clause
@@ -108,6 +109,9 @@ def _of_what_was_named(said: tuple[Reading, Condition]) -> list[tuple[Reading, C
         whose = (np for np in named(clause) if not (np.pronoun or np.modifiers or np.owner))
         parts = (replace(about, determiner="the", owner=np) for np in whose)
         return [(reading, replace(condition, subjects=(part,))) for part in parts]
+    like = [np for np in named(clause) if about.words and np.words[-1:] == about.words]
+    if about.determiner in ("that", "this") and not (more or about.modifiers) and like:
+        return [(reading, replace(condition, subjects=(np,))) for np in like]
     if not about.pronoun:
         it = condition.place is not None and condition.place.targets[0].pronoun
         holders = tuple(np for np in named(clause) if not np.pronoun and np != about)

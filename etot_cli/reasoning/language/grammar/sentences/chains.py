@@ -237,7 +237,11 @@ JOINED = either(
         ),
     ),
     joint(
-        "so that", OPTIONAL_COMMA, small_words.SO_THAT, plain(sequence(states, build=EnsureClause))
+        "so that",
+        OPTIONAL_COMMA,
+        small_words.SO_THAT,
+        plain(sequence(states, build=EnsureClause)),
+        silent(optional(small_words.BY_THE_END)),
     ),
     joint("and", OPTIONAL_COMMA, small_words.SO_THAT, plain(either(IS_EMPTY, STAYING_UPRIGHT))),
     joint("and", OPTIONAL_COMMA, optional(small_words.SO_THAT), plain(NOTHING_ELSE)),

@@ -75,4 +75,6 @@ def blocks(thing: Thing, opened: Thing, scene: SceneState) -> bool:
     )
     half = min(other.size[:2]) / 2
     before = along - outline.extent(ahead)
-    return bool(0 < before <= half + reach + _SPARE and abs(across) <= outline.extent(aside) + half)
+    # A door turns about one of its sides: what stands past that is in no way of it.
+    over = half if all(part.joint_type == "slide" for part in parts) else 0.0
+    return bool(0 < before <= half + reach + _SPARE and abs(across) <= outline.extent(aside) + over)

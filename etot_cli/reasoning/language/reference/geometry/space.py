@@ -18,7 +18,7 @@ from etot_cli.reasoning.builtin.relations import bearers, is_inside, is_on, part
 from etot_cli.reasoning.language.reference.geometry.blocking import blocks
 from etot_cli.reasoning.language.words.lexicon import OPEN_SURFACES, matches_any
 from etot_cli.reasoning.language.words.places import Prep
-from etot_cli.world.spatial import AT, BESIDE, Nearby, Whereabouts, holds, outline_of
+from etot_cli.world.spatial import AT, BESIDE, Nearby, Whereabouts, fits, holds, outline_of
 from etot_cli.world.state import DESK, ObjectInfo, SceneState
 
 OFFSET = 0.01
@@ -28,6 +28,8 @@ ASKEW = 2.0
 another one, as by definition is what is more askew than aside at all."""
 CLOSE = 0.04
 """What is left free between two things that are set down close together, for the fingers [m]."""
+_GRID = 9
+"""Spots each way on a surface, of which it is looked whether one is beside something."""
 FLAT = 0.5
 """What is at most so high, as a share of its width, is a support by its looks (a tray, a book)."""
 
@@ -317,6 +319,22 @@ def gap(thing: Thing, landmark: Thing, scene: SceneState) -> float:
         return math.inf
     away = math.dist(position(thing, scene)[:2], position(landmark, scene)[:2])
     return away - radius(scene.infos[thing.name]) - radius(scene.infos[landmark.name])
+
+
+def can_be_at(relation: Nearby, landmark: Thing, surface: str, scene: SceneState) -> bool:
+    """Whether some place on an object may be said to be beside a landmark that stands elsewhere; on
+    furniture, which stays where it is, it has to be on the very side.
+    """
+    if relation not in OPPOSITE or scene.infos[surface].movable:
+        return gap(landmark, Thing(surface), scene) <= BESIDE
+    area = outline_of(surface, scene)
+    steps = np.linspace(-1.0, 1.0, _GRID)
+    spots = np.array([[x * area.half[0], y * area.half[1]] for x in steps for y in steps])
+    turned = np.array([math.cos(area.yaw), math.sin(area.yaw)])
+    across = np.array([-turned[1], turned[0]])
+    points = np.array(area.center) + spots[:, :1] * turned + spots[:, 1:] * across
+    marks = [outline_of(landmark.name, scene)]
+    return bool(fits(Whereabouts(relation), points, 0.0, marks, area, scene.forward).any())
 
 
 def point_closer(thing: Thing, landmark: Thing, scene: SceneState) -> tuple[float, float] | None:

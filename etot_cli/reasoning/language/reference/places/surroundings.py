@@ -22,7 +22,7 @@ from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.words.lexicon import word_set
 from etot_cli.reasoning.language.words.patterns import spellings
 from etot_cli.reasoning.language.words.places import ACROSS
-from etot_cli.world.spatial import BESIDE, Nearby, Whereabouts, holds
+from etot_cli.world.spatial import Nearby, Whereabouts, holds
 from etot_cli.world.state import DESK, SceneState
 
 _PARTS = word_set("edge end border rim half part corner quarter area")
@@ -85,10 +85,13 @@ class Surroundings:
                 raise ReferenceProblem(names, "they do not stand on the same", 3)
             away = [thing for thing, on in zip(things, under, strict=True) if not below & on]
             if below - {DESK} and any(
-                all(space.gap(thing, Thing(name), self._scene) > BESIDE for name in below)
+                not any(space.can_be_at(item.relation, thing, name, self._scene) for name in below)
                 for thing in away
             ):
-                raise ReferenceProblem(names, f"it is far from {' and '.join(sorted(below))}", 2)
+                on = " and ".join(sorted(below))
+                side = item.relation in OPPOSITE
+                why = f"no place on {on} is {item.relation} it" if side else f"it is far from {on}"
+                raise ReferenceProblem(names, why, 2)
         return near
 
     def _check_upon(self, found: Sequence[tuple[Beside, Sequence[Near]]]) -> None:
