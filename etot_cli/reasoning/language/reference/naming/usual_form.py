@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.words.places import Prep
 
 ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
 GENERAL = {
-    "everything": "all", "anything": "any", "something": "any", "everything else": "all other",
+    "everything": "all", "anything": "any", "something": "a", "everything else": "all other",
     "all else": "all other",
 }  # fmt: skip
 """Determiners that nouns for anything stand for."""
