@@ -109,7 +109,9 @@ def modified(
         ways: dict[tuple[Thing, ...], tuple[list[Thing], list[str]]] = {}
         for landmarks in landmark_sets(modifier):
             said: list[str] = []
-            told = Told(modifier, landmarks, quantity, count, scene, phrase.text)
+            # What stands behind it tells which of them ("right of the box, nearest to the cup").
+            so_many = None if RANKED & {item.prep for item in waiting} else count
+            told = Told(modifier, landmarks, quantity, so_many, scene, phrase.text)
             found, more = related(told, things, said)
             found = _holding_so_many(modifier, found, landmarks, scene)
             rough = any(ROUGHLY in note for note in said)

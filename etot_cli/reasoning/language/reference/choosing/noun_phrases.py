@@ -234,8 +234,10 @@ class Resolver:
         notes = list(match.notes)
         sets = partial(self._landmark_sets, phrase, pronoun, quantity)
         rivals = things
+        # "The biggest cup behind the plate" is the biggest of all that stand there.
+        count = None if match.selectors else asked.count
         things, others = modified(
-            things, modifiers, quantity, asked.count, phrase, self._scene, sets, notes
+            things, modifiers, quantity, count, phrase, self._scene, sets, notes
         )
         meant = partial(self._landmarks, pronoun)
         words = asked.words
