@@ -314,7 +314,11 @@ def left_out(
         if modifier.prep is Prep.QUALITY and modifier.denied:
             known = (with_quality(things, w, phrase, vocabulary, scene) for w in modifier.words)
             not_so = set[Thing]().union(*known)
-            if len(things) == 1 and not not_so:  # "everything off the tray that is not red"
+            # The only mug is "the mug that is not white" if it is red.
+            lone = phrase.determiner in THE_WORDS and phrase.modifiers == (modifier,)
+            true = lone and all(map(basic_color, modifier.words))
+            if len(things) == 1 and not (not_so or true):
+                # "Everything off the tray that is not red"
                 raise ReferenceProblem(phrase.text, _ALONE, 2)
             out |= not_so
         if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):
