@@ -315,6 +315,14 @@ class Meanings(LentNouns):
             with suppress(ReferenceProblem):
                 self.with_noun(way, role, noun)
                 return way
+        spoken = (self.discourse.things(mention.referent) for mention in self.discourse.mentions)
+        wholes = {Thing(thing.name) for things in spoken for thing in things}
+        with suppress(ReferenceProblem):  # "the pen next to the shelf … its top board"
+            the = replace(phrase, determiner="the")
+            (option, *more) = self.with_noun(the, role, None).options
+            level = [at for at in option if (at.part or at.board) and Thing(at.name) in wholes]
+            if owner.pronoun == "it" and level and not (option[1:] or more):
+                return the
         named = None
         with suppress(ReferenceProblem):
             things = self.with_noun(replace(phrase, determiner="all"), role, None).options[0]
