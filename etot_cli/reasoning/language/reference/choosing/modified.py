@@ -300,6 +300,7 @@ def left_out(
     scene: SceneState,
     landmarks: Callable[..., list[Thing]],
     notes: list[str],
+    role: Role,
 ) -> tuple[list[Thing], set[Thing]]:
     """The things but for those that a phrase takes out, and these; ``landmarks`` gives them;
     ``notes`` grows.
@@ -316,7 +317,7 @@ def left_out(
             not_so = set[Thing]().union(*known)
             # The only mug is "the mug that is not white" if it is red.
             lone = phrase.determiner in THE_WORDS and phrase.modifiers == (modifier,)
-            true = lone and all(map(basic_color, modifier.words))
+            true = lone and role is Role.THEME and all(map(basic_color, modifier.words))
             if len(things) == 1 and not (not_so or true):
                 # "Everything off the tray that is not red"
                 raise ReferenceProblem(phrase.text, _ALONE, 2)
