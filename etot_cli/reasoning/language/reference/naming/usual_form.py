@@ -134,7 +134,7 @@ def _of_a_mass(phrase: NounPhrase) -> NounPhrase | None:
     return replace(phrase, determiner="the 1") if mass else None
 
 
-def _the_others(phrase: NounPhrase) -> NounPhrase | None:
+def the_others(phrase: NounPhrase) -> NounPhrase | None:
     """As in "the rest of the red cups", which are all other red cups."""
     if phrase.head not in _OTHERS or len(phrase.words) > 1:
         return None
@@ -185,7 +185,7 @@ _REWRITINGS = (
     _counted_from_a_side,
     _of_a_number,
     _of_a_mass,
-    _the_others,
+    the_others,
     _no_more_than,
     _all_but,
     packed,
