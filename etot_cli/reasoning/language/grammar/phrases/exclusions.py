@@ -120,8 +120,12 @@ def of_the_things(clause: Clause, said: Modifier) -> Clause | None:
 
 def but_some(clause: PutClause, group: PutGroup, *, set_off: bool) -> Clause | None:
     """All of them go to one place but for some that go to another. Where no comma sets these off,
-    "everything on the shelf but the cup" may as well be what is on the shelf.
+    "everything on the shelf but the cup" may as well be what is on the shelf. Of one thing nothing
+    is left out: "the cup on the shelf but the pen in it".
     """
+    match clause.groups:
+        case (PutGroup(things=Things(phrases=(np,), either=False)),) if _is_one(np):
+            return replace(clause, groups=(*clause.groups, group))
     out = excepting(group.things.phrases)
     found = None if out is None or group.things.either else excluding(clause, out)
     if not isinstance(found, PutClause):
