@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.reference.pronouns.narrowing import (
     one_of_several,
     other_board,
     others,
+    pair_spoken_of,
     spared_one,
     spoken_part,
 )
@@ -179,6 +180,7 @@ class Meanings(LentNouns):
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         chosen = one_of_several(phrase, role, self.discourse)
         chosen = chosen or spared_one(phrase, self.discourse)
+        chosen = chosen or pair_spoken_of(phrase, role, self.discourse)
         if chosen is not None:
             return chosen
         phrase = as_rest(phrase, noun_before, self.discourse)
