@@ -39,6 +39,14 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
     some = left_out.prep is Prep.EXCEPT and not left_out.denied
     if only := only_there(clause, left_out):
         return only
+    match clause:
+        case PutClause(groups=(_, *_, last) as groups) if some:
+            # "The red cup in the box and the others on the tray, except the blue one"
+            alone = all(_is_one(np) for group in groups[:-1] for np in group.things.phrases)
+            rest = excluding(replace(clause, groups=(last,)), left_out, at) if alone else None
+            if not isinstance(rest, PutClause):
+                return None
+            return replace(rest, groups=(*groups[:-1], *rest.groups))
 
     def without(np: NounPhrase) -> NounPhrase | None:
         # "Any cup, put it there, but not the red one" is said of what "it" was chosen from.
