@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from contextlib import suppress
 
@@ -11,7 +12,7 @@ from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context, InTheWay
 from etot_cli.reasoning.language.grammar.phrases.contents import HERE_BEFORE
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup
-from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -177,16 +178,37 @@ def check_not_open(context: Context, index: int, text: str) -> None:
 _BEFORE_OPENING = Expression(r"\bbefore (?:(?:you|we|it is|they are) )?open(?:ing|ed)?\b")
 
 
+def _check_all_there(context: Context, clause: PutClause, every: NounPhrase) -> None:
+    """Whether "everything on the tray and the cup into the box" may be what is on the tray."""
+    scene, marks = context.scene, set[str]()
+    for np in (np for where in clause.groups[0].destinations for np in where.targets):
+        with suppress(ReferenceProblem):
+            options = context.phrases.meaning(np, Role.PLACE).options
+            marks |= {thing.name for thing in things_in(options)}
+    there = any(marks & {*carriers(scene, thing)} for thing in scene.states)
+    place = r"(?:in|on)(?:to)? (?:(?!\b(?:in|on|into|onto)\b|[,.;]).)* and "
+    if there and re.search(f"{every.text} {place}", context.sentence):
+        raise AmbiguousReference(every.text, ["all of it", "what is there"])
+
+
 def check_swept(context: Context, clause: PutClause) -> None:
-    """Whether "everything from the plate and the tray" may be what is on both, or the tray."""
+    """Whether "everything from the plate and the tray" may be what is on both, or the tray; "what
+    is on the mat into the box and the mat on the shelf" has named that mat already.
+    """
     (first, *more) = [np for group in clause.groups for np in group.things.phrases]
-    swept = bool(first.modifiers) and matches_any(first.head, THING_NOUNS)
+    general = matches_any(first.head, THING_NOUNS)
+    if more and general and not (first.modifiers or first.without):
+        _check_all_there(context, clause, first)
+    swept = bool(first.modifiers) and general
     below = {name for thing in context.scene.states for name in carriers(context.scene, thing)}
     for second in more[:1] if swept or first.head in GENERAL else ():
         swept = False
         with suppress(ReferenceProblem):
             meant = things_in(context.phrases.meaning(second, Role.THEME).options)
             swept = any(thing.name in below for thing in meant)
+            marks = [np for item in first.modifiers for np in item.phrases if np.words]
+            named = (context.phrases.meaning(np, Role.ANY).options for np in marks)
+            swept &= not {*meant} <= {thing for ways in named for thing in things_in(ways)}
         if swept:
             text = f"{first.text} and {second.text}"
             raise ReferenceProblem(text, "say in two sentences where what is on each is to go", 4)

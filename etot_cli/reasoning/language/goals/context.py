@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.reference.naming.states import state_holds
+from etot_cli.reasoning.language.reference.naming.usual_form import the_others
 from etot_cli.reasoning.language.reference.places.places import Places
 from etot_cli.reasoning.language.reference.several import Phrases
 from etot_cli.reasoning.language.words.lexicon import JOINT_NOUNS, same_noun, singular
@@ -116,16 +117,18 @@ class Context:
             self._tell_holding(np, things)
         marks = (np for item in destinations for near in item.beside for np in near.phrases)
         targets += [np for np in marks if np.words]
-        for phrase in (np for np in things.phrases if np.words):
+        for np in (np for np in things.phrases if np.words):
+            rest = the_others(np)  # "the rest of the cups"
+            phrase = rest if rest and rest.words else np
             noun = phrase.head
             others = quantity_of(phrase.determiner).other
             if others and self.phrases.spoken_of(phrase, Role.THEME) is None:
-                for np in targets:
-                    named = np.called(singular(noun)) if np.head == "one" else np
+                for at in targets:
+                    named = at.called(singular(noun)) if at.head == "one" else at
                     if same_noun(named.head, noun):
                         self.phrases.refer(named, Role.ANY)
                     else:
-                        self._tell_there(phrase, np)
+                        self._tell_there(phrase, at)
 
     def _tell_holding(self, place: NounPhrase, things: Things) -> None:
         """Behind "the apple stays where it is" "the other holder" is one that the apple is not in,

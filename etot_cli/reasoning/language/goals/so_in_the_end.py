@@ -22,11 +22,13 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import (
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     AS_FOUND,
     Destination,
+    Modifier,
     NounPhrase,
     State,
     Things,
     Toward,
 )
+from etot_cli.reasoning.language.reference.choosing.landmarks import is_one
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
 from etot_cli.reasoning.language.words.expressions import Expression
@@ -181,10 +183,13 @@ def _and_contents(
     so = contains or " with " in np.text
     if not (len(held) == 1 and so and all(map(_is_the_one, held[0].phrases))):
         return np, None
+    subjects = held[0].phrases
     try:
         context.phrases.meaning(np, role)
         if held[0].prep is Prep.BEARING:
             return np, None  # it tells which
+        if is_one(subjects[0]) and not subjects[0].words[1:]:  # of two toys the one in there
+            subjects = (subjects[0].told_by(Modifier(Prep.IN, (np,))),)
         bare = np.without_modifier(held[0])
         one = [len(option) for option in context.phrases.meaning(bare, role).options] == [1]
         if role is Role.PART and one:
@@ -193,7 +198,7 @@ def _and_contents(
         np = np.without_modifier(held[0])
         if [len(option) for option in context.phrases.meaning(np, role).options] != [1]:
             raise
-    return np, State(held[0].phrases, (Destination(holding[held[0].prep], (np,)),))
+    return np, State(subjects, (Destination(holding[held[0].prep], (np,)),))
 
 
 def _is_the_one(np: NounPhrase) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import combinations
 
@@ -103,7 +104,10 @@ def _picked_out(
             found += left
             continue
         full = phrase if own else _with_noun(phrase, noun, context)
-        resolved = context.phrases.meaning(full, role)
+        resolved = None
+        with suppress(ReferenceProblem):  # of "the white bottles, the right one first": of these
+            resolved = context.phrases.resolver.resolve(full, role, among=things)
+        resolved = resolved or context.phrases.meaning(full, role)
         if len(resolved.options) != 1:
             raise ReferenceProblem(phrase.text, "say which one of them", 2)
         if not all(thing in things for thing in resolved.options[0]):

@@ -328,6 +328,14 @@ def singular(word: str) -> str:
     return word
 
 
+def plural(word: str) -> str:
+    """The plural of a noun."""
+    irregular = (several for several, one in _IRREGULAR.items() if one == word != several)
+    ending = "es" if singular(f"{word}es") == word else "s"
+    soft = re.search("[^aeiou]y$", word)
+    return next(irregular, f"{word[:-1]}ies" if soft else f"{word}{ending}")
+
+
 def head_of(noun: str) -> str:
     """The noun in one of several words: "crate" in "crate_a", "carton" in "carton_of_milk"."""
     return re.sub(r"_(?:(?:of|with|for)_.*|\w|\d+)$", "", noun).rpartition("_")[2]

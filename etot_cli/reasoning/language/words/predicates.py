@@ -209,6 +209,7 @@ STAY = f"""
 """
 STAY_OUT = f"({STAY}|({_MUST}) {_SIMPLY} be kept|(is|are) kept)"
 """Before what something is never to be in or on."""
+STILL_BE = f"({_MUST}|can|may) {_SIMPLY} [still] be"
 LEFT_THERE = f"{STAY}, ({_MUST}|can|may) {_SIMPLY} be left [standing|lying|sitting]"
 KEEP_ITS_PLACE = f"""
     [{_MUST}|can|may] {_SIMPLY} (keep|keeps|retain|retains)

@@ -83,7 +83,8 @@ def still_needs_it(said: str, is_name: IsName, *, for_somebody: bool) -> bool:
 
 _ROOM = (
     r"(?:(?:(?:some|more|a (?:bit|little|lot)|lots|enough|not enough|no|(?:too )?little|any|much)"
-    r"(?: more| extra| free)*(?: of)? |the )?(?:elbow )?(?:room|space)"
+    r"(?: more| extra| free)*(?: of)? |the )?"
+    r"(?:(?:elbow|work|bench|desk|counter|table) )?(?:room|space)"
     r"|(?:the|that) (?:whole )?(?:surface|spot|area))"
 )
 _BESIDE = r"next to|beside|by|near|around|behind|in front of|(?:to the )?(?:left|right) of"
@@ -95,8 +96,9 @@ _WHERE = (
     r"|for (?:something|other things|more things|(?:something|anything) else|\w+ing)))*"
 )
 _LACKING = Expression(
-    rf"(?:(?:i|we) (?:(?:just|really|also) )?(?:(?:will |could |would )?(?:need|use|want|like)"
-    rf"(?: to have)?|do not have|have|am|are)(?: (?:short|out) of)? {_ROOM}{_WHERE}"
+    rf"(?:(?:{PEOPLE}|they) (?:(?:just|really|also) )?(?:(?:will |could |would )?"
+    r"(?:needs?|use|want|like)(?: to have)?|do not have|have|am|are|is)"
+    rf"(?: (?:short|(?:running )?out) of| (?:running )?low on)? {_ROOM}{_WHERE}"
     rf"|there is (?:just )?(?:not |hardly |barely )?{_ROOM}{_WHERE}"
     rf"|(?:the |my )?(?:room|space) is (?:tight|short|scarce|limited){_WHERE})"
 )

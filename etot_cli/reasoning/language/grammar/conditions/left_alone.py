@@ -47,6 +47,7 @@ _THERE = "[up|down|over] (there|here)"
 _STAYS = either(
     sequence(predicates.LEFT_THERE, optional(f"{manner.AS_IT_IS}, put, {_THERE}, out")),
     phrase(predicates.KEEP_ITS_PLACE),
+    sequence(predicates.STILL_BE, manner.WHERE_IT_IS),
 )
 _THE_REST = Things((NounPhrase(words=("the rest",), text="everything else"),))
 _THE_OTHERS = Things((NounPhrase(words=("the others",), text="the others"),))

@@ -90,6 +90,12 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
         rf"|besides|apart from) ({_SOME}){_ENDS}",
         r"\1 only \3 \2",
     ),
+    # "Take the cup off the tray. Now that it is empty, put …", "It is empty now. Put …"
+    (
+        r"\b((?:take|remove|get|lift|clear|empty)\b[^.;!]*[.;!]) (?:now that it is (?:now )?empty,"
+        rf"|it is (?:now empty|empty now)[.;!]|now it is empty[.;!]) (?={ASKED}{_PUT}\b)",
+        r"\1 once it is empty, ",
+    ),
     # "One pedal is not in the crate yet. Put it in there"
     (
         rf"^(?:please,? )?(?:the|one|(two|three)) ((?:\w+ )??(?!that\b|which\b)\w+) (is|are) "

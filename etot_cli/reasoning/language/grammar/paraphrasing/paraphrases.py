@@ -61,7 +61,9 @@ _DID = Expression(
     rf"|((?:,|\band|\bthen) )({'|'.join(PAST)})(?= (?:up|out|off|it|"
     r"them|him|her|the|this|that|these|those|my|your|our|a|an|both|all|every|everything|each)\b))"
 )
-_WISHED = Expression(r"\bwould (?:be|appreciate|like|love|prefer)\b[^.;:!?\n]*? if you [^.;:!?\n]*")
+_WISHED = Expression(
+    r"\bwould (?:be|appreciate|help|like|love|prefer)\b[^.;:!?\n]*? if you [^.;:!?\n]*"
+)
 
 
 def _as_asked(wish: re.Match[str]) -> str:

@@ -179,6 +179,17 @@ ROUNDABOUT: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?=[.;!]|$)",
         r"\1 do not want \2 \3, but \1 want \4 \3",
     ),
+    # "Neither of the cups should be on the tray, just the pen"
+    (
+        rf"(?:(?<=^)|(?<=[.;!] ))((?:(?:neither|none) of )?{_NOUN}) ({_MUST}) (not )?"
+        rf"((?:be|go|stand|end up) (?:in|on|inside) {_NOUN}), (?:but )?(?:only|just) ({_NOUN})"
+        r"(?=[.;!]|$)",
+        lambda said: (
+            f"{said[1]} {said[2]} {said[3] or ''}{said[4]}, but {said[5]} {said[2]} {said[4]}"
+            if bool(said[3]) != (said[1][0] == "n")
+            else said[0]
+        ),
+    ),
     (rf"(, (?:and )?not (?:in|on|into|onto|inside) {_NOUN}) either(?=[.;!]|$)", r"\1"),
     # "It belongs in the fridge, not out here": where it is now, so nowhere else
     (

@@ -39,6 +39,14 @@ def excluding(clause: Clause, left_out: Modifier, at: int = -1) -> Clause | None
     some = left_out.prep is Prep.EXCEPT and not left_out.denied
     if only := only_there(clause, left_out):
         return only
+    match clause:
+        case PutClause(groups=(_, *_, last) as groups) if some:
+            # "The red cup in the box and the others on the tray, except the blue one"
+            alone = all(_is_one(np) for group in groups[:-1] for np in group.things.phrases)
+            rest = excluding(replace(clause, groups=(last,)), left_out, at) if alone else None
+            if not isinstance(rest, PutClause):
+                return None
+            return replace(rest, groups=(*groups[:-1], *rest.groups))
 
     def without(np: NounPhrase) -> NounPhrase | None:
         # "Any cup, put it there, but not the red one" is said of what "it" was chosen from.
@@ -120,8 +128,12 @@ def of_the_things(clause: Clause, said: Modifier) -> Clause | None:
 
 def but_some(clause: PutClause, group: PutGroup, *, set_off: bool) -> Clause | None:
     """All of them go to one place but for some that go to another. Where no comma sets these off,
-    "everything on the shelf but the cup" may as well be what is on the shelf.
+    "everything on the shelf but the cup" may as well be what is on the shelf. Of one thing nothing
+    is left out: "the cup on the shelf but the pen in it".
     """
+    match clause.groups:
+        case (PutGroup(things=Things(phrases=(np,), either=False)),) if _is_one(np):
+            return replace(clause, groups=(*clause.groups, group))
     out = excepting(group.things.phrases)
     found = None if out is None or group.things.either else excluding(clause, out)
     if not isinstance(found, PutClause):

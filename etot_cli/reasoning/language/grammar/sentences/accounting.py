@@ -7,6 +7,7 @@ left no trace in the syntax tree was read over, by whatever rule, and the readin
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from enum import Enum
@@ -174,7 +175,7 @@ def unaccounted(words: Sequence[str], reading: Reading) -> str | None:
             return said[1]  # it may go there beside others
     if _ALLOWED_LATER.search(text):
         return "later"
-    if _is_first_alone(reading) and (said := _LAST_FIRST.search(text)):
+    if (said := _LAST_FIRST.search(text)) and _is_first_alone(reading, text):
         return said[1]  # nothing is left that comes after it
     for word in _telling(words):
         kinds = _kinds(word)
@@ -188,13 +189,15 @@ def unaccounted(words: Sequence[str], reading: Reading) -> str | None:
     return None
 
 
-def _is_first_alone(reading: Reading) -> bool:
-    """Whether all that is asked for is to be done first."""
+def _is_first_alone(reading: Reading, text: str) -> bool:
+    """Whether all that is asked for is to be done first, of which that may be said of the last."""
     if len(reading) > 1 or reading[0].order is not Order.FIRST:
         return False
     match reading[0].clause:
         case PutClause(groups=several) | EnsureClause(states=several):
             return len(several) > 1
+        case MoveClause(things=Things(phrases=(_, *_, last))):  # "Open this, that first"
+            return re.search(rf"~comma (?:and )?{last.text} first\b", text) is not None
     return False
 
 

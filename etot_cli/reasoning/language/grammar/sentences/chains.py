@@ -110,6 +110,9 @@ def _ahead(nps: tuple[NounPhrase, ...]) -> AgainClause | None:
     return AgainClause(Things(nps)) if named else None
 
 
+_AHEAD = sequence(NP_LIST, build=_ahead)
+
+
 def _another(things: Things) -> AgainClause | None:
     """What comes second; "the apple on the plate" rather goes there."""
     placed = any(item.prep in (Prep.IN, Prep.ON) for np in things.phrases for item in np.modifiers)
@@ -211,8 +214,10 @@ JOINED = either(
         "and",
         OPTIONAL_COMMA,
         small_words.NOT_BEFORE,
-        plain(sequence(NP_LIST, build=_ahead), Order.BEFORE_THAT),
+        plain(_AHEAD, Order.BEFORE_THAT),
     ),
+    # "Open the drawer, but the cupboard first"
+    joint("and", COMMA, "but", plain(_AHEAD, Order.FIRST), small_words.TRAILING_FIRST),
     joint(
         # "…, but first the cup on the tray", "…, but before that the cup"
         "and",

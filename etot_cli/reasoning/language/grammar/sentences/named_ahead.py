@@ -19,6 +19,7 @@ from etot_cli.reasoning.language.grammar.parsers.common import (
     noun_phrase,
 )
 from etot_cli.reasoning.language.grammar.parsers.trees import nodes, pronouns
+from etot_cli.reasoning.language.grammar.phrases.exclusions import changed
 from etot_cli.reasoning.language.grammar.phrases.levels import THAT
 from etot_cli.reasoning.language.grammar.requests.reaching import SEPARATING
 from etot_cli.reasoning.language.grammar.sentences.chains import BARE_CHAIN, CHAIN
@@ -37,7 +38,9 @@ from etot_cli.reasoning.language.grammar.sentences.topics import (
 )
 from etot_cli.reasoning.language.grammar.syntax.clauses import (
     Clause,
+    EnsureClause,
     MoveClause,
+    PickClause,
     PutClause,
     PutGroup,
     RemoveClause,
@@ -48,6 +51,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Destination,
     Modifier,
     NounPhrase,
+    State,
     Things,
     Toward,
 )
@@ -55,6 +59,7 @@ from etot_cli.reasoning.language.words import fillers, places, small_words, verb
 from etot_cli.reasoning.language.words.lexicon import (
     JOINT_NOUNS,
     OF_TWO,
+    THING_NOUNS,
     is_descriptive,
     matches_any,
 )
@@ -143,6 +148,22 @@ def _is_one_of_them(np: NounPhrase) -> bool:
     return noun_left_out or "other" in np.determiner.split()
 
 
+def _named_among(whole: NounPhrase, rest: Reading) -> Reading | None:
+    """What is one of the things somewhere ("of everything on the tray, only the cup …")."""
+
+    def alone(np: NounPhrase) -> NounPhrase | None:
+        known = np.determiner in ("the", "only the") and not (np.is_elliptic or np.modifiers)
+        return whole.told_by(Modifier(Prep.EXCEPT, (np,), denied=True)) if known else None
+
+    if not (whole.modifiers and matches_any(whole.head, THING_NOUNS)):
+        return None
+    match rest[0].clause:
+        case PutClause(stays=False) | PickClause() | EnsureClause(states=(State(kept=False),)):
+            clause = changed(rest[0].clause, alone)
+            return None if clause is None else (replace(rest[0], clause=clause), *rest[1:])
+    return None
+
+
 def _any_of_them(topic: NounPhrase, rest: Reading) -> Reading | None:
     """Any of some things will do for what is to be done with "it"."""
     put = Spoken(ReorientClause(Things((topic,)), only_named=True), -1)
@@ -204,6 +225,7 @@ NAMED_AHEAD = either(
     sequence(AS_IT_IS, "[~comma] [and] so, ~comma [and] so, ~comma [and]", CHAIN, build=add),
     sequence(AS_IT_STANDS, "[~comma] [and] so", CHAIN, build=add),
     sequence("of, among, from among, out of", NAMED, OPTIONAL_COMMA, CHAIN, build=_one_of_them),
+    sequence("of, among", noun_phrase, OPTIONAL_COMMA, CHAIN, build=_named_among),
     sequence(plain(either(MAKING_ROOM, FREEING, SEPARATING)), "by, ~colon", CHAIN, build=add),
     sequence(plain(SEEING), "[~comma] by, ~comma, ~colon", CHAIN, build=_opened_for),
     sequence(plain(MAKING_ROOM), _AND, CHAIN, build=_room_for),

@@ -34,7 +34,7 @@ from etot_cli.reasoning.language.grammar.text.splitting import (
     words_in,
 )
 from etot_cli.reasoning.language.words import known, verbs
-from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, KIND_NOUNS, singular
+from etot_cli.reasoning.language.words.lexicon import COMMON_NOUNS, KIND_NOUNS, plural, singular
 from etot_cli.reasoning.language.words.patterns import spellings, words_of
 from etot_cli.reasoning.language.words.small_words import LOOK_FOR
 
@@ -128,7 +128,7 @@ def read(text: str, vocabulary: frozenset[str], *, common: bool = False) -> Read
             ". ".join(parts[:3]),
             f"it has more than {MAX_SENTENCES} sentences",
         )
-    spelled = vocabulary | {f"{word}s" for word in vocabulary}
+    spelled = vocabulary | {*map(plural, vocabulary)}
     sentences: list[Sentence] = []
     corrections: dict[Correction, None] = {}
     narrated = False
@@ -164,7 +164,7 @@ def slips_in(text: str, vocabulary: frozenset[str]) -> dict[str, str]:
     """Strange words of a normalized text, and the words of the scene that are meant by them; what
     stands before "the" may be a verb.
     """
-    spelled = vocabulary | {f"{word}s" for word in vocabulary}
+    spelled = vocabulary | {*map(plural, vocabulary)}
     strange = (
         word
         for word in dict.fromkeys(

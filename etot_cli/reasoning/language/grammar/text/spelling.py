@@ -47,11 +47,11 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
     """The one known word that differs from a word by a slip of the pen; None when there is none.
 
     A slip is a letter too many, missing, wrong, or two exchanged; two of them in words of eight
-    letters or more. Words of up to three letters and first letters are taken as they are, though
-    such a word may be as near ("cart" to "car" and "card"); a singular is no slip for a plural,
-    and a word of English ("tablet") none at all.
+    letters or more. Words of up to three letters lack a letter at most ("bal"), and first letters
+    are taken as they are, though a short word may be as near ("cart" to "car" and "card"); a
+    singular is no slip for a plural, and a word of English ("tablet") none at all.
     """
-    if len(word) < 4 or not word.isalpha():
+    if len(word) < 3 or not word.isalpha():
         return None
     allowed = 2 if len(word) >= 8 else 1
     alike = [
@@ -59,6 +59,7 @@ def corrected(word: str, known: Iterable[str]) -> str | None:
         for item in known
         if item[:1] == word[:1] and len(item) >= 3 and abs(len(item) - len(word)) <= allowed
         if word.endswith("s") or singular(item) == item
+        if len(word) > 3 or len(item) > 3
     ]
     if not alike:
         return None

@@ -231,7 +231,9 @@ def check_selected(asked: Asked, things: Sequence[Thing], scene: SceneState) -> 
     )
     if shape or (unclear and asked.count == 1):
         raise asked.problem(f"say which of {names_of_things(things)}", 2, meant=things)
-    if match.plural and len(things) == 1 and _says_several(asked):
+    *_, named = scene.infos[things[0].name].label.split() if things[0].name != DESK else ("",)
+    several = singular(named) != named  # "the beans" of the bean seeds
+    if match.plural and len(things) == 1 and _says_several(asked) and not several:
         raise asked.problem(f"only {things[0].name} is called so", 2, words[-1], things)
     owned = phrase.determiner in _OWNERS and not match.plural
     if owned and len(things) > 1:

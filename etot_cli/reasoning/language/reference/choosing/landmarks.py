@@ -28,6 +28,12 @@ RANKED = frozenset(
 HOLDING = frozenset({Prep.WITH, Prep.CONTAINING, Prep.BEARING})
 """What tells a thing by what is in or on it."""
 _DISTANCES = frozenset({Prep.NEAREST, Prep.FARTHEST})
+_ASIDE = (Prep.LEFT, Prep.RIGHT, Prep.FRONT, Prep.BEHIND)
+"""Sides of a landmark on which there may be several things abreast."""
+_PLAINLY_NEARER = 0.5
+"""What is on the same side of a landmark and not beyond the nearest there is out of the question
+only where it is farther than that in this ratio.
+"""
 ROUGHLY = ", though only roughly"
 """How a note ends about what stands to a landmark as is said, but not by the definition."""
 EQUAL = 1e-6
@@ -139,6 +145,9 @@ def related(told: Told, things: list[Thing], notes: list[str]) -> _Found:
         return _touching(told, plainly or fitting), []
     if prep not in RANKED:
         return plainly or fitting, []
+    roughly = [thing for thing in fitting if thing not in plainly]
+    if prep in _ASIDE and len(plainly) == told.count == 1 and roughly and told.quantity.definite:
+        notes.append(told.note(plainly, roughly, plain=True))
     return _best(told, things, plainly or fitting, notes, plain=bool(plainly))
 
 
@@ -217,6 +226,11 @@ def _best(
         chosen = straight if straight[1:] or (straight and quantity.every) else chosen
         chosen = [thing for thing in things if thing in chosen]
     others = [thing for thing in order if thing not in chosen]
+    if plain and prep in _ASIDE and chosen == order[:1] and quantity.definite:
+        beside = [t for t in others if not space.is_plainly(prep, t, chosen, scene)]
+        rivals = [t for t in beside if worst > _PLAINLY_NEARER * best[t]]
+        if rivals:
+            raise AmbiguousReference(told.text, [thing.name for thing in (*chosen, *rivals)])
     if chosen and prep in space.RELATIONS and (others or not plain):
         notes.append(told.note(chosen, others, plain=plain))
     return chosen, others if plain else []

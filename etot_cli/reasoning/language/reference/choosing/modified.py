@@ -109,7 +109,9 @@ def modified(
         ways: dict[tuple[Thing, ...], tuple[list[Thing], list[str]]] = {}
         for landmarks in landmark_sets(modifier):
             said: list[str] = []
-            told = Told(modifier, landmarks, quantity, count, scene, phrase.text)
+            # What stands behind it tells which of them ("right of the box, nearest to the cup").
+            so_many = None if RANKED & {item.prep for item in waiting} else count
+            told = Told(modifier, landmarks, quantity, so_many, scene, phrase.text)
             found, more = related(told, things, said)
             found = _holding_so_many(modifier, found, landmarks, scene)
             rough = any(ROUGHLY in note for note in said)
@@ -298,6 +300,7 @@ def left_out(
     scene: SceneState,
     landmarks: Callable[..., list[Thing]],
     notes: list[str],
+    role: Role,
 ) -> tuple[list[Thing], set[Thing]]:
     """The things but for those that a phrase takes out, and these; ``landmarks`` gives them;
     ``notes`` grows.
@@ -312,7 +315,11 @@ def left_out(
         if modifier.prep is Prep.QUALITY and modifier.denied:
             known = (with_quality(things, w, phrase, vocabulary, scene) for w in modifier.words)
             not_so = set[Thing]().union(*known)
-            if len(things) == 1 and not not_so:  # "everything off the tray that is not red"
+            # The only mug is "the mug that is not white" if it is red.
+            lone = phrase.determiner in THE_WORDS and phrase.modifiers == (modifier,)
+            true = lone and role is Role.THEME and all(map(basic_color, modifier.words))
+            if len(things) == 1 and not (not_so or true):
+                # "Everything off the tray that is not red"
                 raise ReferenceProblem(phrase.text, _ALONE, 2)
             out |= not_so
         if modifier.prep in (Prep.EXCEPT, Prep.CONTRAST):

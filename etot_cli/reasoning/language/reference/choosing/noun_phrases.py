@@ -206,7 +206,9 @@ class Resolver:
             place=role is Role.CONTAINER,
         )
         several = singular(words[-1]) != words[-1] and (not phrase.determiner or role is Role.PART)
-        out = any(item.prep is Prep.EXCEPT for item in phrase.modifiers)
+        told = {item.prep for item in phrase.modifiers}
+        free = phrase.determiner in ("a", "any", "either")  # "in any drawer, not the top one"
+        out = Prep.EXCEPT in told or (free and Prep.CONTRAST in told)
         if role is Role.PART and words[-1] in ("objects", "things") and not out:
             # Everything that is closed: of a chest with one drawer open the others, too.
             match = replace(match, entries=self._moving(match.entries))
@@ -238,8 +240,10 @@ class Resolver:
         notes = list(match.notes)
         sets = partial(self._landmark_sets, phrase, pronoun, quantity)
         rivals = things
+        # "The biggest cup behind the plate" is the biggest of all that stand there.
+        count = None if match.selectors else asked.count
         things, others = modified(
-            things, modifiers, quantity, asked.count, phrase, self._scene, sets, notes
+            things, modifiers, quantity, count, phrase, self._scene, sets, notes
         )
         meant = partial(self._landmarks, pronoun)
         words = asked.words
@@ -249,7 +253,7 @@ class Resolver:
                 quantity = Quantity(count=so_many)
                 asked = replace(asked, phrase=phrase, quantity=quantity)
         things, unmeant = left_out(
-            things, phrase, words, self._vocabulary, self._scene, meant, notes
+            things, phrase, words, self._vocabulary, self._scene, meant, notes, asked.role
         )
         check_modified(asked, modifiers, things, unmeant, self._vocabulary, self._scene)
         alone = [] if unmeant else things  # "the big one, not the small one": it tells them apart

@@ -24,7 +24,7 @@ from etot_cli.reasoning.language.words.places import Prep
 
 ROBOT_NOUNS = ("robot", "arm", "gripper", "hand", "base", "you", "me")
 GENERAL = {
-    "everything": "all", "anything": "any", "something": "any", "everything else": "all other",
+    "everything": "all", "anything": "any", "something": "a", "everything else": "all other",
     "all else": "all other",
 }  # fmt: skip
 """Determiners that nouns for anything stand for."""
@@ -134,7 +134,7 @@ def _of_a_mass(phrase: NounPhrase) -> NounPhrase | None:
     return replace(phrase, determiner="the 1") if mass else None
 
 
-def _the_others(phrase: NounPhrase) -> NounPhrase | None:
+def the_others(phrase: NounPhrase) -> NounPhrase | None:
     """As in "the rest of the red cups", which are all other red cups."""
     if phrase.head not in _OTHERS or len(phrase.words) > 1:
         return None
@@ -185,7 +185,7 @@ _REWRITINGS = (
     _counted_from_a_side,
     _of_a_number,
     _of_a_mass,
-    _the_others,
+    the_others,
     _no_more_than,
     _all_but,
     packed,

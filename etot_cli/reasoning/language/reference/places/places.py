@@ -220,7 +220,8 @@ class Places:
             # "Add it to the gears on the mat" is no word for on which of them
             raise ReferenceProblem(phrase.text, "say whether on, into or next to which of them", 2)
         if bare and (toward is Toward.TO or not spoken):
-            raise ReferenceProblem(phrase.text, "say to which side of what", 2)
+            told = any(item.prep is Prep.OF for item in phrase.modifiers)  # "the left of the pan"
+            raise ReferenceProblem(phrase.text, "say to which side of what", 1 if told else 2)
         found = []
         topmost = destination.word == TOP and self._lies_on_it(phrase, role, themes)
         for index in self._phrases.refer(phrase, role, themes, topmost=topmost):

@@ -56,6 +56,8 @@ class Spots:
         if not surfaces or (drawer and len(surfaces) < len(places)):
             if within := self._within(places, destination.beside, themes):
                 return within
+            for np in (np for near in destination.beside for np in near.phrases if np.words):
+                self._phrases.meaning(np, Role.ANY)  # of "by three o'clock" that is to blame
             raise ReferenceProblem(text, "there is no left or right inside a container", 2)
         # "On the plate on the left" is the left one of several, not the left part of any, and "on
         # the plate next to the cup" the one of several that is there.

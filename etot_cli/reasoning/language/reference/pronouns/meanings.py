@@ -30,6 +30,7 @@ from etot_cli.reasoning.language.reference.pronouns.narrowing import (
     one_of_several,
     other_board,
     others,
+    pair_spoken_of,
     spared_one,
     spoken_part,
 )
@@ -180,6 +181,7 @@ class Meanings(LentNouns):
             raise ReferenceProblem(phrase.text, "nothing was spoken of before it", 2)
         chosen = one_of_several(phrase, role, self.discourse)
         chosen = chosen or spared_one(phrase, self.discourse)
+        chosen = chosen or pair_spoken_of(phrase, role, self.discourse)
         if chosen is not None:
             return chosen
         phrase = as_rest(phrase, noun_before, self.discourse)
@@ -316,6 +318,14 @@ class Meanings(LentNouns):
             with suppress(ReferenceProblem):
                 self.with_noun(way, role, noun)
                 return way
+        spoken = (self.discourse.things(mention.referent) for mention in self.discourse.mentions)
+        wholes = {Thing(thing.name) for things in spoken for thing in things}
+        with suppress(ReferenceProblem):  # "the pen next to the shelf … its top board"
+            the = replace(phrase, determiner="the")
+            (option, *more) = self.with_noun(the, role, None).options
+            level = [at for at in option if (at.part or at.board) and Thing(at.name) in wholes]
+            if owner.pronoun == "it" and level and not (option[1:] or more):
+                return the
         named = None
         with suppress(ReferenceProblem):
             things = self.with_noun(replace(phrase, determiner="all"), role, None).options[0]

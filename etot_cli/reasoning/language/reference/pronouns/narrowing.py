@@ -133,6 +133,31 @@ def one_of_several(phrase: NounPhrase, role: Role, discourse: Discourse) -> Reso
     return Resolved(options, definite=False, other=choice, noun=noun, again=True)
 
 
+def pair_spoken_of(phrase: NounPhrase, role: Role, discourse: Discourse) -> Resolved | None:
+    """After "the red cup next to the blue one" of three cups "the two" and "those two cups" are
+    these; None where that is not said, or others were spoken of as well.
+    """
+    noun = phrase.head if phrase.words and not phrase.is_elliptic else ""
+    told = phrase.modifiers or phrase.words[1:]
+    if phrase.determiner not in _TWO or told or role is Role.PART:
+        return None
+    themes = [item for item in discourse.mentions if item.role is Role.THEME]
+    going = themes[-1:] if role is not Role.THEME else []  # what goes between them
+    named = dict.fromkeys(
+        thing
+        for item in discourse.mentions
+        if item not in going and (not noun or same_noun(item.noun, noun))
+        for thing in discourse.things(item.referent)
+    )
+    if len(named) != 2:
+        return None
+    last = noun or discourse.mentions[-1].noun
+    return Resolved((tuple(named),), definite=True, noun=last, every=True, again=True)
+
+
+_TWO = ("the two", "these two", "those two")
+
+
 def other_board(phrase: NounPhrase, role: Role, discourse: Discourse) -> Resolved | None:
     """After "off the upper board" "the other one", where something goes, is the other board of that
     shelf; None where that is not said.

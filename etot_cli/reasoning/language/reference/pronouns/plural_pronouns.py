@@ -85,7 +85,8 @@ def _several_named(discourse: Discourse, role: Role) -> tuple[int, ...]:
     named = {
         mention.referent
         for mention in discourse.mentions
-        if singular(mention.noun) != mention.noun and fits(discourse, mention.referent, role)
+        if singular(mention.noun) != mention.noun or are_several(discourse, mention.referent)
+        if fits(discourse, mention.referent, role)
     }
     return tuple(named) if len(named) == 1 else ()
 
