@@ -159,6 +159,12 @@ def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]
             if between and not touches(thing, surface, context.scene):
                 why = f"it is on {min(between)}, which is there; say whether it is to go off that"
                 raise ReferenceProblem(thing.name, why, 3)
+    for step in (step for step in context.done if isinstance(step, Put) and not step.removal):
+        moved = {*context.discourse.things(*step.what)}
+        around = moved.intersection(context.discourse.things(*at))
+        for thing in left & moved if around else ():  # "all of it there, but leave the pen in the mug"
+            why = f"{min(around).name} goes elsewhere; say whether with or without it"
+            raise ReferenceProblem(thing.name, why, 3)
     leave_among(context, themes)
 
 
