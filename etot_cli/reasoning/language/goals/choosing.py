@@ -58,7 +58,10 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
         option for option in every if ({*option} <= {*there} if stays else not {*option} & {*there})
     )
     if sweeping:
-        options = (tuple(there),)  # "leave everything on the tray"
+        # "Leave everything in the cabinet": what is on that is not in it
+        how = {place.relation for place in places}
+        there = [t for t in there if context.home(t).relation in how] or there
+        options = (tuple(there),)
     tells = stays or {*there} & {*discourse.things(theme)}
     if options and tells and options != referent.options:
         discourse.referents[theme] = replace(referent, options=options)
@@ -162,7 +165,7 @@ def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]
     for step in (step for step in context.done if isinstance(step, Put) and not step.removal):
         moved = {*context.discourse.things(*step.what)}
         around = moved.intersection(context.discourse.things(*at))
-        for thing in left & moved if around else ():  # "all of it there, but leave the pen in the mug"
+        for thing in left & moved if around else ():  # "all of them, but leave the pen in the mug"
             why = f"{min(around).name} goes elsewhere; say whether with or without it"
             raise ReferenceProblem(thing.name, why, 3)
     leave_among(context, themes)

@@ -259,8 +259,8 @@ def check_selected(asked: Asked, things: Sequence[Thing], scene: SceneState) -> 
 
 
 def _says_several(asked: Asked) -> bool:
-    """Whether its plural is meant, wherever it is said to be: no word for much of one stuff, nor for
-    what is in a box, nor what a quality ("that are red") tells from others.
+    """Whether its plural is meant, wherever it is said to be: no word for much of one stuff, nor
+    for what is in a box, nor what a quality ("that are red") tells from others.
     """
     phrase, words, match = asked.phrase, asked.words, asked.match
     if words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1] or phrase.is_elliptic:
