@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 
-from etot_cli.reasoning.builtin.goal import Place, Put, Thing, things_in
+from etot_cli.reasoning.builtin.goal import Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
@@ -58,7 +58,10 @@ def choose_by_place(context: Context, theme: int, places: Sequence[Place], *, st
         option for option in every if ({*option} <= {*there} if stays else not {*option} & {*there})
     )
     if sweeping:
-        options = (tuple(there),)  # "leave everything on the tray"
+        # "Leave everything in the cabinet": what is on that is not in it
+        how = {place.relation for place in places}
+        there = [t for t in there if context.home(t).relation in how] or there
+        options = (tuple(there),)
     tells = stays or {*there} & {*discourse.things(theme)}
     if options and tells and options != referent.options:
         discourse.referents[theme] = replace(referent, options=options)
@@ -159,6 +162,13 @@ def leave_there(context: Context, themes: Sequence[int], places: Sequence[Place]
             if between and not touches(thing, surface, context.scene):
                 why = f"it is on {min(between)}, which is there; say whether it is to go off that"
                 raise ReferenceProblem(thing.name, why, 3)
+    for step in (step for step in context.done if isinstance(step, Put) and not step.removal):
+        moved = {*context.discourse.things(*step.what)}
+        around = moved.intersection(context.discourse.things(*at))
+        for thing in left & moved if around else ():  # "all of them, but leave the pen in the mug"
+            (first, *_) = sorted(item.name for item in around)
+            why = f"{first} goes elsewhere; say whether with or without it"
+            raise ReferenceProblem(thing.name, why, 3)
     leave_among(context, themes)
 
 
@@ -194,7 +204,8 @@ def tell_apart(
 def without_riders(context: Context, group: PutGroup, themes: list[int]) -> list[int]:
     """Things to be put somewhere, but for what comes along with another of them: what was just put
     in or on that ("put the pear on the plate and both on the tray"), and stays there, or what is
-    told by being there ("the bowl and what is in it on the shelf").
+    told by being there ("the bowl and what is in it on the shelf"); what stands on a tray may be
+    told apart from that where it goes inside.
     """
     riders = {
         index
@@ -206,9 +217,14 @@ def without_riders(context: Context, group: PutGroup, themes: list[int]) -> list
     told = named and _ALONG.search(f"{context.sentence} ; {group.things.text}")
     inside = any(item.toward is Toward.INSIDE for item in group.destinations)
     things = {index: context.discourse.things(index) for index in themes}
-    for index in themes if told and not inside else ():
+    for index in themes if told else ():
         own = {item.name for i in themes if i != index for item in things[i]}
-        if own and all(owner_of(at) in own for t in things[index] for at in _holding(context, t)):
+        nested = all(context.home(t).relation is Relation.INSIDE for t in things[index])
+        around = own | {thing.name for thing in things[index]}  # "what is in it" is nested itself
+        held = [(t, at) for t in things[index] for at in _holding(context, t)]
+        along = all(owner_of(at) in around and at != t.name for t, at in held)
+        stayed = not {*things[index]} & {*context.discourse.things(*context.discourse.put)}
+        if own and along and stayed and (nested or not inside):
             riders.add(index)
             context.within += [
                 Put((context.single(thing, thing.name),), (context.home(thing),))

@@ -8,16 +8,26 @@ from etot_cli.reasoning.builtin.goal import Goal, Put, things_in
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem
 from etot_cli.reasoning.language.goals.placing import SET_ASIDE
-from etot_cli.reasoning.language.reference.geometry.space import addresses
+from etot_cli.reasoning.language.reference.geometry.space import addresses, touches
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.reasoning.language.words.lexicon import THING_NOUNS, matches_any
 from etot_cli.world.state import SceneState
 
 
 def without_places(goal: Goal, discourse: Discourse) -> Goal:
-    """The goal, where "the red ones" are none of the places that it brings things to."""
+    """The goal, where "the red ones" are none of the places that it brings things to; what stays
+    in one of them goes along with it.
+    """
+
+    def stays(put: Put) -> bool:
+        at = [t for p in put.places if p.where is not None for t in discourse.things(p.where)]
+        held = discourse.things(*put.what)
+        moved = [t for s in puts if s is not put for t in discourse.things(*s.what)]
+        there = [touches(one, other, discourse.scene) for one in held for other in at]
+        return all(there) and not {*held} & {*moved}
+
     puts = [step for step in goal.steps if isinstance(step, Put)]
-    where = {place.where for step in puts for place in step.places} - {None}
+    where = {place.where for step in puts if not stays(step) for place in step.places} - {None}
     places = {t.name for i in where if i is not None for t in discourse.things(i)}
     sweeping = {m.referent for m in discourse.mentions if matches_any(m.noun, THING_NOUNS)}
     # "Everything else" takes up the noun before it.

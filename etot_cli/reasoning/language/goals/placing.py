@@ -10,6 +10,7 @@ from dataclasses import replace
 from etot_cli.reasoning.builtin.goal import Grouping, Place, Put, Relation, Thing, things_in
 from etot_cli.reasoning.builtin.relations import carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
+from etot_cli.reasoning.language.goals.clashes import check_taken
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax.clauses import CoverClause, PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
@@ -157,7 +158,10 @@ def add_put(
 
 
 SET_ASIDE = "is set on the desk before"
-_STAYS = Expression(r"\b(?:which|that) (?:should )?stays? (?:put|there|here|where|as)\b")
+_STAYS = Expression(
+    r"\b(?:(?:which|that) (?:should )?stays? (?:put|there|here|where|as)"
+    r"|(?:leave|leaving|keep|keeping) [\w ]+ (?:in|on|inside))\b"
+)
 
 
 def take_off(context: Context, text: str, index: int, options: Sequence[Sequence[Thing]]) -> None:
@@ -218,6 +222,7 @@ def cover(context: Context, clause: CoverClause) -> None:
     )
     if any(place.relation is Relation.INSIDE for place in places):
         raise ReferenceProblem(lids.text, "it is no lid of that; say into or onto it", 3)
+    check_taken(context, PutGroup(lids, ()), themes, places)  # "with the plate instead of the lid"
     add_put(context, themes, places, Grouping.ANY)
     context.discourse.is_about(covered)
 

@@ -9,15 +9,7 @@ from operator import attrgetter
 
 from msgspec import structs
 
-from etot_cli.reasoning.builtin.goal import (
-    Close,
-    Constraint,
-    Goal,
-    Keep,
-    Open,
-    Put,
-    Thing,
-)
+from etot_cli.reasoning.builtin.goal import Close, Constraint, Goal, Keep, Open, Put, Thing
 from etot_cli.reasoning.builtin.relations import carriers, is_closed, is_open, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.alone import check_alone, leave_alone_there
@@ -62,6 +54,7 @@ _KEEPS = {
 }
 _LEAVING = (Avoid.TOUCH, Avoid.MOVE, Avoid.HIT)
 _THE_REST = (("the rest",), ("all the rest",), ("the others",))
+_THINGS = ("thing", "object", "item")
 _TARGETS = (Role.CONTAINER, Role.SURFACE, Role.PLACE)
 
 
@@ -120,7 +113,8 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
     if keep_it_standing(context, clause):
         return
     _check_moves(context, clause.by)
-    if any(np.words in _THE_REST and not np.modifiers for np in things.phrases):
+    leaves = clause.avoid in _LEAVING
+    if any(_is_the_rest(np, any_thing=leaves) and not np.modifiers for np in things.phrases):
         if clause.avoid is Avoid.PUT:
             leave_alone_there(context, clause.destinations)
             return
@@ -133,6 +127,12 @@ def _forbid(context: Context, clause: AvoidClause) -> None:
         _rule_out(context, clause, things)
     else:
         _keep(context, clause, things)
+
+
+def _is_the_rest(np: NounPhrase, *, any_thing: bool) -> bool:
+    """Whether a phrase is all that is left ("the rest"), with "any of the other things", too."""
+    other = any_thing and bool(np.words) and quantity_of(np.determiner).other
+    return np.words in _THE_REST or (other and " ".join(map(singular, np.words)) in _THINGS)
 
 
 def _rule_out(context: Context, clause: AvoidClause, things: Things) -> None:

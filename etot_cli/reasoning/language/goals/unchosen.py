@@ -70,6 +70,10 @@ def keep_others(context: Context, keep: Keep, text: str) -> None:
         context.constraints.append(Constraint(keep, alike))
         return
     spoken = {thing.name for said in discourse.referents for thing in things_in(said.options)}
+    if keep is Keep.UNMOVED:  # so is what something is put into or taken out of, unless it is moved
+        done = {*moved, *discourse.put, *discourse.lifted}
+        choices = {i for i, said in enumerate(discourse.referents) if said.options[1:]}
+        spoken = {t.name for i in done | choices for t in things_in(discourse.referents[i].options)}
     spoken -= {*left_of_them}
     others = tuple(name for name, info in infos.items() if name not in spoken and info.movable)
     left = _left_by_choice(context, range(len(discourse.referents)), text)

@@ -308,15 +308,15 @@ class Referents(MeaningsByNow):
         """Things that were only mentioned to tell others by can be spoken of later on. "Its plate"
         is the one on which what was told by it is.
         """
-        owner = [] if phrase.owner is None else [(Prep.OF, phrase.owner)]
+        owner = [] if phrase.owner is None else [(Prep.OF, phrase.owner, False)]
         told_by = [
             item
             for item in phrase.modifiers
             if item.prep is not Prep.CONTRAST and how_many_out(item) is None
         ]
-        named = [(item.prep, landmark) for item in told_by for landmark in item.phrases]
+        named = [(item.prep, np, item.denied) for item in told_by for np in item.phrases]
         noun = usual_form(phrase).head
-        for prep, landmark in (*owner, *named):
+        for prep, landmark, denied in (*owner, *named):
             if "one" in (landmark.determiner, *landmark.words[:-1]):
                 raise ReferenceProblem(landmark.text, "say which one", 3)
             packed = prep is Prep.OF and prep not in {m.prep for m in usual_form(phrase).modifiers}
@@ -345,6 +345,10 @@ class Referents(MeaningsByNow):
                     )
                     resolved = replace(resolved, options=options or resolved.options)
                     resolved = part_around(resolved, told[0], self.scene)
+                infos = self.scene.infos
+                at = [t for t in things_in(resolved.options) if t.name in infos and not t.part]
+                if denied and any(infos[t.name].parts[1:] for t in at):
+                    continue  # "not in the drawer" of several does not say which "it" is
                 first = len(self.discourse.mentions)
                 index = self.discourse.add(resolved, landmark.text, Role.ANY)
                 if prep is Prep.THAN:

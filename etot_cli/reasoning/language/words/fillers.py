@@ -100,7 +100,7 @@ WITHOUT_MEANING = f"""
     if memory serves [me] [(right|well|correctly)], to [the best of] my knowledge,
     (if i am not|unless i am) [very much] mistaken, unless i am [quite] wrong,
     as far as i (know|remember|recall|can (tell|see)|am aware),
-    without (knocking|tipping) anything [else] over, without (breaking|dropping|spilling) anything,
+    without (knocking|tipping) anything [else] over, without dropping anything,
     without (dropping|breaking) (it|them), before i forget, by the way,
     (never mind|ignore|excuse|pardon|forgive|do not mind|do not worry about|sorry (about|for))
     (the|this|that|my|all the|all this) (mess|clutter|chaos|muddle|noise|smell|dust),

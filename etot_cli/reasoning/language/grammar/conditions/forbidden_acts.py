@@ -31,6 +31,7 @@ from etot_cli.reasoning.language.grammar.syntax.clauses import Avoid, AvoidClaus
 from etot_cli.reasoning.language.grammar.syntax.phrases import (
     TOP,
     Destination,
+    Modifier,
     NounPhrase,
     Things,
     Toward,
@@ -49,6 +50,14 @@ def _not_brought(things: Things, where: tuple[Destination, ...]) -> AvoidClause 
     """Where things are not to be moved; "without moving the cup on top of it" is about that cup."""
     on_top = any(destination.word == TOP for destination in where)
     return None if on_top else AvoidClause(Avoid.PUT, things, where)
+
+
+def _taken_from(things: Things, it: str) -> Things:
+    """What is not to be taken out or off; anything is all that is in or on what was spoken of."""
+    if things.phrases[0].words != ("anything",):
+        return things
+    held = Modifier(Prep.FROM, (NounPhrase(pronoun=it, text=it),))
+    return Things((things.phrases[0].told_by(held),))
 
 
 def _left_stacked(things: Things) -> AvoidClause | None:
@@ -159,7 +168,14 @@ FORBIDDEN = either(
     sequence(phrase(verbs.BRING, Avoid.MOVE), THINGS, "away, down", build=AvoidClause),
     sequence(
         either(
-            sequence(verbs.BRING, THINGS, "(out|off) [of] [it|them|there]"),
+            sequence(
+                verbs.BRING,
+                THINGS,
+                either(
+                    phrase("(out|off) [of] [it|there]", "it"), phrase("(out|off) [of] them", "them")
+                ),
+                build=_taken_from,
+            ),
             sequence(verbs.REMOVE, THINGS),
         ),
         build=lambda things: AvoidClause(Avoid.MOVE, things, taken=True),

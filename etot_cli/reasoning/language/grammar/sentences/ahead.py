@@ -40,7 +40,9 @@ _NOT_THIS = either(
         build=lambda word, np: Modifier(Prep.CONTRAST, (np,), (word,)),
     ),
     # "Not the cup should be empty" says nothing of another one.
-    sequence("not", noun_phrase, COMMA, build=lambda np: Modifier(Prep.CONTRAST, (np,))),
+    sequence(
+        "[no ~comma] not", noun_phrase, COMMA, build=lambda np: Modifier(Prep.CONTRAST, (np,))
+    ),
 )
 
 

@@ -261,7 +261,9 @@ def check_selected(asked: Asked, things: Sequence[Thing], scene: SceneState) -> 
 
 
 def _says_several(asked: Asked) -> bool:
-    """Whether its plural is meant: no word for much of one stuff, nor for what is in a box."""
+    """Whether its plural is meant, wherever it is said to be: no word for much of one stuff, nor
+    for what is in a box, nor what a quality ("that are red") tells from others.
+    """
     phrase, words, match = asked.phrase, asked.words, asked.match
     if words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1] or phrase.is_elliptic:
         return False
@@ -269,7 +271,8 @@ def _says_several(asked: Asked) -> bool:
         return False
     lone = bool(
         asked.role is Role.THEME
-        and not (phrase.modifiers or phrase.without or phrase.loose)
+        and not (phrase.without or phrase.loose)
+        and all(item.prep in (Prep.FROM, Prep.IN, Prep.ON) for item in phrase.modifiers)
         and not matches_any(words[-1], THING_NOUNS)
         # "The red, green and blue blocks", "red and blue blocks" are several of one each.
         and words[-1] in phrase.text.split()

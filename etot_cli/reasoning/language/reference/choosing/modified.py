@@ -39,6 +39,7 @@ from etot_cli.reasoning.language.words.lexicon import (
     SIDES,
     SIZES,
     STATES,
+    THING_NOUNS,
     basic_color,
     matches_any,
     singular,
@@ -347,7 +348,9 @@ def left_out(
         behind = all(np.text in phrase.text and not np.is_elliptic for np in out_nps)
         # Who leaves the star out of "the blocks", which are but cubes, may count it among these.
         own = all(entry.grade(words[-1]) in (EXACT, HEAD) for entry in entries)
-        if not (own and behind and things[1:]):
+        # "Anything in there that is not a battery" need not mean that there is one.
+        told = matches_any(words[-1], THING_NOUNS) and " is not a" in phrase.text
+        if not (behind and (told or (own and things[1:]))):
             raise ReferenceProblem(phrase.text, "what is to be left out is none of them", 1)
         said = " and ".join(np.text for np in out_nps)
         notes.append(f"{said!r} is none of {names_of_things(things)}: nothing is left out")
