@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.words.small_words import NAMED, WHERE
 
 _BEGINS = r"(^|[.;!?] )(?:please,? )?"
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
+_TURNS = r"(?:please )?(?:open|close|shut)\b"
 _PUTTING = "dropping|putting|placing|setting|moving|leaving|storing|throwing|standing|laying"
 _PUT = "(?:put|place|set|move|drop|store|stand|lay|throw|bring)"
 _IN = r"(?:in|on|into|onto|inside)"
@@ -60,6 +61,14 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
         rf"(?=(?:{_PUT} {_SOME}(?: and {_SOME})? (?:in|inside|into)(?: it| there)?"
         rf"|(?:take|get) {_SOME}(?: and {_SOME})? out(?: of it)?)(?:[.,;!]| and\b|$))",
         r"\1\2 and ",
+    ),
+    # "Instead of closing the top drawer, open the bottom one"
+    *(
+        (
+            rf"{_BEGINS}(?:instead of|rather than) (?:just )?{doing} ({_SOME}), (?={_TURNS})",
+            rf"\1do not {done} \2; ",
+        )
+        for doing, done in (("opening", "open"), ("closing", "close"), ("shutting", "shut"))
     ),
     # "Instead of dropping the cup in the box, put it on the plate"
     (

@@ -85,7 +85,7 @@ from etot_cli.reasoning.language.words import (
     small_words,
     verbs,
 )
-from etot_cli.reasoning.language.words.lexicon import STATES, singular
+from etot_cli.reasoning.language.words.lexicon import DESK_NOUNS, STATES, singular
 from etot_cli.reasoning.language.words.patterns import spellings
 
 _STACKS = frozenset(spellings(nouns.STACK))
@@ -111,6 +111,13 @@ def _spread(things: Things, over: tuple[NounPhrase, ...], extras: Any) -> PutCla
     """Several things over some places; one thing is not to be divided."""
     group = PutGroup(things, (Destination(Toward.TO, over),))
     return put_of((group,), extras, Grouping.SPREAD) if things.may_be_several else None
+
+
+def _beneath(below: Things, above: Things) -> PutClause | None:
+    """What something is put under comes to lie on that."""
+    several = below.may_be_several or any(np.head in DESK_NOUNS for np in above.phrases)
+    put = put_to(above, (Destination(Toward.ON, below.phrases),))
+    return None if several else replace(put, far_fetched=1)
 
 
 def _one_and_the_other(one: Things, where: tuple[Destination, ...], more: Any) -> PutClause | None:
@@ -224,6 +231,7 @@ PUT = either(
         build=lambda where: put_to(Things((NounPhrase(pronoun=UNSAID, text="it"),)), (where,)),
     ),
     sequence(verbs.PUT, FIRST_THEN, OPTIONAL_COMMA, DESTINATIONS, build=put_in_turn),
+    sequence(verbs.SET, THINGS, "under, underneath, beneath", THINGS, build=_beneath),
     sequence(
         verbs.DISTRIBUTE,
         THINGS,
