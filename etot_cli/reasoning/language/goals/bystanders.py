@@ -22,6 +22,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.words.lexicon import LIDS, matches_any
+from etot_cli.reasoning.language.words.nouns import is_only
 from etot_cli.reasoning.language.words.places import Prep
 from etot_cli.world.spatial import Whereabouts, holds
 from etot_cli.world.state import DESK, owner_of
@@ -38,6 +39,8 @@ def place_bystanders(
         if phrase.words == ("everything",):
             why = "what is there already comes along; it may mean"
             raise AmbiguousReference(phrase.text, ["that", "what is elsewhere"], why)
+        if is_only(phrase.determiner):
+            raise ReferenceProblem(phrase.text, "say what is to be taken off or out before", 3)
     subjects = _bystanders(context, condition)
     if lidded := _lidded(context, condition, subjects, places_of):
         places_of.update(dict.fromkeys(subjects, (Place(Relation.ON, lidded),)))

@@ -79,6 +79,11 @@ def _back_there(said: re.Match[str]) -> str:
 
 
 WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (
+        r",? (?:when |if you )?(?:counting|counted|count) from "
+        r"(?=(?:the (?:top|bottom|left|right|front|back)|above|below)\b)",
+        " from ",
+    ),
     # "The pot that is leftmost after that" tells which one, and not when
     (
         r"\b(that|which) (?:is|will be) (?:then )?((?:(?:on|in) the )?\w+) "

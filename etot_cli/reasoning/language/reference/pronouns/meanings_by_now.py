@@ -72,7 +72,8 @@ class MeaningsByNow(Meanings):
         where all of them have been moved ("put both cups on the tray and the nut in the left one").
 
         Raises:
-            ReferenceProblem: it is told by where it is by now, which nobody knows.
+            ReferenceProblem: it is told by where it is by now, which nobody knows, or one of them
+                has been put beside another.
         """
         plain, placed = usual_form(phrase), self.discourse.placed.keys()
         told = {*plain.words, *(word for item in plain.modifiers for word in item.words)}
@@ -82,7 +83,11 @@ class MeaningsByNow(Meanings):
         with suppress(ReferenceProblem):
             every = NounPhrase("all", words=(resolved.noun,), text=resolved.noun)
             alike = {*things_in(self.meaning(every, role).options)} - {*meant}
-        if _BY_NOW.search(phrase.text) and placed & {*meant, *alike}:
+        moved = placed & {*meant, *alike}
+        places = (place for thing in moved for place in self.discourse.placed[thing] if place)
+        marks = (mark for place in places for near in place.beside for mark in near.landmarks)
+        among = {*self.discourse.things(*marks)} & {*meant, *alike}
+        if moved and (among or _BY_NOW.search(phrase.text)):
             raise ReferenceProblem(phrase.text, "where that is by then is not known; name it", 3)
         if alike and placed >= {*meant, *alike}:
             note = f"{phrase.text!r}: {' and '.join(t.address for t in meant)}, as at the start"
@@ -201,6 +206,7 @@ class MeaningsByNow(Meanings):
         if rest.words not in ((), ("one",), ("ones",)) or len(things) < 2:
             if rest.words in ((), ("one",), ("ones",)):
                 rest = replace(rest, words=(self.discourse.last_noun(role) or "object",))
+            things = ()
             with suppress(ReferenceProblem):
                 called = self.meaning(replace(rest, determiner="all"), role)
                 things, noun = things_in(called.options), called.noun
