@@ -36,6 +36,9 @@ def place_bystanders(
 ) -> None:
     """Gives some of the things a place of their own ("… with the plum inside the mug")."""
     for phrase in condition.subjects:
+        if phrase.words == ("everything",) and _held(context, themes):
+            context.discourse.notes.append(f"{phrase.text!r}: what is there comes along")
+            return
         if phrase.words == ("everything",):
             why = "what is there already comes along; it may mean"
             raise AmbiguousReference(phrase.text, ["that", "what is elsewhere"], why)
@@ -68,6 +71,12 @@ def place_bystanders(
         places = with_stance(context, subjects, places, stance)
     for subject in subjects:
         places_of[subject] = places
+
+
+def _held(context: Context, themes: Sequence[int]) -> bool:
+    """Whether something is in or on each of some things that are put somewhere."""
+    held = {name for thing in context.scene.states for name in bearers(context.scene, thing)}
+    return all(thing.name in held for thing in context.discourse.things(*themes))
 
 
 def _check_holders(
