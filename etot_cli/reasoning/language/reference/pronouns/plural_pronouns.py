@@ -73,8 +73,8 @@ def _meant_before(
         if len(parts) == len({*discourse.things(*parts)}) == 2:
             return parts  # "open the top drawer, put the pen in the lower one and close them"
         if not two:
-            named = dict.fromkeys(mention.referent for mention in discourse.mentions)
-            raise AmbiguousReference(text, [discourse.referents[i].text for i in named])
+            spoken = dict.fromkeys(mention.referent for mention in discourse.mentions)
+            raise AmbiguousReference(text, [discourse.referents[i].text for i in spoken])
         return two  # "put the plum into the cup, then set them on the tray"
     if not found and role is Role.PART and len(openable(discourse)) > 1:
         return openable(discourse)  # "a pen in each of two drawers, and close them"
