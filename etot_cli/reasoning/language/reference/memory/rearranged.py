@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import combinations
 
 from etot_cli.reasoning.builtin.goal import Place, Relation, Thing
-from etot_cli.reasoning.language.reference.geometry.space import below
+from etot_cli.reasoning.builtin.relations import bearers
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
 from etot_cli.world.state import DESK, ObjectState, SceneState
 
@@ -27,7 +27,7 @@ def exchanged(discourse: Discourse) -> SceneState | None:
             shift = [b - a for a, b in zip(before.position, there.position, strict=True)]
             states[thing.name] = replace(_shifted(before, shift), on=there.on, inside=there.inside)
             for name in scene.states.keys() - {one.name, other.name}:
-                if thing.name in below(Thing(name), scene):
+                if thing.name in bearers(scene, name):
                     states[name] = _shifted(states[name], shift)
     return replace(scene, states=states) if pairs else None
 
