@@ -62,7 +62,8 @@ def check_opposites(discourse: Discourse) -> None:
     """Looks through what was spoken of.
 
     Raises:
-        ReferenceProblem: one thing is called by a word and by its opposite.
+        ReferenceProblem: one thing is called by a word and by its opposite, or it is told from no
+            other where it was spoken of before ("the pen next to the cup, and the left one").
     """
     idle = [
         (discourse.things(item.referent), word) for item in discourse.mentions for word in item.idle
@@ -72,6 +73,12 @@ def check_opposites(discourse: Discourse) -> None:
             name = things[0].name
             why = f"only {name} is called so, which is not {one} and {other} at once"
             raise ReferenceProblem(other, why, 4)
+    for at, item in enumerate(discourse.mentions):
+        before = (m for m in discourse.mentions[:at] if m.referent == item.referent)
+        told = {*item.idle} & {*item.adjectives}
+        if any(told - {*mention.adjectives} for mention in before):
+            only = f"only {discourse.things(item.referent)[0].name} is called so"
+            raise ReferenceProblem(item.idle[0], f"{only}; say what is meant", 3)
 
 
 def _are_opposite(one: str, other: str) -> bool:

@@ -84,8 +84,14 @@ def there_by_now(
 
 
 def is_empty_by_now(thing: Thing, discourse: Discourse) -> bool:
-    """Whether nothing is in a thing once all is where it has been put so far."""
+    """Whether nothing is in a thing once all is where it has been put so far, in the same breath,
+    too ("the apple in the red cup and the plum in the empty one").
+    """
     states = discourse.scene.states
+    for index, around in discourse.put_into.items():
+        new = not {*discourse.things(index)} & discourse.placed.keys()
+        if new and discourse.things(around) == (thing,):
+            return False
     for name, state in states.items():
         inside = {Thing(name): (None,), **discourse.placed}[Thing(name)]
         for place in inside:

@@ -16,6 +16,7 @@ from etot_cli.reasoning.language.reference.memory.resolved import Resolved
 from etot_cli.reasoning.language.words.categories import members_of
 from etot_cli.reasoning.language.words.lexicon import (
     LEVELS,
+    STATES,
     THING_NOUNS,
     matches_any,
     same_noun,
@@ -158,8 +159,12 @@ class Discourse:
             resolved.idle, resolved.either, collective,
         )  # fmt: skip
         if resolved.definite and not resolved.other:
+            empty = {STATES.get(word) for word in text.split()} & {"empty", "full"}
             for earlier in range(index - 1, -1, -1):
                 if self._is_again(earlier, resolved):
+                    if empty and len(resolved.options) > 1:  # rather not what was just filled
+                        named = things_in(resolved.options)
+                        raise AmbiguousReference(text, [thing.address for thing in named])
                     self.mentions.append(structs.replace(mention, referent=earlier))
                     if resolved.left_out:
                         self.left_out[earlier] = resolved.left_out

@@ -199,7 +199,8 @@ class MeaningsByNow(Meanings):
             AmbiguousReference: several are, or none is.
         """
         told = _told_by_state(phrase, "empty", "full")
-        if told is None or phrase.pronoun or not self.discourse.placed:
+        moved = self.discourse.placed or self.discourse.put_into
+        if told is None or phrase.pronoun or not moved:
             return None
         wanted, rest = told
         things, noun = self._vessels_spoken_of(), ""
