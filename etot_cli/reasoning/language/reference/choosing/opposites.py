@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from etot_cli.reasoning.builtin.goal import Thing
-from etot_cli.reasoning.builtin.roles import ReferenceProblem
+from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier
 from etot_cli.reasoning.language.reference.choosing.selection import side_word
 from etot_cli.reasoning.language.reference.memory.discourse import Discourse
@@ -75,7 +75,7 @@ def check_opposites(discourse: Discourse) -> None:
             raise ReferenceProblem(other, why, 4)
     for at, item in enumerate(discourse.mentions):
         before = (m for m in discourse.mentions[:at] if m.referent == item.referent)
-        told = {*item.idle} & {*item.adjectives}
+        told = {*item.idle} & {*item.adjectives} if item.role is Role.THEME else set()
         if any(told - {*mention.adjectives} for mention in before):
             only = f"only {discourse.things(item.referent)[0].name} is called so"
             raise ReferenceProblem(item.idle[0], f"{only}; say what is meant", 3)
