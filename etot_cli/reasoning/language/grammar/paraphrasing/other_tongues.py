@@ -130,7 +130,6 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         rf"\b(make (?:sure )?that {_THING} )(open|close)s?{_END}",
         lambda said: f"{said[1]}is {said[2].replace('close', 'closed')}",
     ),
-    (r"(^|[.;!] )(?:(?:please|kindly|to),? )*do the needful(?:,? and\b|[:,.;]) ?(?=\w)", r"\1"),
     (r"\bexcept of\b", "except"),
     (r"\bapart of (?=the\b)", "apart from "),
     (r"\bthe both\b(?= \w)", "both"),
