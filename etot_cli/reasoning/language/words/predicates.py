@@ -257,9 +257,6 @@ SHARE = f"[can|may|could|might|will|{_MUST}] share[s]"
 COME_AWAY = """
     [should|must|shall|can|may|could|has to|have to|needs to|need to|ought to|is to|are to] come[s]
 """
-TAKEN = """
-    [to be] (taken|removed|moved|lifted|cleared) [away]
-"""
 GONE = "[to be] [(out|gone|away|down)] (out of|off [of]|(gone|out|down) from)"
 """Where something is wanted no longer."""
 FORM_A_TOWER = f"""

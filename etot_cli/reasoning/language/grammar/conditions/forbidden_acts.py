@@ -135,7 +135,6 @@ FORBIDDEN = either(
                 build=AvoidClause,
             ),
             sequence(forbidden.DISTURB, THINGS, build=_undisturbed),
-            sequence(phrase(forbidden.UPSET, Avoid.HIT), THINGS, "off, down", build=AvoidClause),
             sequence(
                 forbidden.UPSET, THINGS, "over", build=partial(AvoidClause, Avoid.HIT, over=True)
             ),

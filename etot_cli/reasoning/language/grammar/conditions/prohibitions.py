@@ -23,8 +23,6 @@ from etot_cli.reasoning.language.grammar.conditions.forbidden_acts import (
 )
 from etot_cli.reasoning.language.grammar.conditions.instruments import MEETING, NOT_MET
 from etot_cli.reasoning.language.grammar.parsers.combinators import (
-    NOTHING,
-    Parser,
     either,
     one_of,
     optional,
@@ -38,7 +36,6 @@ from etot_cli.reasoning.language.grammar.parsers.common import OPTIONAL_COMMA, W
 from etot_cli.reasoning.language.grammar.phrases.being_so import NONE, OPEN_OR_CLOSED, not_left
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
 from etot_cli.reasoning.language.grammar.phrases.noun_phrases import (
-    AHEAD_OF_PLACES,
     ALL_THINGS,
     NP_LIST,
     THINGS,
@@ -131,10 +128,6 @@ NOTHING_ELSE = sequence(
 """That what has been put somewhere is to be alone there ("… and nothing else in it")."""
 NOTHING_MORE = phrase("nothing else", AvoidClause(Avoid.MOVE, None, not_left=True))
 """Behind all that is asked for."""
-_NO_PLACE_NEXT = Parser(
-    lambda given, at: [] if {*given.ahead[at + 1 : at + 2]} & AHEAD_OF_PLACES else [(at, NOTHING)]
-)
-"""In "the cup, and nothing else, on the tray" it is said of what goes there."""
 AVOID = either(
     AVOIDED,
     quiet(
@@ -299,13 +292,8 @@ WITHOUT = sequence(
                     build=_not_falling_off,
                 ),
                 sequence(
-                    either(
-                        sequence(
-                            THINGS,
-                            f"{forbidden.FALLING_TO_THE_FLOOR}, {forbidden.GETTING_TO_THE_FLOOR}",
-                        ),
-                        sequence("drop[ping]", THINGS, "(on|onto|to) the (floor|ground)"),
-                    ),
+                    THINGS,
+                    f"{forbidden.FALLING_TO_THE_FLOOR}, {forbidden.GETTING_TO_THE_FLOOR}",
                     build=unharmed,
                 ),
                 MEETING,
@@ -326,9 +314,8 @@ WITHOUT = sequence(
                 sequence(verbs.KEEP, NP_LIST, OPEN_OR_CLOSED, build=not_left),
             ),
         ),
-        sequence(small_words.SO_THAT, either(NOT_MET, UNHARMED)),
+        sequence(small_words.SO_THAT, UNHARMED),
         HELD_MEANWHILE,
-        sequence("[and|but]", NOTHING_MORE, _NO_PLACE_NEXT),
         # "… and no blocks moved"
         sequence(
             silent(optional("and, but, with")),
@@ -337,7 +324,6 @@ WITHOUT = sequence(
             DONE_OR_TURNED,
             build=_none_disturbed,
         ),
-        AVOIDED,
     ),
 )
 KEEP_OUT = sequence(

@@ -316,7 +316,6 @@ ASKED_OTHERWISE: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], s
         rf"\b(?:release|let go of) (it|them|{_ONE}) (?={_THERE}|(?:at|over|above) )",
         r"put \1 ",
     ),
-    (rf"\blet (it|them|{_ONE}) go (?={_THERE})", r"put \1 "),
     # "Your choice which goes where"
     (
         r", (?:it is )?(?:your|my|the robot 's) (?:choice|decision|call) "

@@ -78,13 +78,6 @@ CONTRASTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], 
     ),
     # "Take nothing off the plate except the roll, which goes …", as "do not take anything …"
     (rf"{_BEGINS}(take|remove) nothing (?=(?:off|from|out of) )", r"\1do not \2 anything "),
-    # "Do not move anything except the cup, which goes beside the plate"
-    (
-        rf"\b((?:do not|never) (?:(?:move|touch) anything|(?:take|remove) anything "
-        rf"(?:off|from|out of) {_SOME}) (?:except(?: for)?|but|other than|besides) "
-        rf"({_SOME})),? (?:and )?which (?=(?:goes|belongs|should|must|is to|has to) )",
-        r"\1. \2 ",
-    ),
     # "The box is for balls: take everything else out", where "else" is other than balls
     (
         rf"{_BEGINS}({_SOME}) (?:is|are) (?:(?:only|just|exclusively|reserved|meant) )*for "

@@ -13,7 +13,6 @@ from etot_cli.reasoning.language.words.small_words import NAMED
 _MUST = r"should|must|shall|may|can|could|has to|have to|is to|are to|needs? to|ought to"
 _SOME = rf"{NAMED}(?: (?!and\b|or\b|in\b|on\b)\w+){{1,4}}?"
 _BE = r"be|go|come|stand|lie|sit|rest|end up|move|return|stay|remain|follow"
-_WISHED = "(?:i|we) (?:really )?(?:need|want|would like|wish|would love)"
 
 
 _TASK = r"(?:the|your|our|my|this) (?:task|job|work|goal|aim|objective|mission|episode)"
@@ -168,12 +167,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"should ({_ANYTHING}) (not )?be ([^.,;:!?]+)(?=[.!]|$)",
         _as_condition,
     ),
-    # "Only then should the cup be put there", "after that, and only then, should it …"
-    (
-        r"(\b(?:after|once|when|as soon as) [^.;]*?),? and only then,? "
-        rf"(?:{_MUST}) ({_SOME}|it|they) (?=(?:{_BE})\b)",
-        r"\1, \2 should ",
-    ),
     (
         r"\b(?:only|and) (?:then|after that|afterwards),? "
         rf"(?:{_MUST}) ({_SOME}|it|they) (?=(?:{_BE})\b)",
@@ -270,12 +263,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?:\w+ ){0,2}?\w+)(?=[.,;!]|$)",
         lambda said: f"{said[1]}there should be exactly {said[2]} {said[3]}",
     ),
-    # "The box has nothing in it but pens"
-    (
-        r"\b((?:the|my|our) (?:\w+ ){0,2}?\w+) (?:(has|contains)"
-        r"|(?:should|must|shall|is to) (?:have|contain)) nothing (in|on) it (?:only|but) ",
-        lambda said: f"there {'is' if said[2] else 'should be'} nothing {said[3]} {said[1]} but ",
-    ),
     # "The door is to be opened and left open"
     (
         rf"\b((?:is|are|has|have|needs?) to be|(?:should|must|can|may) be) (?:(opened){_LEFT} open"
@@ -300,12 +287,6 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         rf"\b(put|place|set|stand|lay) ({_SOME}) ((?:in|on|into|onto|inside) {_SOME})[.;,]? "
         rf"{_PUT_NOTHING_ELSE}",
         r"\1 \2 \3. do not put anything but \2 \3",
-    ),
-    # "It's the pencil I need in the jar", "what I need in the jar is the pencil"
-    (
-        rf"\bit is ({_SOME}) (?:that |which )?{_WISHED} (?:to (?:be|go) )?"
-        r"(?=(?:in|on|into|onto|inside|next to|beside|behind|between|in front of|to the) )",
-        r"\1 should be ",
     ),
     # "The cup next to the mug, both of them on the tray"
     (

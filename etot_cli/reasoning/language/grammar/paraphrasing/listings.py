@@ -212,7 +212,6 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         r"(?:effects?|post ?-?conditions?|results?|outcome|goal(?: \w+)?):)",
         _made_so,
     ),
-    (r"\bpost[ -]condition(?=s?:)", "postcondition"),
     # "Load the oven: both pots inside, door closed": how that is to be in the end
     (
         rf"(^|[.;\n] ?)(?:please )?(?:load|fill|pack|stock|prepare|set up) ({NAMED} [^,.;:!?\n]+):"
@@ -269,12 +268,6 @@ LISTINGS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]], .
         rf"\b((?:empty|unload|unpack|clear)(?: out)? {NAMED} (?:\w+ )??\w+)(?::| -|;) "
         r"(?=(?:everything|all|anything|whatever is|what is) (?:that is )?(?:in|on|inside) it\b)",
         r"\1. ",
-    ),
-    # "Start with the cup: it goes on the tray. Next come the pens, they belong in the box"
-    (
-        rf"(^|[.;!] ){ASKED}(?:start|begin) with ({_ONE}(?: and {_ONE})?)[:,;] "
-        r"(?:it|that one|they|those|these) (?=(?:goes|go|belongs?|should|must)\b)",
-        r"\1first, \2 ",
     ),
     (
         r"(^|[.;!,] )(?:and )?(?:next|then|after that|finally|last)(?: up)? "

@@ -52,10 +52,6 @@ OBSTACLES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\b(out of|in) ({_WHAT})(?:'s| 's) {_WAY}\b", r"\1 the way of \2"),
     (rf"\b(in|out of) its {_WAY}{_ENDS}", r"\1 the way of it"),
     (
-        rf"\b(?:clear|take|get|bring) ({_WHAT}|it|them) (?=out of the way of\b)",
-        r"move \1 ",
-    ),
-    (
         # "Remove the ball in front of the oven and open it": as it stands there, it is in the way
         rf"\b(?:remove|take away) (?=({_WHAT} (?:in front of|before|{_BLOCKS}) ({_WHAT}))"
         rf",? (?:and |then |and then |before |so that you can )*{_TURN} (?:\2|it)\b)\1",

@@ -102,7 +102,6 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
     ),
     # "The big one, not the more small", "today itself", "may kindly be put", "…, isn't it?"
     (rf"\bthe (?:more|most) ({'|'.join(_MOST)})\b", lambda said: f"the {_MOST[said[1]]}"),
-    (r"\b(?:today|now) itself\b", "now"),
     (r"\b(may|should|must|shall|to) kindly (?=\w)", r"\1 "),
     (r",? (?:is it not|is not it|no|na)(?= ?\?$)", ""),
     # "Take it and put the same there", "close it and after open the other", "in the inside of it"
@@ -130,7 +129,6 @@ OTHER_TONGUES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str
         rf"\b(make (?:sure )?that {_THING} )(open|close)s?{_END}",
         lambda said: f"{said[1]}is {said[2].replace('close', 'closed')}",
     ),
-    (r"(^|[.;!] )(?:(?:please|kindly|to),? )*do the needful(?:,? and\b|[:,.;]) ?(?=\w)", r"\1"),
     (r"\bexcept of\b", "except"),
     (r"\bapart of (?=the\b)", "apart from "),
     (r"\bthe both\b(?= \w)", "both"),

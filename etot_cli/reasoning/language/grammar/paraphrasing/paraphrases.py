@@ -210,11 +210,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\b(once|after|when) you (?:have|(?:have )?got) (it|them) out\b",
         r"\1 you have taken \2 out",
     ),
-    (
-        r"\b(?:leave|keep) (the [^.,;]*?) (closed|shut|open) "
-        r"(?:afterwards|(?:at|in) the end|(?:when|once) you are (?:done|finished))\b",
-        r"\1 should be \2 in the end",
-    ),
     *CORNERS_AND_SIDES,
     (r"\b(?:everything|all) that is an? (?=\w)", "every "),
     (r"(?:,? |^)from now on\b,?", ""),
@@ -340,7 +335,6 @@ _PARAPHRASES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]
         r"\w+){1,4}(?:[.;!]|$))",
         r"\1\2just ",
     ),
-    (r",\s*(?:please\s*,|right (?=at\b))", ", "),
     *NAMES_AND_SIGNS,
 )
 

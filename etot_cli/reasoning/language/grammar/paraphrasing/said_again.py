@@ -87,12 +87,6 @@ SAID_AGAIN = (
         r"\1",
     ),
     (r"\bunstack (the [^.,;:]*?) (?=(?:onto|on to|into) )", r"put \1 "),
-    (
-        # "The cup on the left side of the desk and the pen on the right": that side of it
-        r"(\b(?:on|at|to) the (left|right) side of the \w+,? and [^.,;:]*? (?:on|at|to) the (?!\2)"
-        r"(?:left|right))(?=[.;!?]|$)",
-        r"\1 side",
-    ),
     (r", all in (?=(?:exactly |precisely )?(?:that|this) order\b)", ", in "),
     (r", (?:that is|i\.e\.),? (?=nothing\b)", ", "),
     (rf", {_TO_BE_EXACT} (?=(?:the|a|an|one|my|in|on|into|onto|to|next)\b)", ", "),

@@ -307,12 +307,6 @@ TURNS_OF_PHRASE: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"\1",
     ),
     (r"\bone of the others(?! \w)", "one of the other ones"),
-    # Of two it is said what is done with neither
-    (
-        rf"\bneither ({NAMED} [^.,;:]*?) nor ({NAMED} [^.,;:]*?) "
-        r"(?:may|must|should|can|shall|is to|are to) (?=(?:be|go|move|stand|stay|end up)\b)",
-        r"\1 and \2 must not ",
-    ),
     # What is not somewhere yet and is to go there, told by one verb
     (
         rf"\b((?:that|which) (?:is|are) not (?:yet |already )?)((?:in|on) {NAMED} \w+(?: \w+)?)"

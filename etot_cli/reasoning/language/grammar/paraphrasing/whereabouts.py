@@ -16,7 +16,6 @@ _ABOUT = r"(?:still )?(?:left )?(?:lying|scattered|sitting) (?:around|about)(?! 
 _NO_MORE_SAID = (
     rf"(?: (?:yet|now|right now|at the moment))?(?=[.,;!?]| (?:and|then|please)\b| {WHERE}|$)"
 )
-_TAKES_PLACE = r"\b(should|must|is to|has to|needs to) take the place of\b"
 _ROOM = r"there is (?:still |enough |some |plenty of )?(?:room|space)"
 _AT = rf"(?:on|in|next to|beside|behind|in front of|to the (?:left|right) of) {NAMED}"
 _SO_PUT_IT = rf"so {ASKED}(put|place|set|lay|stand) (?:it|them) (?:in )?there\b"
@@ -122,12 +121,6 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"(?=on the same (?:level|board|shelf) as\b)",
         "",
     ),
-    (_TAKES_PLACE, r"\1 go in place of"),
-    (
-        rf"\breach (?:in|into|inside) ({NAMED} [^.,;]*?) and (grab|take|get|pick up) "
-        r"([^.,;]*?)(?=[.,;!?]| and\b|$)",
-        r"\2 \3 from \1",
-    ),
     (r"\bgo(es)? away (?=(?:in|into|on|onto)\b)", r"go\1 "),
     (rf"(^|[.;!] )({_AT} [^.,;]*?),? {_ROOM} for ({NAMED} [^.,;]*), {_SO_PUT_IT}", r"\1\4 \3 \2"),
     (rf"\b{_ROOM} for ({NAMED} [^.,;]*? {_AT} [^.,;]*), {_SO_PUT_IT}", r"\2 \1"),
@@ -207,7 +200,6 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"\1 in it",
     ),
     (r"\bhidden (?=(?:in|inside|behind) )", ""),
-    (r"\b(should|must|has to|have to) still (?=(?:be|stay|remain|stand|lie)\b)", r"\1 "),
     (
         r"\b((?:next to|beside|behind|in front of|on top of) (?:it|them)) there"
         r"(?=[.,;!?]| and\b| then\b|$)",
@@ -229,7 +221,6 @@ WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         rf"|(?:nobody|no one) (?:uses|is using)){_NO_MORE_SAID}",
         r"\1 is empty",
     ),
-    (r"(?<=\w )up (?=with\b)", ""),
     (r"\b(?:in|inside)(?: there)? (?=(?:next to|beside|alongside) )", ""),
     (rf"[^.!?]*{_IN_THE_MIDDLE}[^.!?]*", _of_three_drawers),
     (r"\bback down (?=(?:on|onto)\b)", "down "),

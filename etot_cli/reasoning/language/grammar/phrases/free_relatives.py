@@ -38,7 +38,7 @@ from etot_cli.reasoning.language.grammar.phrases.descriptions import (
 )
 from etot_cli.reasoning.language.grammar.phrases.modifiers import MODIFIERS
 from etot_cli.reasoning.language.grammar.syntax.phrases import Modifier, NounPhrase
-from etot_cli.reasoning.language.words import fillers, nouns
+from etot_cli.reasoning.language.words import nouns
 from etot_cli.reasoning.language.words.known import VERB_WORDS
 from etot_cli.reasoning.language.words.lexicon import singular
 from etot_cli.reasoning.language.words.places import Prep
@@ -133,15 +133,6 @@ _BEHIND_A_VERB = Parser(
 )
 FREE_CHOICE = either(
     sequence(phrase("any, whichever, a, an, either"), WORDS, nouns.AS_YOU_LIKE, build=NounPhrase),
-    sequence(
-        # "One of the drawers, either will do, …"
-        phrase("one of the, one of these, one of those, one of my, one of our"),
-        WORDS,
-        "~comma",
-        f"[(either|any) [one|of them]] ({fillers.ANY_WILL_DO})",
-        either(COMMA, at_end),
-        build=NounPhrase,
-    ),
     sequence(
         # "Of the two, take whichever is easier to reach"
         _BEHIND_A_VERB,

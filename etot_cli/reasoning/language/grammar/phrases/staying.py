@@ -14,7 +14,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     sequence,
     silent,
 )
-from etot_cli.reasoning.language.grammar.parsers.common import COMMA, OPTIONAL_COMMA, noun_phrase
+from etot_cli.reasoning.language.grammar.parsers.common import COMMA, noun_phrase
 from etot_cli.reasoning.language.grammar.phrases.being_so import (
     ALWAYS,
     NONE,
@@ -130,20 +130,18 @@ MEANWHILE_SO = either(
     sequence("while", STAYS, build=ensured),
     WITH_KEPT_SO,
     sequence(
-        # "…, the drawer staying shut", "… while keeping the drawer shut"
-        either(
-            sequence(COMMA, NP_LIST, _KEPT_SO),
-            sequence(OPTIONAL_COMMA, "while keeping", NP_LIST),
-        ),
+        # "…, the drawer staying shut"
+        COMMA,
+        NP_LIST,
+        _KEPT_SO,
         OPEN_OR_CLOSED,
         ALWAYS,
         build=kept_so,
     ),
     sequence(
-        either(
-            sequence(COMMA, NP_LIST, "staying, remaining"),
-            sequence(OPTIONAL_COMMA, "[while] keeping", NP_LIST),
-        ),
+        COMMA,
+        NP_LIST,
+        "staying, remaining",
         DESTINATIONS,
         small_words.ALL_ALONG,
         build=lambda nps, where: ensured(staying(nps, "", where, True)),

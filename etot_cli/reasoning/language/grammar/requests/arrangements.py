@@ -60,17 +60,11 @@ _IT = Things((NounPhrase(pronoun="it", text="it"),))
 _THEM = Things((NounPhrase(pronoun="them", text="them"),))
 _HOW = sequence(
     optional("around, round"),
-    optional(
-        either(
-            phrase(f"{manner.UPRIGHT}, {manner.TURNED_UP}", (Nearby.UPRIGHT, False)),
-            phrase(manner.FITTING, (None, True)),
-        ),
-        (None, False),
-    ),
+    optional(phrase(f"{manner.UPRIGHT}, {manner.TURNED_UP}", Nearby.UPRIGHT), None),
     optional(phrase(manner.IF_NEEDED, True), False),
-    build=lambda how, needed: (how[0], how[1] or needed),
+    build=lambda *how: how,
 )
-"""Behind what is turned: to stand, or just so that it fits."""
+"""Behind what is turned: to stand, or only if it has to be."""
 TURNED = either(
     sequence(verbs.REORIENTED, _HOW),
     sequence(
@@ -130,7 +124,6 @@ KEPT_UPRIGHT = either(
         silent(phrase(manner.ON_THE_WAY)),
         build=_upright_meanwhile,
     ),
-    sequence("[always] (keep|hold|keeping|holding)", THINGS, "level", build=_upright_meanwhile),
     sequence(
         forbidden.DO_NOT,
         either(sequence(verbs.TILT, THINGS), sequence("let", THINGS, verbs.TILTS)),

@@ -82,10 +82,6 @@ OUT_AND_INTO = sequence(
 )
 """From one place to another ("out of the box and on the desk")."""
 _FROM_BESIDE = ("from ", "away from the front", "away from in front")
-_COMES_AND_GOES = """
-    [should|must|has to|have to|can] come[s] (out|off) [of (it|there)] and
-    [should|must|has to|have to|can|to] (go|goes|be put|stand|sit|lie|rest)
-"""
 _EXACTLY = optional(sequence(LIST_COMMA, separated(PUT_GROUP, LIST, most=4)), ())
 """Where some of several things go: "get the cup and the pen onto the tray, pen in the cup"."""
 CARRIED = either(
@@ -99,7 +95,6 @@ CARRIED = either(
         OUT_AND_INTO,
         build=lambda things, moved: PutClause((brought(things, *moved),)),
     ),
-    sequence(ALL_THINGS, _COMES_AND_GOES, DESTINATIONS, build=put_to),
     sequence(
         # "The ball should change jars: from the big one into the small one"
         noun_phrase,

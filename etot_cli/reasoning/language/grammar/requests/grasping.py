@@ -84,7 +84,6 @@ WITH_A_GRASP = spanned(
         valued(
             either(
                 NOT_WITH,
-                sequence("[by|while] (grasping|gripping|grabbing|approaching) (it|them)", POSES),
                 sequence(
                     "(by|while) (holding|picking|lifting|taking) (it|them) [up]", _told(POSES)
                 ),

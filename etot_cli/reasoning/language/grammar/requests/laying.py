@@ -15,7 +15,7 @@ from etot_cli.reasoning.language.grammar.parsers.combinators import (
     spanned,
 )
 from etot_cli.reasoning.language.grammar.phrases.destinations import DESTINATIONS
-from etot_cli.reasoning.language.grammar.phrases.noun_phrases import ALL_THINGS, THINGS
+from etot_cli.reasoning.language.grammar.phrases.noun_phrases import THINGS
 from etot_cli.reasoning.language.grammar.requests.additions import EXTRAS, put_of
 from etot_cli.reasoning.language.grammar.requests.put_groups import PUT_GROUPS
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutClause, PutGroup, put_to
@@ -86,7 +86,6 @@ PUT_DOWN = either(
     spanned(
         sequence(phrase(verbs.SET_DOWN), PUT_GROUPS, EXTRAS, build=_put_away), _rather_laid_down
     ),
-    sequence(ALL_THINGS, "need[s]", verbs.SET_DOWN, DESTINATIONS, build=put_to),
     *(
         sequence(verb, THINGS, particle, build=partial(_down_or_back, where=where))
         for verb, particle, where in (

@@ -253,7 +253,6 @@ _IF_SO = either(
         f"({predicates.BE.replace(',', '|')}|'s) [{_SO_FAR}], (should|happen[s] to) [{_SO_FAR}] be",
         OPEN_OR_CLOSED,
     ),
-    sequence("should", NP_LIST, f"[happen to] [{_SO_FAR}] be [{_SO_FAR}]", OPEN_OR_CLOSED),
     sequence(_IF, NP_LIST, f"(is|are) not [{_SO_FAR}]", _NOT_SO),
     sequence("unless", NP_LIST, f"(is|are|happen[s] to be) [{_SO_FAR}]", _NOT_SO),
 )

@@ -94,16 +94,6 @@ def _layered(based: _Based, second: NounPhrase, more: tuple[NounPhrase, ...]) ->
     return TowerClause(Things(nps), upward=True) if one_each and announced else None
 
 
-def _founded(based: _Based, things: Things) -> TowerClause | None:
-    """Several things upon a base, in whatever order."""
-    base, (count, _) = based
-    if count:
-        return None
-    several = len(things.phrases) > 1 or singular(things.phrases[0].head) != things.phrases[0].head
-    where = Destination(Toward.ON, (base,))
-    return TowerClause(things, base=(where,)) if several and not things.either else None
-
-
 ON_A_BASE = quiet(
     either(
         sequence(
@@ -116,7 +106,6 @@ ON_A_BASE = quiet(
             _UPON,
             build=_layered,
         ),
-        sequence(_BASE, either(NEXT, COMMA), verbs.STACK, THINGS, _ON_IT, build=_founded),
         sequence(
             _BASE,
             OPTIONAL_COMMA,

@@ -158,13 +158,6 @@ _ELSEWHERE = sequence(
 """What goes to another place ("…, except the blue one, which goes on the mat")."""
 
 
-def _making_room(clause: PutClause, where: tuple[Destination, ...]) -> PutClause | None:
-    """What makes room for something else goes to another place ("…, which goes on the mat")."""
-    at = [item for item in clause.groups[-1].destinations if item.toward is Toward.STEAD]
-    away = (PutGroup(Things(item.targets), where) for item in at)
-    return replace(clause, groups=(*clause.groups, *away)) if len(at) == 1 else None
-
-
 _MEANWHILE = frozenset({"holding", "gripping", "grasping", "clutching", "clasping"})
 """Beside something else ("holding the pen, open the drawer") they say what the hand does then."""
 _NOT_MEANWHILE = Parser(
@@ -234,7 +227,6 @@ CLAUSE = located(
                 ),
                 build=lambda clause, found: but_some(clause, found[1], set_off=found[0]),
             ),
-            sequence(PUT, _WHICH_GOES, build=_making_room),
             sequence(
                 PUT,
                 OPTIONAL_COMMA,

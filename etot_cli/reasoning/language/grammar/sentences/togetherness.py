@@ -68,10 +68,8 @@ IN_ONE_PLACE = either(
         predicates.WANTED, ALL_THINGS, optional(predicates.DONE), _PLACES, build=_in_one_place
     ),
     sequence(
-        either(
-            sequence(ALL_THINGS, predicates.TO_BE_DONE),
-            sequence(predicates.WANTED, ALL_THINGS, optional("to be")),
-        ),
+        ALL_THINGS,
+        predicates.TO_BE_DONE,
         predicates.TIDIED, COMMA, DESTINATIONS,
         build=put_to,
     ),

@@ -50,7 +50,7 @@ from etot_cli.reasoning.language.grammar.syntax.phrases import (
     Things,
     Toward,
 )
-from etot_cli.reasoning.language.words import frames, nouns, predicates, small_words, verbs
+from etot_cli.reasoning.language.words import frames, predicates, small_words, verbs
 from etot_cli.reasoning.language.words.lexicon import word_set
 
 _MOVED = word_set("off out gone farther further closer nearer")
@@ -169,7 +169,6 @@ WANTED = either(
             build=lambda where, nps: EnsureClause((State(nps, where),)),
         )
     ),
-    sequence(predicates.WANTED, ALL_THINGS, predicates.TAKEN, SOURCE, build=RemoveClause),
     sequence(predicates.WANTED, ALL_THINGS, predicates.GONE, noun_phrase, build=RemoveClause),
     sequence(
         ALL_THINGS,
@@ -246,12 +245,6 @@ def _there(things: Things, only: bool | str, where: tuple[Destination, ...]) -> 
     return None if things.either else EnsureClause((state,))
 
 
-def _nothing_but(where: tuple[Destination, ...], things: Things) -> Clause | None:
-    """What alone is to be there, be it there by now or not."""
-    clause = _there(things, True, where)
-    return replace(clause, far_fetched=1) if isinstance(clause, EnsureClause) else None
-
-
 def _at(place: NounPhrase) -> tuple[Destination, ...]:
     return (Destination(Toward.TO, (place,)),)
 
@@ -295,15 +288,6 @@ TOLD_APART = either(
         ),
         DESTINATIONS,
         build=lambda things, where: _there(things, True, where),
-    ),
-    sequence(
-        # "I want nothing on the tray but the cup"
-        "(i|we) want nothing, nothing (should|must) be [left]",
-        DESTINATIONS,
-        OPTIONAL_COMMA,
-        nouns.EXCEPT,
-        ALL_THINGS,
-        build=_nothing_but,
     ),
     sequence(
         # "It is the cup that goes in the box", "it's the cup I want in the box"
