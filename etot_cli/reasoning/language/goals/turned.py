@@ -161,7 +161,7 @@ def _keep_as_it_is(
 
     Of a chest of drawers that was spoken of as "the drawer" or "the drawers", only what is so by
     now is meant, and noted where it is ``called`` one; ``every``: all are; ``left``: that is to
-    be left so, not kept.
+    be left closed, not kept.
     """
     keep = Keep.OPEN if word == "open" else Keep.CLOSED
     if is_not_chosen(context, index):  # "open one of the drawers and keep the other one closed"
@@ -233,7 +233,7 @@ def ensure_turned(context: Context, state: State) -> None:
                     index,
                     state.word,
                     every=quantity_of(phrase.determiner).every,
-                    left=f"leave {phrase.text} " in context.sentence.lower(),
+                    left=not opens and f"leave {phrase.text} " in context.sentence.lower(),
                     always=state.always,
                     called=phrase.text if one else "",
                 )

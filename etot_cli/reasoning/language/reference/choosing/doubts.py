@@ -265,7 +265,9 @@ def _says_several(asked: Asked) -> bool:
     for what is in a box, nor what a quality ("that are red") tells from others, nor "any pens".
     """
     phrase, words, match = asked.phrase, asked.words, asked.match
-    if phrase.determiner == "any" or words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1] or phrase.is_elliptic:
+    if phrase.determiner == "any" or words[-1] in MASS_NOUNS or phrase.is_elliptic:
+        return False
+    if singular(words[-1]) == words[-1]:
         return False
     if asked.quantity.count or any(item.prep is Prep.EXCEPT for item in phrase.modifiers):
         return False
