@@ -7,7 +7,7 @@ from contextlib import suppress
 
 from msgspec.structs import replace
 
-from etot_cli.reasoning.builtin.goal import Put, Step, Thing
+from etot_cli.reasoning.builtin.goal import Close, Open, Put, Step, Thing
 from etot_cli.reasoning.builtin.relations import bearers, parts_of
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.understanding import Understanding
@@ -205,7 +205,7 @@ def _holds(state: Understanding, condition: Condition) -> bool:
     subjects = () if anything else _meant(attempt, condition.subjects)
     places = _holders(attempt, condition.place) if condition.place else ()
     about = (*subjects, *places)
-    touched = _touched(state)
+    touched = _touched(state, turned=condition.place is None)
     if any(
         _overlap(at, other) for thing in about for at in _around(thing, scene) for other in touched
     ):
@@ -327,12 +327,14 @@ def _overlap(one: str, other: str) -> bool:
     return one == other or other.startswith(f"{one}.") or one.startswith(f"{other}.")
 
 
-def _touched(state: Understanding) -> set[str]:
-    """What was to be moved, opened or put into before, and what that is in or on by now."""
+def _touched(state: Understanding, *, turned: bool) -> set[str]:
+    """What was to be moved, put into or (``turned``) opened before, and what that is in by now."""
     scene, things = state.context.scene, state.context.discourse.things
     steps: list[Step] = [step for item in state.timed for step in item.steps]
     found: set[str] = set()
     for step in steps:
+        if isinstance(step, Open | Close) and not turned:
+            continue  # what is in a drawer stays in it
         what = step.what if isinstance(step, Put) else (step.what,)
         at = [p.where for p in step.places if p.where is not None] if isinstance(step, Put) else []
         found |= {thing.address for thing in things(*what, *at) if thing.name != DESK}

@@ -233,6 +233,8 @@ def _check_describes(
             here = [p for p in places if p.board is None or p.address in on]
             if there or any(place.name in borne for place in here):
                 text = context.discourse.referents[index].text
-                if vessels:
-                    raise AmbiguousReference("in it", [*vessels, *sorted(below)])
+                if vessels or there:
+                    mine = vessels or [item.name for item in context.discourse.things(*places_of)]
+                    it = "beside it" if there else "in it"
+                    raise AmbiguousReference(it, [*mine, *sorted(below)])
                 raise ReferenceProblem(text, "it is there already; say where what is", 3)

@@ -250,6 +250,9 @@ def check_contrasted(
     moved = {*discourse.things(*themes)}
     told = (item.prep for np in spoken.phrases for item in np.modifiers)
     contrasted = themes if Prep.CONTRAST in told else ()
+    twice = moved & {out for theme in contrasted for out in discourse.left_out.get(theme, ())}
+    for thing in twice:  # "the red block and the blue one in the box, but not the red one"
+        raise ReferenceProblem(spoken.text, f"{thing.name} is to go there, and not to", 3)
     for index in (place.where for place in places if place.where is not None):
         text, out = discourse.referents[index].text, discourse.left_out.get(index, ())
         if moved & {*out}:

@@ -124,6 +124,17 @@ def _filled_parts(
             yield from (f"{part.owner}.{part.name}" for part in parts_of(scene, thing))
 
 
+def _emptied_parts(
+    steps: Sequence[Step], referents: Sequence[Referent], scene: SceneState
+) -> Iterator[str]:
+    """The parts that what steps move is in at the start."""
+    for index in (index for step in steps if isinstance(step, Put) for index in step.what):
+        for thing in things_in(referents[index].options):
+            here = scene.states.get(thing.name)
+            part = scene.part(here.inside) if here is not None and here.inside else None
+            yield from () if part is None else (f"{part.owner}.{part.name}",)
+
+
 def _parts(step: Step, referents: Sequence[Referent], scene: SceneState) -> Iterator[str]:
     """The parts that a step surely opens or closes; who opens a chest opens some drawer of it."""
     options: tuple[tuple[Thing, ...], ...] = ()
@@ -141,6 +152,7 @@ def _keep_as_it_is(
     word: str,
     *,
     every: bool,
+    left: bool = False,
     always: bool = False,
     called: str = "",
 ) -> None:
@@ -148,7 +160,8 @@ def _keep_as_it_is(
     closed ``always`` must not be opened at all.
 
     Of a chest of drawers that was spoken of as "the drawer" or "the drawers", only what is so by
-    now is meant, and noted where it is ``called`` one; ``every``: all are.
+    now is meant, and noted where it is ``called`` one; ``every``: all are; ``left``: that is to
+    be left closed, not kept.
     """
     keep = Keep.OPEN if word == "open" else Keep.CLOSED
     if is_not_chosen(context, index):  # "open one of the drawers and keep the other one closed"
@@ -157,12 +170,15 @@ def _keep_as_it_is(
     holds = is_open if word == "open" else is_closed
     if not every:
         context.discourse.as_it_stands(index, holds, called, word)
-    # Behind what goes in one of them, "leave all drawers shut" says how they are to be in the end.
+    # Behind what goes in or comes out of one, "leave it shut" says how it is to be in the end.
     filled = {*_filled_parts(context.done, context.discourse.referents, context.scene)}
+    filled |= {*_emptied_parts(context.done, context.discourse.referents, context.scene)}
     for thing in context.discourse.things(index):
         for part in parts_of(context.scene, thing):
             name = f"{part.owner}.{part.name}"
-            if every and not always and name in filled:
+            if (every or left) and not always and name in filled:
+                if keep is Keep.CLOSED and is_closed(context.scene, part):
+                    context.discourse.notes.append(f"{name} is open meanwhile, as it has to be")
                 continue
             if holds(context.scene, part) or (always and word == "closed"):
                 context.constraints.append(Constraint(keep, (name,)))
@@ -217,6 +233,7 @@ def ensure_turned(context: Context, state: State) -> None:
                     index,
                     state.word,
                     every=quantity_of(phrase.determiner).every,
+                    left=not opens and f"leave {phrase.text} " in context.sentence.lower(),
                     always=state.always,
                     called=phrase.text if one else "",
                 )

@@ -236,8 +236,8 @@ class Referents(MeaningsByNow):
         return None
 
     def _where_it_went(self, phrase: NounPhrase, role: Role, excluded: Sequence[int]) -> int | None:
-        """What "the box with the pen in it" means once the pen has been put into it; None where
-        nothing has been moved that tells it.
+        """What "the box with the pen in it" means once the pen has been put into it, or "the jar
+        with its lid" once that is on it; None where nothing has been moved that tells it.
         """
         held = [item for item in phrase.modifiers if item.prep in HOLDING]
         inner = [i for item in held if HERE_BEFORE not in item.words for i in item.phrases]
@@ -249,7 +249,10 @@ class Referents(MeaningsByNow):
                     meant = set(things_in(options))
             for theme in self.discourse.put:
                 if meant & set(self.discourse.things(theme)):
-                    around = self.discourse.put_into.get(theme)
+                    at = self.discourse.placed.get(self.discourse.things(theme)[0], ())
+                    there = [place.where for place in at if place and not place.beside]
+                    on = there[0] if len(there) == len(at) == 1 else None
+                    around = self.discourse.put_into.get(theme, on)
                     plain = replace(phrase, modifiers=())
                     if around is None or around != self.spoken_of(plain, role, excluded):
                         why = f"{landmark.text} has been put elsewhere by then"

@@ -77,7 +77,8 @@ def in_its_stead(taken: Sequence[str], said: Sequence[str]) -> Iterator[tuple[st
     behind = taken[begin + len(thing) :]
     alone = not {*other} & (BEFORE_PLACES | JOINTS) and (at == 0 or said[at - 1] in JOINTS)
     if not (thing and other and behind and alone and taken[0] in SETTING):
-        yield (*said,)
+        # "Close the top drawer, no, open the bottom one instead" names one thing only
+        yield (*said,) if behind else _named_as(thing, said)
         return
     yield (*said[:at], *taken[:begin], *_named_as(thing, other), *behind)
     prep = (*takewhile(lambda word: word not in BEFORE_THINGS, behind),)

@@ -262,10 +262,12 @@ def check_selected(asked: Asked, things: Sequence[Thing], scene: SceneState) -> 
 
 def _says_several(asked: Asked) -> bool:
     """Whether its plural is meant, wherever it is said to be: no word for much of one stuff, nor
-    for what is in a box, nor what a quality ("that are red") tells from others.
+    for what is in a box, nor what a quality ("that are red") tells from others, nor "any pens".
     """
     phrase, words, match = asked.phrase, asked.words, asked.match
-    if words[-1] in MASS_NOUNS or singular(words[-1]) == words[-1] or phrase.is_elliptic:
+    if phrase.determiner == "any" or words[-1] in MASS_NOUNS or phrase.is_elliptic:
+        return False
+    if singular(words[-1]) == words[-1]:
         return False
     if asked.quantity.count or any(item.prep is Prep.EXCEPT for item in phrase.modifiers):
         return False

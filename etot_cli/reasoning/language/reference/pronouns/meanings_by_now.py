@@ -123,6 +123,9 @@ class MeaningsByNow(Meanings):
         there = resolved.options[0] if resolved is not fitting else ()
         np = item.phrases[0]
         ways = self.pronoun_things(np) if np.pronoun else self.meaning(np, Role.ANY).options
+        if phrase.head == "contents":  # of a jar that was put on the mat, not the mat's
+            scene = self.scene
+            ways = [w for w in ways if all(can_be(t, Role.CONTAINER, scene) for t in w)] or ways
         found: set[tuple[Thing, ...]] = set()
         for marks in ways:
             here = [
