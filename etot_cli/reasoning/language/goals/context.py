@@ -135,7 +135,8 @@ class Context:
             if others and self.phrases.spoken_of(phrase, Role.THEME) is None:
                 for at in targets:
                     named = at.called(singular(noun)) if at.head == "one" else at
-                    if same_noun(named.head, noun):
+                    called = named.words[-2] if named.words[1:] and named.head.isdigit() else ""
+                    if same_noun(called or named.head, noun):
                         self.phrases.refer(named, Role.ANY)
                     else:
                         self._tell_there(phrase, at)
