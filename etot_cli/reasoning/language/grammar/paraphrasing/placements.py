@@ -216,6 +216,18 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"(?: it)?(?=[.,;!]|$)",
         r"\1 \2 \3 \4is out of \2 and \5is in \2",
     ),
+    # "Put the soap in the jar if the pen is in there"
+    (
+        r"( in(?:to|side)? (?:the|my) (?:\w+ )?\w+ (?:if|unless) (?:the|my) (?:\w+ )?\w+ "
+        r"(?:is|are)(?: not)?(?: (?:already|still))?) in there(?=[.,;!]|$)",
+        r"\1 in it",
+    ),
+    # "Put the letter that is not in the bag there"
+    (
+        r"(^(?:please )?(?:put|place|move) (?:the|my|every|all|all the) \w+ (?:that|which) "
+        r"(?:is|are) not (in|on) ((?:the|my) (?:\w+ )?\w+)) there(?=[.;!]|$|,? (?:and|then)\b)",
+        r"\1 \2 \3",
+    ),
     # "Open the bag and put the pen in there with the key"
     (
         r"\b(open ((?:the|my) (?:\w+ )?\w+),? and (?:put|place) (?:the|my) (?:\w+ )?\w+) "
