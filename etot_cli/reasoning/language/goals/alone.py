@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from etot_cli.reasoning.builtin.goal import Goal, Grouping, Place, Put, Relation, Thing
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
-from etot_cli.reasoning.language.goals.context import Context
+from etot_cli.reasoning.language.goals.context import Alone, Context
 from etot_cli.reasoning.language.goals.placing import add_put
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup
 from etot_cli.reasoning.language.grammar.syntax.phrases import Destination, NounPhrase
@@ -56,9 +56,11 @@ def check_alone(
         if info.movable and name not in own and touches(Thing(name), at, context.scene)
         if not (upon and context.scene.states[name].inside)  # a chest is no less alone for that
     ]
-    if nothing_else:
-        context.alone += [(thing, frozenset(own)) for thing in context.discourse.things(*where)]
-    if nothing_else and not there:
+    alone = [np.text for np in phrases if in_the_end and not chosen and is_only(np.determiner)]
+    for text in ["nothing else"] if nothing_else else alone:
+        at_last = (Alone(thing, frozenset(own), text) for thing in context.discourse.things(*where))
+        context.alone += [item for item in at_last if item.thing.name != DESK]
+    if (nothing_else or alone) and not there:
         context.discourse.notes.append("nothing else is there by now")
     put = [t.name for t in put_at(context.discourse.things(*where), context.discourse)]
     besides = " and ".join(name for name in put if name not in own)
@@ -214,9 +216,10 @@ def check_alone_at_last(context: Context, goal: Goal) -> None:
     last = {t: step for step in goal.steps if isinstance(step, Put) for t in things(*step.what)}
     for thing, step in last.items():
         where = things(*(place.where for place in step.places if place.where is not None))
-        if any(at in where and thing.name not in own for at, own in context.alone):
-            why = f"{thing.name} goes there, too; say where that goes in the end"
-            raise ReferenceProblem("nothing else", why, 4)
+        for item in context.alone:
+            if item.thing in where and thing.name not in item.own:
+                why = f"{thing.name} goes there, too; say where that goes in the end"
+                raise ReferenceProblem(item.text, why, 4, word=item.text.split()[0])
 
 
 def _goes(context: Context, name: str, where: Sequence[int]) -> bool:

@@ -5,7 +5,7 @@ Each raises a ReferenceProblem that names the words.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence, Set
 from dataclasses import replace
 
 from msgspec import structs
@@ -91,11 +91,33 @@ def with_room_made(goal: Goal, in_the_way: Sequence[InTheWay]) -> Goal:
             for index in _moved(without)
             for thing in set.intersection(*map(set, goal.referents[index].options))
         }
-        if item.things <= moved:
+        if item.things <= moved and item.spot is not None:
+            goal = _to_the_spot(without, item, moved)
+        elif item.things <= moved:
             goal = without
-        elif item.off is None:
+        elif item.off is None and item.spot is None:
             raise ReferenceProblem(item.text, item.why, 3)
     return goal
+
+
+def _to_the_spot(goal: Goal, item: InTheWay, moved: Set[Thing]) -> Goal:
+    """The goal, where one thing goes to the very spot that another one leaves by then, unless what
+    that is on is moved itself.
+    """
+    assert item.spot is not None  # asked before
+    below = things_in(() if (at := item.spot.where) is None else goal.referents[at].options)
+    if {thing.name for thing in below} & {thing.name for thing in moved}:
+        return goal
+
+    def things(*indices: int) -> set[Thing]:
+        return {*things_in(option for i in indices for option in goal.referents[i].options)}
+
+    puts = [step for step in goal.steps if isinstance(step, Put)]
+    away = min((put.run for put in puts if things(*put.what) & item.things), default=0)
+    to_it = [put for put in puts if put.what == item.lent and not put.places[0].beside]
+    lent = [put for put in to_it if put.run >= away and len(things(*put.what)) == 1]
+    steps = (replace(put, places=(item.spot,)) if put in lent else put for put in goal.steps)
+    return replace(goal, steps=tuple(steps))
 
 
 def _moved(goal: Goal) -> Iterator[int]:

@@ -12,7 +12,7 @@ from etot_cli.reasoning.builtin.relations import bearers, carriers
 from etot_cli.reasoning.builtin.roles import ReferenceProblem, Role
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.grammar.syntax.clauses import PutGroup, RemoveClause
-from etot_cli.reasoning.language.grammar.syntax.phrases import Things, Toward
+from etot_cli.reasoning.language.grammar.syntax.phrases import NounPhrase, Things, Toward
 from etot_cli.reasoning.language.reference.geometry.space import touches
 from etot_cli.reasoning.language.reference.memory.antecedents import AmbiguousReference
 from etot_cli.reasoning.language.reference.naming.determiners import quantity_of
@@ -26,6 +26,7 @@ _ALONG = Expression(
     r"|(?:what|whatever|everything|all|the \w+(?: \w+)?) (?:is |that is )?(?:in|on) (?:it|them))\b"
 )
 """How what is said to go somewhere is told by what it is in or on, which goes there, too."""
+_STILL = Expression(r"\bstill (?:\w+ )?(?:inside|in|on)\b")
 _LONGEST_DETERMINER = 3
 """Words that may say how many things are meant ("all of the cups", "the other two cups")."""
 
@@ -231,6 +232,19 @@ def without_riders(context: Context, group: PutGroup, themes: list[int]) -> list
                 for thing in things[index]
             ]
     return [index for index in themes if index not in riders]
+
+
+def keep_inside(context: Context, phrases: Sequence[NounPhrase], themes: Sequence[int]) -> None:
+    """What is said to be *still* in or on something ("take the tin out of the safe with the key
+    still in it") is so in the end, too, where that is moved.
+    """
+    held = (m for np in phrases for m in np.modifiers if m.prep in (Prep.CONTAINING, Prep.BEARING))
+    still = [np for m in held if not m.denied for np in m.phrases]
+    for np in still if _STILL.search(" ".join(np.text for np in phrases)) else ():
+        for thing in things_in(context.phrases.meaning(np, Role.THEME).options[:1]):
+            if thing not in context.discourse.things(*themes):
+                index = context.single(thing, thing.name)
+                context.within.append(Put((index,), (context.home(thing),)))
 
 
 def _holding(context: Context, thing: Thing) -> tuple[str, ...]:

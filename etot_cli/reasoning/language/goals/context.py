@@ -43,13 +43,24 @@ class InTheWay(Struct, frozen=True):
     """What is where something is to go instead of it, so that it has to go elsewhere.
 
     ``text``: the words, and ``why`` they are not read where it goes nowhere. ``off``: the step that
-    takes it away where nothing else that is asked for does.
+    takes it away where nothing else that is asked for does. ``lent``: what goes to the ``spot``
+    where it is, if something else takes it away; there is room beside it otherwise.
     """
 
     text: str
     things: frozenset[Thing]
     why: str = "it is there; say where that is to go"
     off: Put | None = None
+    lent: tuple[int, ...] = ()
+    spot: Place | None = None
+
+
+class Alone(Struct, frozen=True):
+    """Where nothing else is to be in the end but its ``own`` objects, as ``text`` says."""
+
+    thing: Thing
+    own: frozenset[str]
+    text: str
 
 
 class Grasp(Struct, frozen=True):
@@ -92,8 +103,7 @@ class Context:
         self.taken: frozenset[int] = frozenset()
         """What was taken off or out of something so far."""
         self.in_the_way: list[InTheWay] = []
-        self.alone: list[tuple[Thing, frozenset[str]]] = []
-        """Where nothing else is to be but some objects."""
+        self.alone: list[Alone] = []
         self.cleared: list[Put] = []
         """What the clause before took out of what it empties."""
         self.last: Clause | None = None
@@ -125,7 +135,8 @@ class Context:
             if others and self.phrases.spoken_of(phrase, Role.THEME) is None:
                 for at in targets:
                     named = at.called(singular(noun)) if at.head == "one" else at
-                    if same_noun(named.head, noun):
+                    called = named.words[-2] if named.words[1:] and named.head.isdigit() else ""
+                    if same_noun(called or named.head, noun):
                         self.phrases.refer(named, Role.ANY)
                     else:
                         self._tell_there(phrase, at)

@@ -204,6 +204,10 @@ def where_is(
             return ()
         places = () if is_moved(index) or was(index) else context.source((index,))
         if places or not lent:
+            for thing in context.discourse.things(index) if lent and places else ():
+                spot = context.home(thing, exact=True)
+                way = InTheWay(where.word, frozenset({thing}), lent=tuple(themes), spot=spot)
+                context.in_the_way += [way] if spot.beside else []
             return places  # where it is there is room beside it
         things = context.only(index, REASONS["where"])
         if not is_moved(index):  # where something is or was is free only once it has gone

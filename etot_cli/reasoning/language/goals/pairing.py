@@ -148,11 +148,12 @@ def _one_each(context: Context, group: PutGroup, *, in_the_end: bool) -> None:
             fit = [t for t in free if any(goes_in([t], [at], context.scene) for at in targets)]
             free = fit if len(fit) >= count else free
         there: list[Thing] = []
-        if counted_by(phrase.determiner):
+        at_least = phrase.determiner.startswith("at least")
+        if (in_the_end and not at_least) or counted_by(phrase.determiner):
             there = _there_already(context, phrase, free, targets)
-            if there and not in_the_end:
-                why = f"{there[0].name} is there already; say whether it counts"
-                raise ReferenceProblem(phrase.text, why, 4, word=counted_by(phrase.determiner))
+        if there and not in_the_end:
+            why = f"{there[0].name} is there already; say whether it counts"
+            raise ReferenceProblem(phrase.text, why, 4, word=counted_by(phrase.determiner))
         rest = [thing for thing in free if thing not in there]
         chosen_ones = islice(combinations(rest, count - len(there)), MAX_OPTIONS)
         options = tuple((*there, *others) for others in chosen_ones)

@@ -15,6 +15,7 @@ from etot_cli.reasoning.language.goals.bystanders import place_bystanders
 from etot_cli.reasoning.language.goals.choosing import (
     check_may_stay,
     choose_by_place,
+    keep_inside,
     leave_there,
     tell_apart,
     tell_not_there,
@@ -154,7 +155,7 @@ def put(
     before = [i for s in context.done if clause.stays and isinstance(s, Put) for i in s.what]
     chosen: list[int] = []
     for group in clause.groups:
-        if add_pairs(context, clause, group, in_the_end=said.in_the_end):
+        if add_pairs(context, clause, group, in_the_end=said.in_the_end and not going):
             check_stance(group, group.stance)
             continue
         _check_things(group)
@@ -163,6 +164,7 @@ def put(
         replaced = replaced_by(context, group)
         themes = in_turns(context, group.things, clause.turns, Role.THEME, away)
         themes = without_riders(context, group, themes)
+        keep_inside(context, group.things.phrases, themes)
         if group.along and {*context.discourse.put} & {*themes}:
             raise ReferenceProblem(group.things.text, "it was put elsewhere; say where it goes", 3)
         tell_apart(context, group, before, themes)

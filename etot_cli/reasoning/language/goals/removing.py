@@ -13,6 +13,7 @@ from etot_cli.reasoning.language.goals.choosing import (
     choose_from_somewhere,
     choose_stacked,
     is_off_desk,
+    keep_inside,
 )
 from etot_cli.reasoning.language.goals.context import Context
 from etot_cli.reasoning.language.goals.placing import add_put
@@ -105,6 +106,7 @@ def remove(context: Context, clause: RemoveClause) -> None:
         return
     if clause.source is None and not clause.stacked:
         _check_no_tower(context, clause, themes)
+    keep_inside(context, (*things.phrases, *filter(None, [clause.source])), themes)
     if is_off_desk(context, things):
         discourse.swept |= {*themes}
     if clause.stacked and len(themes) > 1:

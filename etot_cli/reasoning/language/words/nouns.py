@@ -27,7 +27,7 @@ DETERMINERS = f"""
     at least ({_COUNT}) [of (the|these|those|my|your) [{_COUNT}]],
     (exactly|only|just) ({_COUNT}) [of (the|these|those|my|your) [{_COUNT}]],
     half of the, none of the, no, neither [of the],
-    a couple of, a pair of, several, a few, many, most of the,
+    a (couple|pair) of [the|these|those|my|your], several, a few, many, most of the,
     whichever, any
 """
 ALL_SO_MANY = f"all ({_COUNT})"

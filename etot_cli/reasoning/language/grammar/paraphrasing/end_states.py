@@ -138,7 +138,7 @@ END_STATES: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
     *(
         (
             rf",? (?:and )?{said}(?: of (?:them|these))?(?=[.,;!]|$| (?:and|then)\b)",
-            rf", \1 {where} each of them",
+            rf", and \1 should be {where} each of them",
         )
         for where, inside in (("in", "in(?:side)?"), ("on", "on(?: top)?(?: of)?"))
         for said in (

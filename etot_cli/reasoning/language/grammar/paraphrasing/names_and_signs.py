@@ -35,6 +35,8 @@ NAMES_AND_SIGNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         r"the 1 \1",
     ),
     (r"\band/or\b", "or"),
+    # "Some jar or other"
+    (r"\bsome ((?:\w+ )?\w+) or other(?=[,.;!]|$| (?:in|on|into|onto|to|next)\b)", r"any \1"),
     (rf"\b(left|right|top|bottom|front|back|upper|lower)[{_HYPHENS} ]most\b", r"\1most"),
     (r"\bmost (left|right)\b(?! (?:of|over)\b)", r"\1most"),
     (rf"\b(large|big|small|medium|mid|middle)(?:[{_HYPHENS} ]sized|[{_HYPHENS}]size)\b", _sized),
@@ -46,6 +48,8 @@ NAMES_AND_SIGNS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = 
         lambda said: f"that is{said[1] or ''} {_OF_MATERIAL.get(said[2], said[2])}",
     ),
     (rf"\b(left|right)(?:[{_HYPHENS}]hand(?:ed)?\b| hand(?= corner\b))", r"\1"),
+    # "All the jars but number 2"
+    (r"\b(\w+)s (but|except(?: for)?|apart from) (?=number \w)", r"\1s \2 \1 "),
     (r"(?:\b(?:number|no\.|nr\.?)\s*|#)(?=\d)", ""),
     (rf"\bnumber ({'|'.join(NUMBERS)})\b", lambda said: str(NUMBERS[said[1]])),
     (r"\b(table|counter|work|desk) top\b(?! (?:drawer|shelf|board|level|rack))", r"\1top"),

@@ -294,6 +294,12 @@ NAMED = spanned(
             word(lambda _, text: NUMBERS.get(text, 1) > 1),
             build=lambda side, count: NounPhrase(f"the {count}", (side, "ones")),
         ),
+        sequence(
+            # "Only jar 3"
+            "only, just",
+            WORDS,
+            build=lambda words: NounPhrase("only", words) if words[-1].isdigit() else None,
+        ),
         sequence(DETERMINER, MODIFIERS, build=_nounless),
         _LEVEL_ALONE,
         sequence(
