@@ -203,37 +203,6 @@ PLACEMENTS: tuple[tuple[str | Expression, str | Callable[[re.Match[str]], str]],
         r"((?:the|its|my) (?:\w+ ){0,2}?\w+) behind(?=[.;!]|$)",
         r"\1 without \2",
     ),
-    # "Put it in the bag and close it, with nothing else inside"
-    (
-        r"( in(?:to|side)? (?:the|my) (?:\w+ )?\w+),? and (close|shut) it,? with nothing else "
-        r"in(?:side|side it| it| there)?(?=[.;!]|$)",
-        r"\1, with nothing else in it, and \2 it",
-    ),
-    # "Close the bag once the pen is out and the key is in"
-    (
-        r"\b(close|shut) ((?:the|my) (?:\w+ )?\w+) (once|when|after|as soon as) "
-        r"((?:the|my) (?:\w+ ){1,2})is out(?: of it)? and ((?:the|my) (?:\w+ ){1,2})is in(?:side)?"
-        r"(?: it)?(?=[.,;!]|$)",
-        r"\1 \2 \3 \4is out of \2 and \5is in \2",
-    ),
-    # "Put the soap in the jar if the pen is in there"
-    (
-        r"( in(?:to|side)? (?:the|my) (?:\w+ )?\w+ (?:if|unless) (?:the|my) (?:\w+ )?\w+ "
-        r"(?:is|are)(?: not)?(?: (?:already|still))?) in there(?=[.,;!]|$)",
-        r"\1 in it",
-    ),
-    # "Put the letter that is not in the bag there"
-    (
-        r"(^(?:please )?(?:put|place|move) (?:the|my|every|all|all the) \w+ (?:that|which) "
-        r"(?:is|are) not (in|on) ((?:the|my) (?:\w+ )?\w+)) there(?=[.;!]|$|,? (?:and|then)\b)",
-        r"\1 \2 \3",
-    ),
-    # "Open the bag and put the pen in there with the key"
-    (
-        r"\b(open ((?:the|my) (?:\w+ )?\w+),? and (?:put|place) (?:the|my) (?:\w+ )?\w+) "
-        r"in(?:to|side)? (?:it|there) (?=with (?:the|my) (?:\w+ )?\w+(?:[.,;!]|$))",
-        r"\1 in \2 ",
-    ),
     # Where what is left out is or goes
     (
         r"((?:except|but|only not|apart from|other than)(?: for)? "

@@ -77,7 +77,38 @@ def _back_there(said: re.Match[str]) -> str:
     return f"{said[1]}{said['put']} {said['what']} back {_BACK_TO[said['off']]} {said['place']}"
 
 
+_THE_ONE = r"(?:the|my) (?:\w+ )?\w+"
 WHEREABOUTS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    # "Put it in the bag and close it, with nothing else inside"
+    (
+        rf"( in(?:to|side)? {_THE_ONE}),? and (close|shut) it,? with nothing else "
+        r"in(?:side|side it| it| there)?(?=[.;!]|$)",
+        r"\1, with nothing else in it, and \2 it",
+    ),
+    # "Close the bag once the pen is out and the key is in"
+    (
+        rf"\b(close|shut) ({_THE_ONE}) (once|when|after|as soon as) ({_THE_ONE}) is out(?: of it)? "
+        rf"and ({_THE_ONE}) is in(?:side)?(?: it)?(?=[.,;!]|$)",
+        r"\1 \2 \3 \4 is out of \2 and \5 is in \2",
+    ),
+    # "Put the soap in the jar if the pen is in there"
+    (
+        rf"( in(?:to|side)? {_THE_ONE} (?:if|unless) {_THE_ONE} "
+        r"(?:is|are)(?: not)?(?: (?:already|still))?) in there(?=[.,;!]|$)",
+        r"\1 in it",
+    ),
+    # "Put the letter that is not in the bag there"
+    (
+        r"(^(?:please )?(?:put|place|move) (?:the|my|every|all|all the) \w+ (?:that|which) "
+        rf"(?:is|are) not (in|on) ({_THE_ONE})) there(?=[.;!]|$|,? (?:and|then)\b)",
+        r"\1 \2 \3",
+    ),
+    # "Open the bag and put the pen in there with the key"
+    (
+        rf"\b(open ({_THE_ONE}),? and (?:put|place) {_THE_ONE}) in(?:to|side)? (?:it|there) "
+        rf"(?=with {_THE_ONE}(?:[.,;!]|$))",
+        r"\1 in \2 ",
+    ),
     (
         r",? (?:when |if you )?(?:counting|counted|count) from "
         r"(?=(?:the (?:top|bottom|left|right|front|back)|above|below)\b)",
