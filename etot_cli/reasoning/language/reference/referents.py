@@ -251,7 +251,9 @@ class Referents(MeaningsByNow):
                 if meant & set(self.discourse.things(theme)):
                     at = self.discourse.placed.get(self.discourse.things(theme)[0], ())
                     there = [place.where for place in at if place and not place.beside]
-                    on = there[0] if len(there) == len(at) == 1 else None
+                    sets = [self.discourse.referents[i].options for i in there if i is not None]
+                    one = len(sets) == len(at) == 1 and all(len(own) == 1 for own in sets[0])
+                    on = there[0] if one else None  # not each in one of several
                     around = self.discourse.put_into.get(theme, on)
                     plain = replace(phrase, modifiers=())
                     if around is None or around != self.spoken_of(plain, role, excluded):
