@@ -227,10 +227,13 @@ def without_riders(context: Context, group: PutGroup, themes: list[int]) -> list
         stayed = not {*things[index]} & {*context.discourse.things(*context.discourse.put)}
         if own and along and stayed and (nested or not inside):
             riders.add(index)
+            first = len(context.discourse.mentions)
             context.within += [
                 Put((context.single(thing, thing.name),), (context.home(thing),))
                 for thing in things[index]
             ]
+            # "It" is what they are in or on
+            context.discourse.is_told_by({index}, first)
     return [index for index in themes if index not in riders]
 
 

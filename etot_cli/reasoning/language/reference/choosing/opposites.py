@@ -75,7 +75,8 @@ def check_opposites(discourse: Discourse) -> None:
             raise ReferenceProblem(other, why, 4)
     for at, item in enumerate(discourse.mentions):
         before = (m for m in discourse.mentions[:at] if m.referent == item.referent)
-        told = {*item.idle} & {*item.adjectives} if item.role is Role.THEME else set()
+        told = {*item.idle} & {*(item.adjectives or item.idle)}
+        told = told if item.role is Role.THEME else set()
         if any(told - {*mention.adjectives} for mention in before):
             only = f"only {discourse.things(item.referent)[0].name} is called so"
             raise ReferenceProblem(item.idle[0], f"{only}; say what is meant", 3)

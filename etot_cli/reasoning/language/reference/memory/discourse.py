@@ -275,6 +275,15 @@ class Discourse:
             for mention in self.mentions
         ]
 
+    def is_told_by(self, told_by: Collection[int], first: int) -> None:
+        """What a clause mentions is but told by some of it, and by all from ``first`` on."""
+        self.mentions[:] = [
+            structs.replace(mention, role=Role.ANY)
+            if at >= first or (mention.referent in told_by and mention.clause == self.clause)
+            else mention
+            for at, mention in enumerate(self.mentions)
+        ]
+
     def step_back(self, first: int, meant: Collection[int] = ()) -> None:
         """What was mentioned from ``first`` on is what "it" speaks of only if nothing else is, what
         was ``meant`` rather than what that was told by.
