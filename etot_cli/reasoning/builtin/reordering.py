@@ -184,7 +184,7 @@ def put_there_later(case: FailedCase, names: Sequence[str]) -> Iterator[Correcti
             if not any(at in cycle for cycle in later)]  # fmt: skip
     behind = [action for cycle in later for action in case.actions[cycle.start : cycle.end]]
     actions = (*kept, case.action, *behind, *case.actions[index + 1 :])
-    yield Correction(actions, f"{names[0]} goes there after {case.action}")
+    yield Correction(actions, f"{behind[0].target} goes there after {case.action}")
 
 
 def filled_before(case: FailedCase) -> Iterator[Correction]:
